@@ -282,6 +282,13 @@ pub fn crossings(from: [u32; 3], to: [u32; 3]) -> [i32; 3] {
     })
 }
 
+/// The copy of `b` that is nearest to `a` across an axis, where the copy of the box above it is displaced along x by a part of the box.
+#[must_use]
+pub(crate) fn sheared_copy(a: [u32; 3], b: [u32; 3], (axis, shift): (usize, u32)) -> [u32; 3] {
+    let boxes_up = crossings(a, b)[axis] as u32;
+    [b[0].wrapping_add(boxes_up.wrapping_mul(shift)), b[1], b[2]]
+}
+
 /// What the bath of a listed pair remembers.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, bytemuck::Pod, bytemuck::Zeroable)]

@@ -3,6 +3,7 @@
 override SHEAR_AXIS: u32;   // across which the boundaries are: 1 or 2
 override SHEAR_LOW: u32;    // what the shift grows by in half a step, in 2^-64 of the box: low and high word
 override SHEAR_HIGH: u32;
+override SHEAR_FIRST: u32;  // the shift at the start, in 2^-32 of the box
 override SHEAR_MOMENT: u32; // half steps since the step began at which a kernel sees the particles
 override SHEAR_PART: u32;   // half steps in a part of a drift
 
@@ -10,7 +11,7 @@ override SHEAR_PART: u32;   // half steps in a part of a drift
 fn shift_after(more: u32) -> u32 {
     let step = clock_step();
     let halves = sum64_add(Sum64(step.x << 1u, (step.y << 1u) | (step.x >> 31u)), Sum64(more, 0u));
-    return high_of_product(halves.x, SHEAR_LOW) + halves.x * SHEAR_HIGH + halves.y * SHEAR_LOW;
+    return SHEAR_FIRST + high_of_product(halves.x, SHEAR_LOW) + halves.x * SHEAR_HIGH + halves.y * SHEAR_LOW;
 }
 
 // Slot external/shift: the shift where a kernel sees the particles. Variant kept; the plan of pairs chooses it for kernels that visit all

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
 
 /// Molecules of one kind. Beads are numbered from 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -50,5 +51,31 @@ impl Molecule {
             (None, Some(density)) => (density * volume).round() as u64,
             (None, None) => 0,
         }
+    }
+
+    /// Bonds from end to end: along the shortest way between the two beads that are farthest apart, exactly where there are no rings.
+    #[must_use]
+    pub fn longest_way(&self) -> usize {
+        let mut bonded = vec![Vec::new(); self.beads.len()];
+        for [a, b] in self.bonds.iter().map(|ends| ends.map(|end| end as usize)) {
+            bonded[a].push(b);
+            bonded[b].push(a);
+        }
+        let farthest = |from: usize| {
+            let mut reached = vec![false; self.beads.len()];
+            let mut ahead = VecDeque::from([(from, 0)]);
+            let mut last = (from, 0);
+            reached[from] = true;
+            while let Some((bead, bonds)) = ahead.pop_front() {
+                last = (bead, bonds);
+                for &other in &bonded[bead] {
+                    if !std::mem::replace(&mut reached[other], true) {
+                        ahead.push_back((other, bonds + 1));
+                    }
+                }
+            }
+            last
+        };
+        farthest(farthest(0).0).1
     }
 }

@@ -16,6 +16,10 @@ pub struct Shear {
     pub flow: Axis,
     /// The axis along which the velocity grows: `y` or `z`.
     pub gradient: Axis,
+    /// How far the copy of the box above it is displaced along `flow` at the start. A run that starts from the state of one with shear
+    /// takes it from there.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub displacement: f64,
 }
 
 impl Shear {
@@ -24,6 +28,18 @@ impl Shear {
     pub fn speed(&self, edges: &[f64]) -> f64 {
         0.5 * (self.rate * edges.get(self.gradient as usize).copied().unwrap_or(1.0)).abs()
     }
+
+    /// The displacement at the start in 2⁻³² of the edge along the flow, of boxes with such edges.
+    #[must_use]
+    pub fn first_shift(&self, edges: &[f64]) -> u32 {
+        let boxes = (self.displacement / edges.first().copied().unwrap_or(1.0)).fract();
+        (boxes * 4_294_967_296.0).round_ties_even() as i64 as u32
+    }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 fn along_x() -> Axis {

@@ -122,6 +122,17 @@ impl Model {
         self.species.iter().any(|species| species.fixed && !species.frozen && species.count > 0)
     }
 
+    /// Whether it is counted how often particles go round the box: not where boundaries shear, for then that is no whole number.
+    #[must_use]
+    pub fn follows_paths(&self) -> bool {
+        self.particles().shear.is_none()
+    }
+
+    /// Number of frozen particles behind walls.
+    pub(crate) fn frozen_particles(&self) -> u64 {
+        self.species.iter().filter(|species| species.frozen).map(|species| species.count).sum()
+    }
+
     /// Whether there are frozen particles behind walls.
     #[must_use]
     pub fn has_frozen_particles(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use super::RunError;
 use super::plan::plan;
+use crate::document::number_of_copies;
 use crate::families::Model;
 use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use crate::plan::{self, Hardware, Options, Plan};
@@ -21,7 +22,8 @@ pub(super) fn open_adapter(
         let opened = Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() });
         let gpu = opened.map_err(|error| match plan.buffers.iter().max_by_key(|buffer| buffer.bytes) {
             Some(largest) if matches!(error, GpuError::TooSmall { .. }) => {
-                RunError::TooLarge { source: error, buffer: largest.array }
+                let copies = scene.state.as_ref().map_or(1, |state| number_of_copies(state.copies()));
+                RunError::TooLarge { source: error, buffer: largest.array, copies }
             }
             _ => error.into(),
         })?;

@@ -97,6 +97,46 @@ mod tests {
     }
 
     #[test]
+    fn boundaries_that_shear_take_momentum() {
+        let text = |rate: f64| {
+            format!(
+                r#"{{"title": "test", "space": {{"box": [5, 5, 5], "shear": {{"rate": {rate}, "gradient": "y"}}}},
+                "time": {{"step": 0.01, "steps": 1}}, "temperature": 1, "particles": [{{"species": "A", "count": 10}}],
+                "interactions": [{{"type": "dpd", "repulsion": 1, "friction": 1}}]}}"#
+            )
+        };
+        let told = |rate: f64| {
+            let model = Model::new(&scene::parse("test", &text(rate), &[]).expect("a scene"));
+            (conserved(&model, &[]), not_conserved(&model, &[]))
+        };
+        let (kept, lost) = told(0.5);
+        let with_boundaries =
+            "total momentum with what boundaries that shear have taken from those that crossed them, to the last bit";
+        assert_eq!(kept, ["mass", with_boundaries]);
+        assert_eq!(lost.len(), 2, "{lost:?}");
+        assert!(lost[0].starts_with("total energy: put in by shear") && lost[0].contains("the heat bath"), "{lost:?}");
+        assert!(lost[1].starts_with("total momentum: boundaries") && lost[1].contains("`shear_momentum`"), "{lost:?}");
+        let (kept, lost) = told(0.0);
+        assert_eq!(kept, ["mass", "total momentum, to the last bit"]);
+        assert_eq!(lost, ["total energy: exchanged with the heat bath"]);
+    }
+
+    /// A force that changes its sign from half to half puts momentum in only as far as their numbers of particles differ, which is booked.
+    #[test]
+    fn opposed_forces_are_booked() {
+        let interactions = r#"{"type": "dpd", "friction": 1}, {"type": "body-force", "force": [1, 0, 0], "profile": "opposed", "axis": "z"}"#;
+        let model = model("", interactions);
+        assert_eq!(
+            conserved(&model, &[]),
+            ["mass", "total momentum less what body forces have put in, to the last bit"]
+        );
+        let lost = not_conserved(&model, &[]);
+        assert!(lost[0].contains("`body_force_work`") && lost[0].contains("exchanged with the heat bath"), "{lost:?}");
+        assert!(lost[1].contains("as much as `body_force_momentum`"), "{lost:?}");
+        assert_eq!(lost.len(), 2, "{lost:?}");
+    }
+
+    #[test]
     fn every_reason_is_told_and_none_that_is_not() {
         let cases = [
             ("", "", INTEGRATED, ""),

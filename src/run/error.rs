@@ -69,15 +69,21 @@ pub enum RunError {
     },
     /// The adapter does not allow a buffer that the scene needs.
     #[error(
-        "{source}, for `{}` ({}): a smaller system needs less; `mesoscope check --kernels` lists all buffers",
+        "{source}, for `{}` ({}): {} less; `mesoscope check --kernels` lists all buffers",
         .buffer.name(),
-        .buffer.purpose()
+        .buffer.purpose(),
+        match .copies {
+            1 => "a smaller system needs".to_owned(),
+            copies => format!("fewer than the {copies} copies of `state.replicate` need"),
+        }
     )]
     TooLarge {
         /// What the adapter allows.
         source: GpuError,
         /// The largest buffer.
         buffer: Array,
+        /// Copies of the box of a file that the scene is made of.
+        copies: u64,
     },
     /// The engine refuses the state, or a buffer overflowed.
     #[error(transparent)]

@@ -19,7 +19,7 @@ use crate::plot::{
 };
 use crate::scene::{self, AnalysisId, AnalysisTable, Scene, Snapshot, SnapshotColor};
 use crate::shaders::Array;
-use crate::state::State;
+use crate::state::{State, crossings};
 use crate::table::Table;
 use crate::tessellation::Tessellation;
 use image::RgbaImage;
@@ -229,7 +229,14 @@ impl<'a> Pictures<'a> {
             self.ranges.of("speed", asked.range, begin)
         });
         let bonds: Vec<[u32; 2]> = match &model.particles().bonds {
-            Some(bonds) if asked.bonds => bonds.iter().map(|bond| bond.ends).collect(),
+            Some(bonds) if asked.bonds => {
+                // A rod knows no copy that is displaced.
+                let across = |ends: [u32; 2]| {
+                    let [a, b] = ends.map(|end| state.positions[end as usize]);
+                    model.particles().shear.is_some_and(|shear| crossings(a, b)[shear.gradient] != 0)
+                };
+                bonds.iter().map(|bond| bond.ends).filter(|ends| !across(*ends)).collect()
+            }
             _ => Vec::new(),
         };
         let picture = ParticlePicture {

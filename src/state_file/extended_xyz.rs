@@ -7,7 +7,10 @@
 
 use super::lines::Lines;
 use super::tally::Tally;
-use super::{Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, place_of_frame, shortened, triclinic};
+use super::{
+    FROZEN, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements, frozen_layers, place_of_frame,
+    shortened, triclinic,
+};
 use crate::state::MOST_PARTICLES;
 use std::collections::{HashMap, HashSet};
 use std::fs::File;
@@ -98,6 +101,7 @@ fn count_of(lines: &mut Lines, length: u64) -> Result<Option<u64>, Mistakes> {
 /// What the line of keys says.
 struct Header {
     lengths: Option<[f64; 3]>,
+    displacements: [f64; 3],
     origin: [f64; 3],
     dimension: Option<usize>,
     open_axes: [bool; 3],
@@ -137,22 +141,28 @@ impl Header {
                 )),
             }
         };
-        let mut lengths = None;
+        if let Some(count) = value(FROZEN).and_then(|text| text.parse().ok()) {
+            return Err(frozen_layers(place, count).into());
+        }
+        let (mut lengths, mut tilts) = (None, [0.0; 3]);
         if let Some(lattice) = numbers("Lattice", 9)? {
             let edges = [lattice[0], lattice[4], lattice[8]];
-            let across = [1, 2, 3, 5, 6, 7].map(|at| lattice[at]);
             let longest = edges.iter().fold(0.0, |most: f64, edge| most.max(edge.abs()));
-            if across.iter().any(|part| part.abs() > 1e-12 * longest) {
+            let across =
+                [1, 2, 3, 5, 6, 7].map(|at| if lattice[at].abs() > 1e-12 * longest { lattice[at] } else { 0.0 });
+            let [first_y, first_z, second, second_z, third, third_y] = across;
+            let leaning = displacements(second, third, third_y).filter(|_| [first_y, first_z, second_z] == [0.0; 3]);
+            let Some(leaning) = leaning else {
                 return Err(triclinic(
                     place,
                     &format!("Lattice=\"{}\"", shortened(value("Lattice").unwrap_or_default())),
                 )
                 .into());
-            }
+            };
             if let Some(mistake) = box_mistake(&edges) {
                 return Err(Mistake { place: place.to_owned(), ..mistake }.into());
             }
-            lengths = Some(edges);
+            (lengths, tilts) = (Some(edges), leaning);
         }
         let origin = numbers("Origin", 3)?.map_or([0.0; 3], |origin| [origin[0], origin[1], origin[2]]);
         let mut periodic = None;
@@ -171,7 +181,7 @@ impl Header {
         // Without a box of its own a file leaves it to the scene.
         let open_axes = periodic.filter(|_| lengths.is_some()).map_or([false; 3], |periodic| periodic.map(|is| !is));
         let columns = Columns::of(value("Properties").unwrap_or("species:S:1:pos:R:3"), place)?;
-        Ok(Self { lengths, origin, dimension, open_axes, columns })
+        Ok(Self { lengths, displacements: tilts, origin, dimension, open_axes, columns })
     }
 }
 
@@ -284,6 +294,7 @@ fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleF
         dimension: header.dimension,
         origin: header.origin,
         lengths: header.lengths,
+        displacements: header.displacements,
         open_axes: header.open_axes,
         unused: columns.unused.clone(),
         ..ParticleFile::default()

@@ -5,7 +5,10 @@
 //! meanwhile, is refused, and of a long trajectory nothing but two frames is read. A frame takes what it lacks from the first
 //! one, and that from the defaults of the schema.
 
-use super::{Links, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, place_of_frame, triclinic};
+use super::{
+    FROZEN_IN_GSD, Links, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements, frozen_layers,
+    place_of_frame, triclinic,
+};
 use crate::state::MOST_PARTICLES;
 use std::collections::HashMap;
 use std::fs::File;
@@ -298,6 +301,9 @@ impl Gsd {
     }
 
     fn particles(mut self) -> Result<ParticleFile, Mistakes> {
+        if let Some(count) = self.number(FROZEN_IN_GSD)? {
+            return Err(frozen_layers(self.place(), count).into());
+        }
         let count = self.number("particles/N")?.unwrap_or(0);
         let first_serves = self.first_has("particles/N", count)?;
         let species = self.names("particles/types")?.unwrap_or_else(|| vec!["A".to_owned()]);
@@ -314,7 +320,7 @@ impl Gsd {
             masses.add(*species as usize, mass, || particle.to_string());
         }
         let dimension = self.number("configuration/dimensions")?.filter(|number| [2, 3].contains(number));
-        let (lengths, dimension) = self.lengths(dimension.map(|number| number as usize))?;
+        let (lengths, displacements, dimension) = self.lengths(dimension.map(|number| number as usize))?;
         let is_image = |image: &[f64; 3]| image.iter().all(|turns| i32::try_from(*turns as i64).is_ok());
         if let Some(particle) = images.iter().position(|image| !is_image(image)) {
             let found = format!("found images of particle {particle} beyond 32 bits: {:?}", images[particle]);
@@ -332,6 +338,7 @@ impl Gsd {
             dimension: Some(dimension),
             origin: lengths.map(|length| -0.5 * length),
             lengths: Some(lengths),
+            displacements,
             positions,
             velocities,
             images: images.into_iter().map(|image| image.map(|turns| turns as i32)).collect(),
@@ -343,8 +350,8 @@ impl Gsd {
         })
     }
 
-    /// The edges of the box, the third one as 1 where it has none, and the number of dimensions.
-    fn lengths(&mut self, dimension: Option<usize>) -> Result<([f64; 3], usize), Mistakes> {
+    /// The edges of the box, the third one as 1 where it has none, how far copies above it are displaced, and the number of dimensions.
+    fn lengths(&mut self, dimension: Option<usize>) -> Result<([f64; 3], [f64; 3], usize), Mistakes> {
         let name = "configuration/box";
         let Some(entry) = self.entry_or_first(name, true) else {
             return Err(self.wrong(name, "missing", "a box"));
@@ -352,16 +359,16 @@ impl Gsd {
         let numbers: Vec<[f64; 1]> = self.numbers(name, entry, 6)?;
         let [x, y, mut z, xy, xz, yz] = std::array::from_fn(|at| numbers[at][0]);
         let dimension = dimension.unwrap_or(if z == 0.0 { 2 } else { 3 });
-        if [xy, xz, yz].iter().any(|tilt| *tilt != 0.0) {
+        let Some(displacements) = displacements(xy * y, xz * z, yz) else {
             return Err(triclinic(self.place(), &format!("xy = {xy}, xz = {xz}, yz = {yz}")).into());
-        }
+        };
         if z == 0.0 && dimension == 2 {
             z = 1.0;
         }
         if let Some(mistake) = box_mistake(&[x, y, z]) {
             return Err(Mistake { place: self.place(), ..mistake }.into());
         }
-        Ok(([x, y, z], dimension))
+        Ok(([x, y, z], displacements, dimension))
     }
 
     /// Arrays of particles and of topology that are read by nobody.

@@ -51,6 +51,8 @@ pub struct ParticleFile {
     pub origin: [f64; 3],
     /// Edge lengths of the box, if the file has one.
     pub lengths: Option<[f64; 3]>,
+    /// How far the copy of the box above it along each axis is displaced along x, of a box that is sheared.
+    pub displacements: [f64; 3],
     /// Axes along which the file says that its box is not periodic.
     pub open_axes: [bool; 3],
     /// Positions.
@@ -289,11 +291,16 @@ impl ParticleFile {
                 "a box that is periodic along every axis of the scene without `space.walls`: `pbc=\"T T T\"`",
             ));
         }
+        // In a box that leans along x a place may be beside the upright one.
+        let leaning = self.displacements.iter().fold(0.0_f64, |most, way| most.max(way.abs()));
+        let slack = |axis: usize| if axis == 0 { leaning } else { 0.0 };
         for (particle, position) in self.positions.iter().enumerate() {
             let place = &position[..dimension];
             if place.iter().any(|value| !value.is_finite()) {
                 nowhere.add(|| self.number(particle).to_string());
-            } else if (0..dimension).any(|axis| !is_inside(position[axis] - self.origin[axis], lengths[axis])) {
+            } else if (0..dimension).any(|axis| {
+                !is_inside(position[axis] - self.origin[axis] + slack(axis), lengths[axis] + 2.0 * slack(axis))
+            }) {
                 let shown = place.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
                 outside.add(|| format!("{} at ({shown})", self.number(particle)));
             }
@@ -389,6 +396,13 @@ fn box_mistake(lengths: &[f64]) -> Option<Mistake> {
     Some(Mistake::new("", format!("found a box with an edge of {bad}"), "edges of positive length"))
 }
 
+/// How far copies above a box are displaced along x, from the tilts that are lengths along x of its second and third vector, and along y of its
+/// third: shear makes one of the first two.
+fn displacements(second: f64, third: f64, along_y: f64) -> Option<[f64; 3]> {
+    (along_y == 0.0 && (second == 0.0 || third == 0.0) && second.is_finite() && third.is_finite())
+        .then_some([0.0, second, third])
+}
+
 /// The refusal of a box that is not orthogonal.
 fn triclinic(place: impl Into<String>, tilts: &str) -> Mistake {
     let found = format!("found a triclinic box ({tilts})");
@@ -397,6 +411,18 @@ fn triclinic(place: impl Into<String>, tilts: &str) -> Mistake {
         found,
         "an orthogonal box: positions are fractions of the edges, which have to be along the axes",
     )
+}
+
+/// What a trajectory says of the number of particles that are frozen behind walls.
+pub(crate) const FROZEN: &str = "frozen_particles";
+pub(crate) const FROZEN_IN_GSD: &str = "log/frozen_particles";
+
+/// The refusal of a box with layers of frozen particles behind its walls.
+pub(crate) fn frozen_layers(place: impl Into<String>, count: u64) -> Mistake {
+    let found = format!("found a run with layers of frozen particles, {count} of them, behind its walls");
+    let accepted = "a run without layers: no scene takes them from a file, for `behind-walls` places them anew. Without them its positions \
+                    between the walls can start a scene";
+    Mistake::new(place, found, accepted)
 }
 
 /// Masses of species from those of particles: of one species all are the same.

@@ -63,8 +63,6 @@ fn a_trajectory_starts_the_same_molecules() {
     for (place, name) in types.into_iter().enumerate() {
         next["interactions"][1 + place]["types"] = json!([name]);
     }
-    // A trajectory has no angles.
-    next["interactions"].as_array_mut().unwrap().pop();
     std::fs::write(place.path("next.json"), next.to_string()).unwrap();
     let [next, before] = [place.path("next.json"), place.path("scene.json")]
         .map(|path| scene::load(path.to_str().unwrap(), &[]).unwrap());
@@ -73,6 +71,12 @@ fn a_trajectory_starts_the_same_molecules() {
         model.particles().bonds.as_ref().unwrap().iter().map(|bond| (bond.ends, bond.kind)).collect::<Vec<_>>()
     };
     assert_eq!(bonds(&next), bonds(&before));
+    let angles = |scene: &scene::Scene| {
+        let model = mesoscope::families::Model::new(scene);
+        model.particles().angles.as_ref().unwrap().iter().map(|angle| (angle.ends, angle.kind)).collect::<Vec<_>>()
+    };
+    assert_eq!(angles(&next).len(), 30);
+    assert_eq!(angles(&next), angles(&before));
     // The longest bond is far below half of the box: no molecule was torn at the boundary.
     let spans = next.start().unwrap().bonds.iter().flat_map(|links| links.spans.values()).map(|span| span[1]);
     assert!(spans.fold(0.0, f64::max) < 1.5);

@@ -102,14 +102,10 @@ fn what_was_written_is_read_back() {
         let mut asked = with_state(&text, json!({"file": file, "frame": frame}));
         asked["particles"] = json!([{"species": "C"}, {"species": "a_solvent"}]);
         if file == "a.xyz" {
-            // This format knows no bonds.
+            // This format knows neither bonds nor angles.
             asked["interactions"].as_array_mut().unwrap().truncate(1);
         } else {
             asked["particles"][1]["species"] = json!("a solvent");
-        }
-        if file == "a.gsd" {
-            // Nor does this one know angles, as it is written.
-            asked["interactions"].as_array_mut().unwrap().truncate(2);
         }
         let (scene, notices) = load(place.path(), &asked);
         let (read, found) = start(&scene);
@@ -126,12 +122,15 @@ fn what_was_written_is_read_back() {
             model.particles().bonds.as_ref().map_or(0, |bonds| bonds.iter().count())
         };
         assert_eq!(bonds(&read), if file == "a.xyz" { 0 } else { bonds(&model) });
+        let angles = |model: &mesoscope::families::Model| {
+            model.particles().angles.as_ref().map_or(Vec::new(), |all| all.iter().collect())
+        };
+        if file != "a.xyz" {
+            assert_eq!(angles(&model).len(), 36);
+            assert_eq!(angles(&read), angles(&model), "{file}");
+        }
         if file == "run" {
             assert_eq!(found, state);
-            let angles = |model: &mesoscope::families::Model| {
-                model.particles().angles.as_ref().map_or(Vec::new(), |all| all.iter().collect())
-            };
-            assert_eq!(angles(&read), angles(&model));
             assert_eq!(notices, []);
         }
     }
@@ -431,6 +430,215 @@ fn tethers_of_a_run_go_on() {
     let tied = start(&scene).1;
     assert!(tied.tethers == tied.positions && tied.positions == state.positions);
     assert_eq!(notices, []);
+}
+
+/// The scene of a sheared melt, whose boundaries are displaced by .62 of the box after 40 steps.
+fn sheared() -> Value {
+    let mut text = melt();
+    text["space"]["shear"] = json!({"rate": 1.2, "gradient": "y"});
+    text["output"].as_object_mut().unwrap().remove("trajectory");
+    text
+}
+
+/// A scene that starts from a run, with shear of its own or none.
+fn from_sheared(shear: Option<Value>) -> Value {
+    let mut asked = with_state(&sheared(), json!({"file": "before"}));
+    if let Some(shear) = shear {
+        asked["space"] = json!({"box": [4.1, 5.3, 6.7], "shear": shear});
+    }
+    asked
+}
+
+/// Boundaries are where the run before has left them: bonds, angles and neighbours across them are the same, whatever the rate is now.
+#[test]
+fn a_sheared_run_goes_on_from_where_its_boundaries_are() {
+    let place = Place::of(sheared());
+    place.run("before", &["--quiet"]);
+    let before = checkpoint::load(&place.path("before").join(files::CHECKPOINT)).unwrap();
+    let (model, _) = start(&before.scene);
+    let crossing = model.particles().bonds.as_ref().unwrap().iter().filter(|bond| {
+        let [a, b] = bond.ends.map(|end| before.state.positions[end as usize]);
+        mesoscope::state::crossings(a, b)[1] != 0
+    });
+    assert!(crossing.count() > 1, "bonds cross the boundary");
+    let energy = |scene: &Scene, state: State| {
+        let model = mesoscope::families::Model::new(scene);
+        CouplingsReference::new(model, state).observe().unwrap().potential_energy
+    };
+    let expected = energy(&before.scene, before.state.clone());
+    let directory = place.path("before").parent().unwrap().to_owned();
+    for rate in [1.2, -0.3, 0.0] {
+        let (scene, _) = load(&directory, &from_sheared(Some(json!({"rate": rate, "gradient": "y"}))));
+        let displacement = scene.space.shear.as_ref().unwrap().displacement;
+        // 40 steps of .01 at 1.2 × 5.3.
+        assert!((displacement - (2.544_f64).rem_euclid(4.1)).abs() < 1e-8, "{displacement}");
+        let (_, state) = start(&scene);
+        assert_eq!(state.positions, before.state.positions);
+        let found = energy(&scene, state);
+        assert!((found / expected - 1.0).abs() < 1e-12, "rate {rate}: {found}, {expected}");
+        // The resolved scene says it, and is that scene again.
+        let text = serde_json::to_string(&scene).unwrap();
+        let name = directory.join("scene.json");
+        assert_eq!(scene::parse(name.to_str().unwrap(), &text, &[]).unwrap(), scene);
+    }
+    // Elsewhere, in a box at rest or one that shears along another axis, and in copies, others would be near each other.
+    let told = |asked: &Value| scene::load(&write(&directory, asked), &[]).unwrap_err().to_string();
+    let rest = told(&from_sheared(None));
+    assert!(
+        rest.contains("state.file: `before`: found a triclinic box, whose copy above it along y is displaced by 2.54")
+            && rest.contains("`space.shear` with the `gradient` y"),
+        "{rest}"
+    );
+    assert_eq!(told(&from_sheared(Some(json!({"rate": 1, "gradient": "z"})))), rest);
+    let other = told(&from_sheared(Some(json!({"rate": 1, "gradient": "y", "displacement": 1.5}))));
+    assert!(other.contains("space.shear.displacement: found 1.5; accepted: 2.54"), "{other}");
+    let mut copies = from_sheared(Some(json!({"rate": 1, "gradient": "y"})));
+    copies["space"]["box"] = json!([8.2, 5.3, 6.7]);
+    copies["state"]["replicate"] = json!([2, 1, 1]);
+    let copied = told(&copies);
+    assert!(
+        copied.contains("state.replicate: found copies of a box whose boundaries are displaced by 2.54"),
+        "{copied}"
+    );
+}
+
+/// Frames of a sheared run have the cell that leans as far as boundaries are displaced, with all particles in it: in it pairs have the energy
+/// that the run has measured, but for the rounding of positions to 2⁻²⁴ of 6.7, which changes forces of up to 25 in 500 pairs by less than .01.
+#[test]
+fn frames_of_a_sheared_run_lean() {
+    for (format, file, shear, side, split) in [
+        ("gsd", "before/trajectory.gsd", json!({"rate": 1.2, "gradient": "y"}), 1, true),
+        ("extended-xyz", "before/trajectory.xyz", json!({"rate": -1.2, "gradient": "z"}), 2, true),
+        ("gsd", "before/trajectory.gsd", json!({"rate": 1.2, "gradient": "z"}), 2, false),
+    ] {
+        let mut text = sheared();
+        text["space"]["shear"] = shear.clone();
+        text["output"]["trajectory"] = json!({"every": 10, "format": format});
+        text["interactions"].as_array_mut().unwrap().truncate(1);
+        text["integrator"] = json!({"type": if split { "splitting" } else { "groot-warren" }});
+        let place = Place::of(text);
+        place.run("before", &["--quiet"]);
+        let measured = *place.table("before", files::ENERGIES).column("potential_energy").unwrap().last().unwrap();
+        let last = checkpoint::load(&place.path("before").join(files::CHECKPOINT)).unwrap();
+        let directory = place.path("before").parent().unwrap().to_owned();
+        let mut asked = from_sheared(Some(shear));
+        asked["state"]["file"] = json!(file);
+        asked["interactions"].as_array_mut().unwrap().truncate(1);
+        // Where energies are those of the positions of the step.
+        asked["integrator"] = json!({"type": "groot-warren"});
+        let solvent = if format == "gsd" { "a solvent" } else { "a_solvent" };
+        asked["particles"] = json!([{"species": "C"}, {"species": solvent}]);
+        let scene = load(&directory, &asked).0;
+        let (model, state) = start(&scene);
+        // The time of the frame of a split step is half a step later, and the shorter way round the box is as good.
+        let velocity = scene.space.shear.as_ref().unwrap().rate * scene.space.lengths[side];
+        let time = 0.4 + if split { 0.005 } else { 0.0 };
+        let boxes = (scene.space.shear.as_ref().unwrap().displacement - velocity * time) / 4.1;
+        assert!((boxes - boxes.round()).abs() < 1e-6, "{format}: {boxes}");
+        let found = Reference::new(model, state.clone()).observe().unwrap().potential_energy;
+        assert!((found - measured).abs() < 0.01, "{format}: {found}, {measured} in the run");
+        assert!(state.images.is_empty() && last.state.images.is_empty());
+        if !split {
+            let apart = difference(&last.state, &state)[0];
+            assert!(apart <= 4.0 * 2.0_f64.powi(-24), "{format}: {apart}");
+        }
+        if format == "extended-xyz" {
+            let frames = fs::read_to_string(place.path(file)).unwrap();
+            let lines: Vec<&str> = frames.lines().collect();
+            let mut tilts = Vec::new();
+            for frame in lines.chunks_exact(152) {
+                assert!(!frame[1].contains("map_shift"), "{}", frame[1]);
+                let lattice: Vec<f64> =
+                    frame[1].split('"').nth(1).unwrap().split(' ').map(|number| number.parse().unwrap()).collect();
+                let lean = lattice[3 * side];
+                assert!(lean.abs() <= 0.5 * 4.1 + 1e-9 && lattice[3 * (3 - side)] == 0.0, "{lattice:?}");
+                tilts.push(lean);
+                for line in &frame[2..] {
+                    let place: Vec<f64> =
+                        line.split(' ').skip(1).take(3).map(|number| number.parse().unwrap()).collect();
+                    let upright = place[0] - lean * place[side] / lattice[4 * side];
+                    assert!((-1e-5..4.1 + 1e-5).contains(&upright), "{line} in {lattice:?}");
+                }
+            }
+            // Every ten steps by 1.2 · 6.7 · .1, half a step later, taken round the box.
+            let expected = [0.0, -0.804, -1.608, 4.1 - 2.412, 4.1 - 3.216].map(|way| way - 0.0402);
+            assert!(tilts.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-6), "{tilts:?}");
+            assert_eq!(tilts.len(), 5);
+        }
+    }
+}
+
+/// A run with displaced boundaries keeps its bits in parts, and momentum together with what boundaries took.
+#[test]
+fn a_run_with_displaced_boundaries_in_parts() {
+    let place = Place::of(sheared());
+    place.run("before", &["--quiet"]);
+    let mut next = from_sheared(Some(json!({"rate": 2, "gradient": "y"})));
+    next["state"]["file"] = json!(place.argument("before"));
+    let next = Place::of(next);
+    next.whole_again_and_in_parts();
+    let conserved = next.summary("whole").conserved_exactly;
+    assert!(conserved.iter().any(|what| what.contains("what boundaries that shear have taken")), "{conserved:?}");
+}
+
+/// Between walls nothing is periodic: a run is read back to two places of a position and every bit of a momentum.
+#[test]
+fn a_run_between_walls_is_read_back() {
+    let mut text = melt();
+    text["space"]["walls"] = json!({"z": {"upper_velocity": [0.5, 0, 0]}});
+    let place = Place::of(text.clone());
+    place.run("before", &["--quiet"]);
+    let last = checkpoint::load(&place.path("before").join(files::CHECKPOINT)).unwrap().state;
+    let directory = place.path("before").parent().unwrap().to_owned();
+    // Places are fractions of a period that is longer than the box between the walls, and taken to those of the box and back: two roundings.
+    // Frames are half a drift further, .01 / 2 at a velocity of 4 or so, and less than a kick.
+    for (file, tolerances) in [("before", [2.0_f64.powi(-31), 0.0]), ("before/trajectory.gsd", [0.02 / 4.1, 0.5])] {
+        let mut asked = with_state(&text, json!({"file": file}));
+        asked["space"] = text["space"].clone();
+        let (scene, _) = load(&directory, &asked);
+        let (_, found) = start(&scene);
+        let apart = difference(&last, &found);
+        assert!(apart[0] <= tolerances[0] && apart[1] <= tolerances[1], "{file}: {apart:?}");
+        assert_eq!(found.walls.len(), 2, "{file}");
+        assert!(found.walls.iter().all(|wall| wall.momentum() == [0; 3]), "{file}: what walls took up is counted anew");
+    }
+    // Without walls the same places are in a box that is periodic, where its ends are next to each other.
+    let mut asked = with_state(&text, json!({"file": "before/trajectory.gsd"}));
+    asked["interactions"].as_array_mut().unwrap().truncate(1);
+    assert!(start(&load(&directory, &asked).0).1.walls.is_empty());
+}
+
+/// What lies behind walls is in no scene that starts from a file.
+#[test]
+fn layers_of_frozen_particles_are_refused() {
+    for format in ["gsd", "extended-xyz"] {
+        let mut text = melt();
+        text["space"]["walls"] = json!({"z": {}});
+        text["particles"].as_array_mut().unwrap().push(
+            json!({"species": "wall", "count": 90, "placement": {"type": "behind-walls", "axis": "z", "thickness": 1}}),
+        );
+        text["output"]["trajectory"]["format"] = json!(format);
+        let place = Place::of(text.clone());
+        place.run("before", &["--quiet"]);
+        let directory = place.path("before").parent().unwrap().to_owned();
+        let trajectory = if format == "gsd" { "before/trajectory.gsd" } else { "before/trajectory.xyz" };
+        for file in ["before", trajectory] {
+            // With a box and walls, and with that of the file.
+            for space in [json!({"box": [4.1, 5.3, 6.7], "walls": {"z": {}}}), Value::Null] {
+                let mut asked = with_state(&text, json!({"file": file}));
+                asked["particles"][2].as_object_mut().unwrap().remove("placement");
+                if !space.is_null() {
+                    asked["space"] = space;
+                }
+                let told = scene::load(&write(&directory, &asked), &[]).unwrap_err().to_string();
+                assert!(
+                    told.contains("found a run with layers of frozen particles, 90 of them, behind its walls")
+                        && told.contains("`behind-walls` places them anew"),
+                    "{file}: {told}"
+                );
+            }
+        }
+    }
 }
 
 /// A run in two parts, the file gone in between, leaves the bytes of one that was not interrupted.

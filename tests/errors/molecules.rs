@@ -98,6 +98,48 @@ fn bonds_and_angles() {
     SURFACTANT.accepted(&[r#"molecules.0.bond_types=["head","tail"]"#, r#"interactions.1.types=["tail"]"#]);
 }
 
+/// A molecule that reaches over half of the box is near its own image.
+#[test]
+fn long_molecules() {
+    let chain = |beads: usize, angles: bool| {
+        let names = vec![r#""tail""#; beads].join(",");
+        let list = |width: usize| {
+            let link = |first: usize| format!("{:?}", (first..first + width).collect::<Vec<_>>());
+            (0..=beads - width).map(link).collect::<Vec<_>>().join(",")
+        };
+        let angles = if angles { list(3) } else { String::new() };
+        format!(
+            r#"molecules.0={{"beads":[{names}],"bonds":[{}],"angles":[{angles}],"count":3,"spacing":0.7}}"#,
+            list(2)
+        )
+    };
+    let without_angles = "interactions.2.triples=[[0,1,2]]";
+    let said = |beads: usize, angles: bool| {
+        let long = chain(beads, angles);
+        if angles { SURFACTANT.warnings(&[&long]) } else { SURFACTANT.warnings(&[&long, without_angles]) }
+    };
+    // Half of the shortest edge is 3: 4 bonds of .7 are 2.8 long; as a coil 18 reach over 2.97.
+    assert_eq!(said(5, true), Vec::<String>::new());
+    assert_eq!(said(19, false), Vec::<String>::new());
+    let stretched = said(6, true);
+    assert!(
+        stretched.len() == 1
+            && stretched[0]
+                .starts_with("molecules[0]: a molecule with 5 bonds from end to end reaches over 3.500 as stretched"),
+        "{stretched:?}"
+    );
+    let coil = said(20, false);
+    assert!(
+        coil.len() == 1 && coil[0].contains("19 bonds") && coil[0].contains("3.051 as a coil, more than 3.000, half"),
+        "{coil:?}"
+    );
+    // A star has the two longest arms.
+    let star = r#"molecules.0={"beads":["tail","tail","tail","tail","tail","tail"],"bonds":[[0,1],[0,2],[2,3],[0,4],[4,5]],
+        "angles":[[1,0,2]],"count":3,"spacing":0.8}"#;
+    let star = SURFACTANT.warnings(&[star]);
+    assert!(star.len() == 1 && star[0].contains("a molecule with 4 bonds from end to end"), "{star:?}");
+}
+
 #[test]
 fn several_mistakes_are_told_at_once() {
     let problems = SURFACTANT.problems(&[

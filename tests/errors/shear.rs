@@ -61,6 +61,10 @@ fn rates() {
     SHEARED.accepted(&["space.shear.rate=19"]);
     SHEARED.refused_with(&["space.shear.rate=-1e30"], &["space.shear.rate: found -1.00e30"]);
     SHEARED.accepted(&["space.shear.rate=0"]);
+    // Boundaries may be displaced, by any number of boxes, and stay so.
+    SHEARED.accepted(&["space.shear.displacement=-37.25"]);
+    SHEARED.accepted(&["space.shear.rate=0", "space.shear.displacement=2.5", r#"output.stress={"every":10}"#]);
+    SHEARED.refused_with(&[r#"space.shear.displacement="far""#], &["space.shear.displacement"]);
 }
 
 /// Whatever is bound to a box at rest is refused with the reason.
@@ -72,6 +76,14 @@ fn what_takes_no_shear() {
     );
     SHEARED
         .refused_with(&["particles.0.fixed=true"], &["space.shear: found together with particles[0], which are fixed"]);
+    for (interaction, what) in [
+        (r#"{"type":"langevin","friction":1}"#, "a bath on every particle in interactions[1]"),
+        (r#"{"type":"tether","stiffness":3}"#, "tethers in interactions[1]"),
+        (r#"{"type":"coloured-noise","strength":1,"time":0.05}"#, "a coloured noise in interactions[1]"),
+    ] {
+        let added = format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},{interaction}]"#);
+        SHEARED.refused_with(&[&added], &[&format!("space.shear: found together with {what}"), "lists of neighbours"]);
+    }
     SHEARED.refused_with(
         &[r#"space.walls={"y":{}}"#],
         &["space.shear: found across an axis with walls", "walls that move also make a shear flow"],
@@ -98,13 +110,18 @@ fn what_takes_no_shear() {
     );
     SHEARED.accepted(&[r#"output.stress={"every":10}"#, r#"output.profiles={"axis":"y","every":10}"#]);
     for analysis in [
-        r#"trajectory={"every":10}"#,
         r#"diffusion={"every":2,"window":8}"#,
         r#"radial_distribution={"every":10,"range":2}"#,
         r#"viscosity={"every":2,"window":8}"#,
+        r#"chain_sizes={"every":10}"#,
+        r#"autocorrelations=[{"quantity":"velocity","every":2,"window":8}]"#,
+        r#"histograms=[{"quantity":"velocity","every":2,"range":4}]"#,
     ] {
         let name = analysis.split('=').next().unwrap();
         let named = format!("output.{name}: found in a scene with shear");
-        SHEARED.refused_with(&[&format!("output.{analysis}")], &[&named, "none in a scene with shear"]);
+        let chains = r#"particles=[{"species":"water","count":300,"chain":{"beads":5,"spacing":0.8}}]"#;
+        let bonds = r#"interactions=[{"type":"dpd","repulsion":25},{"type":"bonds","potential":{"type":"harmonic","stiffness":10}}]"#;
+        let changes = [&format!("output.{analysis}"), chains, bonds];
+        SHEARED.refused_with(&changes, &[&named, "none in a scene with shear"]);
     }
 }

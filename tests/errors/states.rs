@@ -5,6 +5,8 @@ use std::fs;
 use std::path::Path;
 
 use hoomd_gsd::file_layer::GsdFile;
+use mesoscope::output::{Id, checkpoint, files};
+use mesoscope::run::Simulation;
 use mesoscope::scene::{self, Scene, SceneError};
 use rand::rngs::StdRng;
 use rand::{RngExt as _, SeedableRng as _};
@@ -12,6 +14,7 @@ use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::cost::{MEMORY, PATIENCE, measured};
+use crate::support::adapter;
 
 /// Four particles of two species, bonded and bent.
 const LAMMPS: &str = "a chain
@@ -247,6 +250,85 @@ fn files_that_end_too_early() {
     );
 }
 
+/// Wherever a GSD file is cut, what is missing is said, and where a whole one can be had.
+#[test]
+fn gsd_that_ends_too_early() {
+    let place = Place::of("other", "");
+    let path = place.path().join("init.gsd");
+    gsd(&path, 0, 1, 0.0);
+    let whole = fs::read(&path).unwrap();
+    let unbonded = [("/interactions", json!([]))];
+    assert!(place.load("init.gsd", &unbonded).is_ok());
+    for length in [12, 100, 255, 256, whole.len() / 2, whole.len() - 1] {
+        fs::write(&path, &whole[..length]).unwrap();
+        let found = place.problems("init.gsd", &unbonded);
+        assert!(
+            found.len() == 1 && found[0].contains("accepted: a whole GSD file") && found[0].contains("end"),
+            "{length} of {} bytes: {found:?}",
+            whole.len()
+        );
+    }
+}
+
+/// Runs of other families have more than a file of particles can say.
+#[test]
+fn states_of_foreign_runs() {
+    let run = |scene: Scene| {
+        let place = Place::of("other", "");
+        let model = mesoscope::families::Model::new(&scene);
+        let state = mesoscope::families::initial_state(&scene, &model);
+        fs::create_dir(place.path().join("run")).unwrap();
+        let path = place.path().join("run").join(files::CHECKPOINT);
+        checkpoint::save(&path, Id::of_run(&scene), &scene, &state, &[], &[]).unwrap();
+        place
+    };
+    let flat = |edge: u32, temperature: f64, interaction: Value| {
+        let scene = json!({"title": "foreign", "space": {"box": [edge, edge]}, "time": {"step": 0.001, "steps": 1},
+            "temperature": temperature, "particles": [{"species": "A", "count": 100}], "interactions": [interaction]});
+        scene::parse("foreign", &scene.to_string(), &[]).unwrap()
+    };
+    for (name, scene) in [
+        ("voronoi", flat(9, 1.0, json!({"type": "voronoi", "viscosity": 1}))),
+        ("water", flat(16, 0.0, json!({"type": "shallow-water", "mesh": [16, 16], "wave_speed": 1}))),
+        ("chain", scene::load("harmonic-chain", &[]).unwrap()),
+    ] {
+        let place = run(scene);
+        let found = place.problems("run", &[("/space", json!({"box": [9, 9, 9]}))]);
+        assert!(
+            found.len() == 1
+                && found[0].starts_with(
+                    "state.file: `run`: found a run whose particles have more than a species, a position and"
+                )
+                && found[0].ends_with("accepted: a run of particles with forces between them"),
+            "{name}: {found:?}"
+        );
+    }
+}
+
+/// Copies beyond what any adapter has room for are refused before memory for them is asked for.
+#[test]
+fn copies_beyond_the_room_of_the_adapter() {
+    let place = Place::of("init", XYZ);
+    for copies in [[1000, 1000, 100], [1000, 1000, 1000]] {
+        let edges = [4, 5, 6].iter().zip(copies).map(|(edge, copies)| edge * copies).collect::<Vec<u64>>();
+        let scene =
+            place.load("init", &[("/state/replicate", json!(copies)), ("/space", json!({"box": edges}))]).unwrap();
+        let (answer, cost) = measured(|| {
+            let results = place.path().join("results");
+            Simulation::start(scene, &results, true).execute(&adapter(), &mut |_| {}).unwrap_err().to_string()
+        });
+        let said = answer.unwrap();
+        let copies: u64 = copies.iter().product();
+        assert!(
+            said.contains(" bytes in a")
+                && said.contains(&format!("fewer than the {copies} copies of `state.replicate` need less")),
+            "{said}"
+        );
+        assert!(cost.time < PATIENCE && cost.memory < MEMORY, "{:?}, {} bytes", cost.time, cost.memory);
+        assert!(!place.path().join("results").exists(), "nothing is left of it");
+    }
+}
+
 #[test]
 fn species_that_the_scene_lacks() {
     refused(
@@ -339,6 +421,33 @@ fn ids_and_numbers() {
         &replaced(XYZ, "0 0 1", "0 0 inf"),
         &[],
         &["state.file: `init`: found particle 2 with velocities that are no finite numbers; accepted: finite numbers"],
+    );
+    refused(
+        &replaced(LAMMPS, "2 1 B 1.5 1.5 0", "2 1 B 1.5 NaN 0"),
+        &[],
+        &["state.file: `init`: found particle 2 with positions that are no finite numbers; accepted: finite numbers"],
+    );
+    refused(
+        &replaced(LAMMPS, "4 0 -1 0", "4 0 -inf 0"),
+        &[],
+        &["state.file: `init`: found particle 4 with velocities that are no finite numbers; accepted: finite numbers"],
+    );
+    let numbered = replaced(XYZ, "velo:R:3", "velo:R:3:id:I:1:map_shift:I:3");
+    let numbered = numbered.replace("0.5 0 0\n", "0.5 0 0 7 0 0 0\n").replace("0 0 1\n", "0 0 1 8 0 0 0\n");
+    let numbered = replaced(&numbered, "-0.5 0 0 7", "-0.5 0 0 9");
+    assert!(Place::of("init", &numbered).load("init", &[]).is_ok());
+    refused(
+        &replaced(&numbered, "0 0 1 8", "0 0 1 7"),
+        &[],
+        &["state.file: `init`: found particle 7 more than once; accepted: a number of its own for every particle"],
+    );
+    refused(
+        &replaced(&numbered, "0 0 1 8 0 0 0", "0 0 1 8 0 -2147483649 0"),
+        &[],
+        &[
+            "state.file: `init`, line 5: found images beyond 32 bits: [0, -2147483649, 0]; accepted: images from -2147483648 to \
+           2147483647",
+        ],
     );
     refused(
         &replaced(XYZ, "B 2 2 2", "B 2 7 2"),
@@ -525,7 +634,18 @@ fn boxes() {
         Place::of("init", replaced(LAMMPS, "-1 5 zlo zhi", "-1 5 zlo zhi\n0 0 0 xy xz yz")).load("init", &[]).is_ok()
     );
     let tilted = Place::of("init", replaced(XYZ, "0 5 0", "1 5 0")).problems("init", &[]);
-    assert!(tilted[0].contains("line 2: found a triclinic box"), "{tilted:?}");
+    assert!(
+        tilted[0].starts_with(
+            "state.file: `init`: found a triclinic box, whose copy above it along y is displaced by 1 along x; accepted: an orthogonal box; \
+             or `space.shear` with the `gradient` y"
+        ),
+        "{tilted:?}"
+    );
+    // Shear tilts one vector along x, and nothing else is taken.
+    for lattice in ["4 0 0 1 5 0 1 0 6", "4 0 0 0 5 0 0 1 6", "4 0 0 0 5 1 0 0 6", "4 1 0 0 5 0 0 0 6"] {
+        let tilted = Place::of("init", replaced(XYZ, "4 0 0 0 5 0 0 0 6", lattice)).problems("init", &[]);
+        assert!(tilted[0].contains("line 2: found a triclinic box (Lattice="), "{tilted:?}");
+    }
     refused(
         XYZ,
         &[("/space", json!({"box": [4, 5.1, 6]}))],
@@ -671,12 +791,17 @@ fn what_does_not_go_with_a_file() {
 
 /// A frame of GSD: two bonded particles, of which the second has its image at the end.
 fn gsd(path: &Path, image: i64, bond: u32, tilt: f32) {
+    gsd_with(path, [0.0; 3], image, bond, tilt);
+}
+
+/// The same with the first particle elsewhere.
+fn gsd_with(path: &Path, first: [f64; 3], image: i64, bond: u32, tilt: f32) {
     let mut file = GsdFile::create(path, "test", "hoomd", (1, 4)).unwrap();
     file.write_scalars("configuration/box", [4.0_f32, 5.0, 6.0, tilt, 0.0, 0.0]).unwrap();
     file.write_scalars("particles/N", [2_u32]).unwrap();
     file.write_arrays("particles/types", [[b'A', 0], [b'B', 0]]).unwrap();
     file.write_scalars("particles/typeid", [0_u32, 1]).unwrap();
-    file.write_arrays("particles/position", [[0.0_f64, 0.0, 0.0], [1.0, 1.0, 1.0]]).unwrap();
+    file.write_arrays("particles/position", [first, [1.0, 1.0, 1.0]]).unwrap();
     file.write_arrays("particles/velocity", [[0.5_f64, 0.0, 0.0], [-0.5, 0.0, 0.0]]).unwrap();
     file.write_arrays("particles/image", [[0_i64, 0, 0], [image, 0, 0]]).unwrap();
     file.write_scalars("bonds/N", [1_u32]).unwrap();
@@ -730,8 +855,21 @@ fn frames_of_gsd() {
           which has 2"
         ]
     );
+    let unbonded = [("/interactions", json!([]))];
+    gsd_with(&path, [0.5, f64::NAN, 0.0], 0, 1, 0.0);
+    let told = "with positions that are no finite numbers; accepted: finite numbers";
+    assert_eq!(place.problems("init.gsd", &unbonded), [format!("state.file: `init.gsd`: found particle 0 {told}")]);
     gsd(&path, 0, 1, 0.25);
-    assert!(place.problems("init.gsd", &[])[0].contains("frame 0: found a triclinic box (xy = 0.25, xz = 0, yz = 0)"));
+    // .25 of an edge of 5.
+    let tilted = place.problems("init.gsd", &[]);
+    assert!(
+        tilted[0].contains("found a triclinic box, whose copy above it along y is displaced by 1.25 along x"),
+        "{tilted:?}"
+    );
+    let sheared =
+        [("/space", json!({"box": [4, 5, 6], "shear": {"rate": 1, "gradient": "y"}})), ("/interactions", json!([]))];
+    let loaded = place.load("init.gsd", &sheared).unwrap();
+    assert!((loaded.space.shear.unwrap().displacement - 1.25).abs() < 1e-12);
     let mut file = GsdFile::create(&path, "test", "other", (1, 4)).unwrap();
     file.end_frame().unwrap();
     file.sync_all().unwrap();

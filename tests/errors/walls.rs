@@ -85,6 +85,8 @@ fn what_takes_no_walls() {
     CHANNEL.refused_with(&[langevin], &["space.walls: found together with a bath on every particle"]);
     CHANNEL
         .refused_with(&["particles.0.fixed=true"], &["space.walls: found together with particles[0], which are fixed"]);
+    let tethers = r#"interactions=[{"type":"dpd","repulsion":25},{"type":"tether","stiffness":3}]"#;
+    CHANNEL.refused_with(&[tethers], &["space.walls: found together with tethers in interactions[1]"]);
     for other in [r#"{"type":"voronoi","viscosity":1}"#, r#"{"type":"shallow-water","mesh":[16,16],"wave_speed":1}"#] {
         let changes = ["space.box=[10,10]", r#"space.walls={"y":{}}"#, &format!("interactions=[{other}]")];
         let problems = CHANNEL.problems(&changes);

@@ -7,7 +7,7 @@ use mesoscope::families::Model;
 use mesoscope::output::read_table;
 use mesoscope::plan::Options;
 use mesoscope::run::{Outcome, Simulation};
-use mesoscope::scene::Scene;
+use mesoscope::scene::{ProfiledQuantity, Scene};
 use mesoscope::shaders::Array;
 use mesoscope::table::Table;
 
@@ -29,6 +29,17 @@ fn sums_are_those_of_the_reported_particles() {
         fluid(&[PREDICTED, "space.box=[20,20]", r#"output.profiles={"axis":"y","bins":1024,"every":3}"#]),
         fluid(&[COTTER_REICH, MIXTURE, listed, r#"output.profiles={"axis":"x","bins":40,"every":3}"#]),
         cells(200, &[r#"output.profiles={"axis":"x","bins":9,"every":3}"#]),
+        fluid(&[
+            SPLITTING,
+            MIXTURE,
+            MIXTURE_FORCE,
+            r#"output.profiles={"axis":"y","bins":7,"every":3,"quantities":["stress"]}"#,
+        ]),
+        fluid(&[
+            PREDICTED,
+            "space.box=[20,20]",
+            r#"output.profiles={"axis":"x","bins":30,"every":3,"quantities":["stress"]}"#,
+        ]),
     ];
     for scene in scenes {
         let asked = scene.output.profiles.clone().unwrap();
@@ -49,7 +60,15 @@ fn sums_are_those_of_the_reported_particles() {
             reported.momenta.clone()
         };
         let (species, dimension) = (model.species.len(), model.units.dimension);
-        let width = species + dimension + 2;
+        // The virials of each particle, in the units of the sums; tests of the stress compare them with the reference.
+        let virials: Vec<f64> = if engine.plan().has_buffer(Array::ReportedStresses) {
+            engine.words(Array::ReportedStresses).unwrap().iter().map(|word| f64::from(*word as i32)).collect()
+        } else {
+            Vec::new()
+        };
+        let stress = species + dimension + 2;
+        let width = stress + if virials.is_empty() { 0 } else { 12 };
+        assert_eq!(virials.is_empty(), !asked.quantities.contains(&ProfiledQuantity::Stress));
         let mut expected = vec![0.0; asked.bins as usize * width];
         let masses = masses(&model, &reported.species, &reported.masses);
         for (id, (position, mass)) in reported.positions.iter().zip(masses).enumerate() {
@@ -61,6 +80,12 @@ fn sums_are_those_of_the_reported_particles() {
                 let momentum = f64::from(momenta[id][axis]);
                 sums[species + 1 + axis] += momentum;
                 sums[species + 1 + dimension] += momentum * momentum / mass;
+            }
+            for (component, (a, b)) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)].into_iter().enumerate() {
+                if let Some(own) = virials.get(12 * id..12 * id + 12) {
+                    sums[stress + component] += f64::from(momenta[id][a]) * f64::from(momenta[id][b]) / mass;
+                    sums[stress + 6 + component] += own[component] + own[6 + component];
+                }
             }
         }
         assert_eq!(sample.sums.len(), expected.len());
@@ -81,7 +106,15 @@ fn sums_are_those_of_the_reported_particles() {
                 place if place <= species + dimension => {
                     assert!((found - expected).abs() <= 1e-5 * typical, "{what}: {found} {expected}");
                 }
-                _ => assert!((found / units - expected).abs() <= 1e-6 * expected + 1.0 / units, "{what}: {found}"),
+                place if place < stress => {
+                    assert!((found / units - expected).abs() <= 1e-6 * expected + 1.0 / units, "{what}: {found}");
+                }
+                // Of the momentum across, parts of both signs cancel; each is rounded to single precision and to a unit.
+                place if place < stress + 6 => {
+                    let rounding = 1e-6 * typical * typical + f64::from(reported.len() as u32) / units;
+                    assert!((found / units - expected).abs() <= rounding, "{what}: {found} {expected}");
+                }
+                _ => assert_eq!(found, *expected, "{what}"),
             }
         }
     }
@@ -170,6 +203,24 @@ fn a_fluid_at_rest_is_uniform() {
         assert!(errors.iter().all(|error| *error < 2.0 * scatter && *error > 0.05 * scatter), "{column}: {errors:?}");
     }
     assert_eq!(image::image_dimensions(directory.path().join("profiles.png")).unwrap(), (640, 480));
+}
+
+/// One bin is the whole box, which does not flow.
+#[test]
+fn the_stress_of_one_bin_is_that_of_the_box() {
+    let scene = fluid(&[
+        "time.steps=60",
+        r#"output.stress={"every":10}"#,
+        r#"output.profiles={"axis":"x","bins":1,"every":10,"quantities":["stress"]}"#,
+    ]);
+    let directory = tempfile::tempdir().unwrap();
+    let (outcome, table) = run(scene, directory.path());
+    for component in ["xx", "yy", "zz", "xy", "xz", "yz"] {
+        let found = table.column(&format!("pressure_{component}")).unwrap()[0];
+        let expected = outcome.summary.results["stress"]["pressure"][component]["mean"].as_f64().unwrap();
+        // Sums of some 375 particles, each to single precision.
+        assert!((found - expected).abs() < 1e-4, "{component}: {found}, {expected}");
+    }
 }
 
 /// Whatever belongs to a bin, all bins together have the pressure tensor of the box, but for their mean flows.

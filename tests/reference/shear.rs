@@ -32,12 +32,13 @@ fn fluid(edges: &[f64], shear: &Value, integrator: &str, heavy: bool) -> Value {
     })
 }
 
-/// Boxes of many cells along the flow, of three, of one, and of three between the boundaries, and shear of either sign.
+/// Boxes of many cells along the flow, of three, of one, and of three between the boundaries, and shear of either sign, which may start
+/// displaced.
 fn boxes() -> Vec<(Vec<f64>, Value)> {
     vec![
         (vec![9.0, 7.0], json!({"rate": 0.7, "gradient": "y"})),
-        (vec![6.0, 4.0, 4.5], json!({"rate": -1.1, "flow": "x", "gradient": "y"})),
-        (vec![3.5, 4.0, 3.0], json!({"rate": 1.3, "gradient": "z"})),
+        (vec![6.0, 4.0, 4.5], json!({"rate": -1.1, "flow": "x", "gradient": "y", "displacement": 2.2})),
+        (vec![3.5, 4.0, 3.0], json!({"rate": 1.3, "gradient": "z", "displacement": -1.1})),
         (vec![2.5, 3.2, 5.0], json!({"rate": 0.9, "gradient": "z"})),
     ]
 }

@@ -146,3 +146,42 @@ fn stresses_in_shear_agree_with_the_reference() {
         agree(&scene, options, &format!("shear {integrator} {traversal:?}"));
     }
 }
+
+/// Between walls and under forces on single particles the stress is that of the pairs; friction of single particles and along bonds is split
+/// from the rest of a step.
+#[test]
+fn stresses_in_company_agree_with_the_reference() {
+    let dpd = json!({"type": "dpd", "repulsion": 25, "friction": 4.5});
+    let vector = |edges: &[f64], components: [f64; 3]| json!(components[..edges.len()]);
+    let pull = |edges: &[f64]| json!({"type": "body-force", "force": vector(edges, [0.3, 0.5, 0.2])});
+    let force = |edges: &[f64]| json!({"type": "body-force", "force": vector(edges, [0.7, 0.0, 0.0]), "profile": "opposed", "axis": "y"});
+    let langevin = json!({"type": "langevin", "friction": 1.5});
+    let rubbing =
+        json!({"type": "bonds", "potential": {"type": "harmonic", "stiffness": 40, "length": 0.6}, "friction": 3});
+    let angles = json!({"type": "angles", "stiffness": 6});
+    for (row, integrator) in INTEGRATORS.iter().enumerate() {
+        let edges = BOXES[row % 2];
+        let mut scene = scene(edges, integrator, &json!([dpd, pull(edges)]), false);
+        let walls = if row % 2 == 0 {
+            json!({"y": {"lower_velocity": [-1, 0]}})
+        } else {
+            json!({"z": {"reflection": "specular"}, "x": {}})
+        };
+        scene.space.walls = serde_json::from_value(walls).unwrap();
+        let traversals = traversals();
+        let traversal = Some(traversals[row / 2 % traversals.len()]);
+        agree(&scene, Options { traversal, ..Options::default() }, &format!("walls {integrator} {traversal:?}"));
+        let periodic = self::scene(edges, integrator, &json!([dpd, force(edges)]), false);
+        agree(&periodic, Options::default(), &format!("body forces {integrator}"));
+    }
+    for edges in BOXES {
+        for (name, interactions, chains) in [
+            ("langevin", json!([dpd, langevin]), false),
+            ("friction along bonds", json!([dpd, rubbing, angles]), true),
+            ("all of it", json!([dpd, langevin, rubbing, angles, pull(edges)]), true),
+        ] {
+            let scene = scene(edges, crate::support::SPLITTING, &interactions, chains);
+            agree(&scene, Options::default(), &format!("splitting with {name} {edges:?}"));
+        }
+    }
+}

@@ -5,7 +5,7 @@ use mesoscope::output::read_table;
 use mesoscope::run::Simulation;
 use mesoscope::scene::Scene;
 
-use crate::support::{Device, Implementation, adapter, fluid};
+use crate::support::{Device, INTEGRATORS, Implementation, adapter, fluid};
 
 const BINS: usize = 20;
 const EDGE: f64 = 10.0;
@@ -250,4 +250,65 @@ fn a_million_steps_between_walls() {
     }
     println!("| places | {ends:?} | highest | {largest:?} |");
     assert!([0, 2].iter().all(|axis| f64::from(largest[*axis]) > 0.999 * f64::from(ends[*axis])));
+}
+
+/// The same in every step of a hundred thousand, with each integrator.
+#[test]
+#[ignore = "minutes"]
+fn a_hundred_thousand_steps_between_walls_one_by_one() {
+    for integrator in INTEGRATORS {
+        let scene = fluid(&[
+            r#"space={"box":[3,4,3],"walls":{"x":{"reflection":"specular"},"z":{"lower_velocity":[0,-1,0],"upper_velocity":[0,1,0]}}}"#,
+            r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"body-force","force":[0.5,0.1,-0.3]}]"#,
+            integrator,
+            "time.step=0.02",
+            "temperature=2",
+            "output.energies.every=1000000",
+        ]);
+        let ends = Model::new(&scene).units.ends();
+        let mut run = Device::new(&scene);
+        let start = run.state();
+        let mut largest = [0; 3];
+        for _ in 0..100_000 {
+            run.step(1);
+            let state = run.state();
+            for axis in [0, 2] {
+                largest[axis] = state.positions.iter().map(|position| position[axis]).max().unwrap().max(largest[axis]);
+                assert!(largest[axis] < ends[axis], "{integrator}, step {}: behind a wall", state.step);
+            }
+            assert_eq!(state.exchanged_momentum(), start.total_momentum(), "{integrator}, step {}", state.step);
+        }
+        println!("| {integrator} | places | {ends:?} | highest | {largest:?} |");
+    }
+}
+
+/// Over a hundred thousand steps of a small box, hot and driven apart by halves, momentum less what forces have put in is one value; in a
+/// box of which each half holds as many particles on average, what they put in goes to and fro.
+#[test]
+#[ignore = "minutes"]
+fn momentum_under_opposed_forces_over_a_hundred_thousand_steps() {
+    for integrator in INTEGRATORS {
+        let scene = fluid(&[
+            "space.box=[3,4,5]",
+            r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+                {"type":"body-force","force":[1,0,0],"profile":"opposed","axis":"z"}]"#,
+            integrator,
+            "time.step=0.02",
+            "temperature=2",
+            "output.energies.every=1000000",
+        ]);
+        let model = Model::new(&scene);
+        let mut run = Device::new(&scene);
+        let start = run.state();
+        let mut most = 0_i64;
+        for _ in 0..200 {
+            run.step(500);
+            let state = run.state();
+            let put_in = state.total_momentum()[0] - start.total_momentum()[0];
+            most = most.max(put_in.abs());
+            assert_eq!(state.exchanged_momentum(), start.total_momentum(), "{integrator}, step {}", state.step);
+        }
+        println!("| {integrator} | most momentum that forces had put in | {:.1} |", most as f64 * model.units.momentum);
+        assert!(most > 1 << 20, "{most}");
+    }
 }

@@ -6,6 +6,7 @@ mod support;
 
 mod channels;
 mod many_body;
+mod micelles;
 mod phases;
 mod published;
 mod readers;

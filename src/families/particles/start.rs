@@ -5,7 +5,7 @@ use crate::document::{BondPotential, Interaction, Problem, Problems, Scene};
 use crate::families::start::bring_to_rest;
 use crate::families::{BathStep, Model, Particles};
 use crate::noise::{self, stream};
-use crate::state::{Account, State, WallImpulse};
+use crate::state::{Account, State, WallImpulse, sheared_copy};
 use std::collections::HashSet;
 
 /// Gives particles at their places what they start with.
@@ -82,6 +82,10 @@ pub(super) fn check_extents(scene: &Scene, model: &Model, state: &State, problem
     for bond in bonds.iter() {
         let Some((extent, length)) = finite(bond.kind) else { continue };
         let [a, b] = bond.ends.map(|end| state.positions[end as usize]);
+        let b = match &model.particles().shear {
+            Some(shear) => sheared_copy(a, b, (shear.gradient, shear.first_shift())),
+            None => b,
+        };
         let distance = model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt();
         if (distance - length).abs() >= extent && reported.insert(bond.kind) {
             let path = format!("interactions[{}].potential.extent", places[bond.kind as usize]);

@@ -31,6 +31,7 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
         warn_of_springs(scene, &mut warnings);
     }
     warn_of_loose_chains(scene, &mut warnings);
+    warn_of_long_molecules(scene, &mut warnings);
     warn_of_momentum(scene, &mut warnings);
     warnings
 }
@@ -140,6 +141,28 @@ fn in_one_place(count: usize) -> String {
         "{count} particles start where another one is: without a direction between them no force of a pair acts, and those that start \
          with the same velocity never part; put them some distance apart"
     )
+}
+
+/// Molecules that reach over half of the box touch their own images. Those without angles coil up as random walks do.
+fn warn_of_long_molecules(scene: &Scene, warnings: &mut Vec<Warning>) {
+    let half = 0.5 * scene.space.shortest_length();
+    for (index, molecule) in scene.molecules.iter().enumerate() {
+        let bonds = molecule.longest_way() as f64;
+        let (extent, shape) = if molecule.angles.is_empty() {
+            (bonds.sqrt() * molecule.spacing, "a coil")
+        } else {
+            (bonds * molecule.spacing, "stretched by its angles")
+        };
+        if extent > half {
+            let message = format!(
+                "a molecule with {bonds} bonds from end to end reaches over {} as {shape}, more than {}, half of the shortest edge of \
+                 the box, and may touch its own image: take a larger box",
+                brief(extent),
+                brief(half)
+            );
+            warn(warnings, format!("molecules[{index}]"), message);
+        }
+    }
 }
 
 /// Chains that no bond holds together are nothing but a way to place particles.

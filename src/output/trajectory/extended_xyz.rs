@@ -8,6 +8,8 @@
 //! - `masses`, `momenta`: as ASE has them, whose velocities are momenta over masses.
 //! - `map_shift`: how often the particle has gone round the box (OVITO's periodic image).
 //!
+//! Where boundaries shear, the second or the third vector of `Lattice` leans along x as far as they are displaced, and there is no `map_shift`.
+//!
 //! The comment line has the id of the run. All numbers are in the units of the scene. `Lattice` has three vectors in any
 //! dimension, and `pbc` says which are real.
 
@@ -15,6 +17,7 @@ use super::{Description, Format, Frames, elements};
 use crate::output::records::RecordFile;
 use crate::output::{Extent, Id, OutputError, files, id};
 use crate::state::State;
+use crate::state_file::FROZEN;
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
@@ -88,12 +91,15 @@ fn write_frame(text: &mut Vec<u8>, description: &Description, state: &State) -> 
     let names = words(description);
     let symbols = elements::symbols(&names.iter().map(String::as_str).collect::<Vec<_>>());
     let named = names != symbols;
+    let frozen = description.frozen_particles(state).map(|frozen| format!(" {FROZEN}={frozen}")).unwrap_or_default();
     writeln!(text, "{}", state.len())?;
+    let [_, second, third] = description.tilts(state.step);
     writeln!(
         text,
-        "Lattice=\"{x} 0 0 0 {y} 0 0 0 {z}\" \
-         Properties=species:S:1:pos:R:3:velo:R:3:masses:R:1:momenta:R:3:map_shift:I:3{} pbc=\"{periodic}\" Step={} \
-         Time={time} {}={}",
+        "Lattice=\"{x} 0 0 {second} {y} 0 {third} 0 {z}\" \
+         Properties=species:S:1:pos:R:3:velo:R:3:masses:R:1:momenta:R:3{}{} pbc=\"{periodic}\" Step={} \
+         Time={time} {}={}{frozen}",
+        if description.shear.is_none() { ":map_shift:I:3" } else { "" },
         if named { ":species_name:S:1" } else { "" },
         state.step,
         description.run.key(),
@@ -103,12 +109,21 @@ fn write_frame(text: &mut Vec<u8>, description: &Description, state: &State) -> 
         let species = state.species[particle] as usize;
         let mass = description.mass(state, particle);
         let velocity = description.velocity(state, particle);
-        let [x, y, z] = description.units.position(state.positions[particle]).map(|value| value as f32);
+        let mut position = description.units.position(state.positions[particle]);
+        if let Some((axis, edges)) = description.displaced(state.step) {
+            // Into the cell that leans.
+            let lean = edges * position[axis] / description.units.lengths[axis] * x;
+            position[0] = lean + (position[0] - lean).rem_euclid(x);
+        }
+        let [x, y, z] = position.map(|value| value as f32);
         let [u, v, w] = velocity.map(|value| value as f32);
         let [p, q, r] = velocity.map(|value| (mass * value) as f32);
-        let [i, j, k] = state.image(particle);
         let symbol = symbols[species];
-        write!(text, "{symbol} {x} {y} {z} {u} {v} {w} {} {p} {q} {r} {i} {j} {k}", mass as f32)?;
+        write!(text, "{symbol} {x} {y} {z} {u} {v} {w} {} {p} {q} {r}", mass as f32)?;
+        if description.shear.is_none() {
+            let [i, j, k] = state.image(particle);
+            write!(text, " {i} {j} {k}")?;
+        }
         if named {
             write!(text, " {}", names[species])?;
         }

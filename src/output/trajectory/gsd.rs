@@ -4,6 +4,8 @@
 //! which is written as a plane on which all particles have y = 0. Every frame has its step, its time (`log/time`) and the
 //! particles' images: position plus image times box is the way since the start. What never changes (box, types, masses,
 //! bonds, angles, the id of the run as the text `log/run_id`) is written in the first frame, from which readers take it for all others.
+//!
+//! Where boundaries shear, every frame has its box, whose tilt `xy` or `xz` says how far they are displaced, and no images.
 
 use super::{Description, Format, Frames};
 use crate::output::extent::Checksum;
@@ -11,6 +13,7 @@ use crate::output::temporary::Temporary;
 use crate::output::watch::Watch;
 use crate::output::{Extent, Id, OutputError, files};
 use crate::state::State;
+use crate::state_file::FROZEN_IN_GSD;
 use bytemuck::NoUninit;
 use hoomd_gsd::file_layer::{
     DecodeError, EncodeError, GsdFile, Mode, OpenError, ReadError, SyncError, Type, WriteError,
@@ -125,6 +128,9 @@ impl Frames for GsdTrajectory {
         description.check(&self.path, state)?;
         let first = self.empty;
         self.attempt(|file| {
+            if first || description.shear.is_some() {
+                write_box(file, description, state.step)?;
+            }
             if first {
                 write_constants(file, description, state)?;
             }
@@ -133,16 +139,22 @@ impl Frames for GsdTrajectory {
             }
             file.write_scalars("configuration/step", [state.step])?;
             file.write_scalars("log/time", [state.step as f64 * description.time_step])?;
-            let positions = state.positions.iter().map(|position| centred(description, *position).0);
+            let lean = description.displaced(state.step);
+            let positions = state.positions.iter().map(|position| match lean {
+                Some(lean) => leaning(description, *position, lean),
+                None => centred(description, *position).0,
+            });
             file.write_arrays("particles/position", positions)?;
             let velocities =
                 (0..state.len()).map(|particle| description.velocity(state, particle).map(|value| value as f32));
             file.write_arrays("particles/velocity", velocities)?;
-            let images = (0..state.len()).map(|particle| {
-                let (_, rounded) = centred(description, state.positions[particle]);
-                std::array::from_fn::<i32, 3, _>(|axis| state.image(particle)[axis] + rounded[axis])
-            });
-            file.write_arrays("particles/image", images)?;
+            if lean.is_none() {
+                let images = (0..state.len()).map(|particle| {
+                    let (_, rounded) = centred(description, state.positions[particle]);
+                    std::array::from_fn::<i32, 3, _>(|axis| state.image(particle)[axis] + rounded[axis])
+                });
+                file.write_arrays("particles/image", images)?;
+            }
             file.end_frame().map_err(|error| WriteError::Encode("frame".to_owned(), state.step, error))
         })?;
         self.empty = false;
@@ -181,18 +193,25 @@ fn write_masses(file: &mut GsdFile, description: &Description, state: &State) ->
     file.write_scalars("particles/mass", masses)
 }
 
-fn write_constants(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
-    let mut lengths = box_of(description).map(|length| length as f32);
-    let dimension = description.units.dimension.max(2);
-    if dimension == 2 {
+/// The box of a frame: its edges, and the tilts xy, xz and yz.
+fn write_box(file: &mut GsdFile, description: &Description, step: u64) -> Result<(), WriteError> {
+    let (mut lengths, [_, second, third]) = (box_of(description), description.tilts(step));
+    let [xy, xz] = [second / lengths[1], third / lengths[2]].map(|tilt| tilt as f32);
+    if description.units.dimension <= 2 {
         lengths[2] = 0.0;
     }
-    let [x, y, z] = lengths;
-    file.write_scalars("configuration/box", [x, y, z, 0.0, 0.0, 0.0])?;
-    file.write_scalars("configuration/dimensions", [dimension as u8])?;
+    let [x, y, z] = lengths.map(|length| length as f32);
+    file.write_scalars("configuration/box", [x, y, z, xy, xz, 0.0])
+}
+
+fn write_constants(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
+    file.write_scalars("configuration/dimensions", [description.units.dimension.max(2) as u8])?;
     file.write_scalars("particles/N", [state.len() as u32])?;
     file.write_arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
     file.write_scalars("particles/typeid", state.species.iter().copied())?;
+    if let Some(frozen) = description.frozen_particles(state) {
+        file.write_scalars(FROZEN_IN_GSD, [frozen as u32])?;
+    }
     file.write_scalars(RUN, description.run.to_string().into_bytes())?;
     write_links(file, &BONDS, &description.bonds)?;
     write_links(file, &ANGLES, &description.angles)
@@ -258,6 +277,16 @@ fn centred(description: &Description, position: [u32; 3]) -> ([f32; 3], [i32; 3]
     (centred, images)
 }
 
+/// The position relative to the centre of a box that leans along x with an axis, by some edges over its length: in that box.
+fn leaning(description: &Description, position: [u32; 3], (axis, edges): (usize, f64)) -> [f32; 3] {
+    let (mut centred, _) = centred(description, position);
+    let part = |axis: usize| f64::from((position[axis] ^ 0x8000_0000) as i32) / 4_294_967_296.0;
+    let upright = part(0) - edges * part(axis);
+    let upright = upright - (upright + 0.5).floor();
+    centred[0] = ((upright + edges * part(axis)) * description.units.lengths[0]) as f32;
+    centred
+}
+
 /// The bytes of a name, cut between characters if it is too long.
 fn type_name(name: &str) -> [i8; NAME] {
     let end = (0..NAME.min(name.len() + 1)).rev().find(|end| name.is_char_boundary(*end)).unwrap_or(0);
@@ -302,6 +331,7 @@ fn visit(path: &Path, file: &GsdFile, frame: u64, visitor: &mut impl Chunks) -> 
     chunk!(scalars u32, "particles/N");
     chunk!(arrays i8, NAME, "particles/types");
     chunk!(scalars u32, "particles/typeid");
+    chunk!(scalars u32, FROZEN_IN_GSD);
     chunk!(scalars u8, RUN);
     chunk!(scalars u32, BONDS.count);
     chunk!(arrays i8, NAME, BONDS.types);
@@ -510,6 +540,7 @@ mod tests {
             mass_unit: None,
             specific_momenta: false,
             changing_masses: false,
+            shear: None,
             bonds: Vec::new(),
             angles: Vec::new(),
         };

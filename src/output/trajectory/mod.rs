@@ -5,7 +5,7 @@ mod extended_xyz;
 mod gsd;
 
 use super::{Extent, Id, OutputError, files};
-use crate::families::{Angles, Bonds, Model, Species};
+use crate::families::{Angles, Bonds, Model, ShearedBox, Species};
 use crate::scene::TrajectoryFormat;
 use crate::state::{State, Units};
 use std::fmt::Debug;
@@ -103,6 +103,8 @@ struct Description {
     specific_momenta: bool,
     /// Whether particles exchange mass.
     changing_masses: bool,
+    /// Boundaries that shear, if there are any, and half steps since the step began at which its frame has the particles.
+    shear: Option<(ShearedBox, u64)>,
     /// Numbers of bonded particles and kind of the bond.
     bonds: Vec<([u32; 2], u32)>,
     /// The same of angles.
@@ -119,6 +121,7 @@ impl Description {
             mass_unit: model.physics().mass_unit(),
             specific_momenta: model.physics().has_specific_momenta(),
             changing_masses: model.physics().changes_masses(),
+            shear: model.particles().shear.map(|shear| (shear, u64::from(model.particles().splits(model)))),
             bonds: model
                 .particles()
                 .bonds
@@ -152,6 +155,29 @@ impl Description {
     fn velocity(&self, state: &State, particle: usize) -> [f64; 3] {
         let mass = if self.specific_momenta { 1.0 } else { self.mass(state, particle) };
         self.units.momentum(state.momenta[particle]).map(|momentum| momentum / mass)
+    }
+
+    /// The axis across which boundaries shear, and how far the copy of the box above is displaced along x at a step, in edges from -½ to ½:
+    /// a shorter vector of the cell does for the same copies.
+    fn displaced(&self, step: u64) -> Option<(usize, f64)> {
+        let (shear, halves) = self.shear.as_ref()?;
+        let shift = shear.shift(step.wrapping_mul(2).wrapping_add(*halves)).cast_signed();
+        Some((shear.gradient, f64::from(shift) / 4_294_967_296.0))
+    }
+
+    /// The components along x of the second and the third vector of the cell.
+    fn tilts(&self, step: u64) -> [f64; 3] {
+        let mut tilts = [0.0; 3];
+        if let Some((axis, edges)) = self.displaced(step) {
+            tilts[axis] = edges * self.units.lengths[0];
+        }
+        tilts
+    }
+
+    /// Particles in layers behind walls, if there are any.
+    fn frozen_particles(&self, state: &State) -> Option<usize> {
+        let frozen = state.species.iter().filter(|species| self.species[**species as usize].frozen).count();
+        (frozen > 0).then_some(frozen)
     }
 
     /// Frames index the arrays of a state by particle and the species by the state: both must fit.

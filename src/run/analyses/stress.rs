@@ -89,7 +89,7 @@ impl Descriptor for Stress {
         let Some(asked) = &scene.output.stress else { return Vec::new() };
         let found = [
             (SURFACE_TENSION, asked.normal.is_some()),
-            (SHEARED, model.particles().shear.is_some()),
+            (SHEARED, sheared(model).is_some()),
             (VISCOSITY, asked.window.is_some()),
         ];
         found.into_iter().filter(|(_, is_found)| *is_found).map(|(name, _)| name).collect()
@@ -115,6 +115,12 @@ struct Tensors {
     samples: Vec<[f64; KEPT]>,
 }
 
+/// The shear rate, and the component of the stress that it makes. Boundaries that are displaced and at rest have none.
+fn sheared(model: &Model) -> Option<(f64, usize)> {
+    let shear = model.particles().shear.filter(|shear| shear.velocity != 0.0)?;
+    Some((shear.rate(model), shear.gradient + 2))
+}
+
 impl Tensors {
     fn new(setting: &Setting<'_>, asked: &scene::Stress) -> Self {
         let (model, plan) = (setting.model, setting.plan);
@@ -125,7 +131,7 @@ impl Tensors {
             volume: model.units.volume(),
             temperature: model.temperature,
             length: asked.normal.map_or(0.0, |axis| model.units.lengths[axis as usize]),
-            shear: model.particles().shear.map(|shear| (shear.rate(model), shear.gradient + 2)),
+            shear: sheared(model),
             units: [plan.quanta.energy, plan.stress_unit, plan.stress_unit],
             samples: Vec::new(),
         }

@@ -4,7 +4,7 @@ use crate::families::{Angles, Bonds, Family, Model};
 use crate::scene::{FileStart, Scene, parse_kept};
 use crate::state::{State, StateArray};
 use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
-use crate::state_file::{Links, Mistake, ParticleFile, open_regular_file};
+use crate::state_file::{Links, Mistake, ParticleFile, frozen_layers, open_regular_file};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -64,6 +64,9 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
     if state.len() as u64 != model.particle_count() || (0..state.len()).any(|particle| species(particle).is_none()) {
         return Err(damaged("its particles are not those of its scene"));
     }
+    if model.has_frozen_particles() {
+        return Err(frozen_layers("", model.frozen_particles()));
+    }
     let mass = |particle: usize| species(particle).map_or(1.0, |species| species.mass);
     let velocity = |particle: usize| model.units.momentum(state.momenta[particle]).map(|part| part / mass(particle));
     let mut unused: Vec<String> = Vec::new();
@@ -79,6 +82,7 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
         masses: model.species.iter().map(|species| Some(species.mass)).collect(),
         dimension: Some(model.units.dimension),
         lengths: Some(model.units.edges()),
+        displacements: displacements(&model, state.step),
         positions: state.positions.iter().map(|position| model.units.position(*position)).collect(),
         velocities: (0..state.len()).map(velocity).collect(),
         images: state.images.clone(),
@@ -91,6 +95,16 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
         unused,
         ..ParticleFile::default()
     })
+}
+
+/// How far copies of the box above it are displaced along x after so many steps.
+fn displacements(model: &Model, step: u64) -> [f64; 3] {
+    let mut displacements = [0.0; 3];
+    if let Some(shear) = &model.particles().shear {
+        let boxes = f64::from(shear.shift(step.wrapping_mul(2))) / 4_294_967_296.0;
+        displacements[shear.gradient] = boxes * model.units.lengths[0];
+    }
+    displacements
 }
 
 /// What another run cannot take from an array of a state.

@@ -175,7 +175,12 @@ impl Reader<'_> {
     fn adopt(&mut self, scene: &mut Scene, masses: &[bool]) {
         let Some(lengths) = self.adopt_box(scene) else { return };
         let dimension = scene.space.lengths.len();
+        if !self.adopt_displacement(scene) {
+            return;
+        }
         let walled = scene.space.walls.of_axes().map(|walls| walls.is_some());
+        let sheared = scene.space.shear.as_ref();
+        let sheared = sheared.map(|shear| (shear.gradient as usize, shear.first_shift(&scene.space.lengths)));
         refuse(self.state, self.file.mistakes_between(dimension, lengths, walled), &mut self.problems);
         if self.state.velocities == StateVelocities::File {
             refuse(self.state, self.file.mistakes_of_velocities(dimension), &mut self.problems);
@@ -208,7 +213,8 @@ impl Reader<'_> {
         self.note_what_is_not_used(scene, dimension);
         self.note_missing_masses(scene, masses, &species);
         let species_of_scene = SpeciesNames::of(scene).count();
-        let start = places::start(self.file, self.state, &species, (dimension, walled), lengths, species_of_scene);
+        let start =
+            places::start(self.file, self.state, &species, (dimension, walled, sheared), lengths, species_of_scene);
         self.check_order(scene, &start);
         self.adopt_checksum(scene);
         scene.kept = KeptStart::of(shared(start));
@@ -248,6 +254,41 @@ impl Reader<'_> {
             }
         }
         self.problems.is_empty().then_some(lengths)
+    }
+
+    /// How far boundaries that shear are displaced, which is where those of the file are. Copies would be displaced past each other.
+    fn adopt_displacement(&mut self, scene: &mut Scene) -> bool {
+        let edge = scene.space.lengths[0];
+        let found = |axis: usize| self.file.displacements[axis];
+        let gradient = scene.space.shear.as_ref().map(|shear| shear.gradient as usize);
+        if let Some(axis) = (0..3).find(|axis| found(*axis) != 0.0 && gradient != Some(*axis)) {
+            let name = ["x", "y", "z"][axis];
+            let found = format!(
+                "`{}`: found a triclinic box, whose copy above it along {name} is displaced by {} along x",
+                self.state.file,
+                found(axis)
+            );
+            let accepted = format!(
+                "an orthogonal box; or `space.shear` with the `gradient` {name}, at a `rate` of 0 if the copy stays there"
+            );
+            self.push("state.file", found, accepted);
+            return false;
+        }
+        let Some(shear) = &mut scene.space.shear else { return true };
+        let of_file = self.file.displacements[shear.gradient as usize];
+        if shear.displacement == 0.0 {
+            shear.displacement = of_file;
+        }
+        let displacement = shear.displacement;
+        let apart = (displacement - of_file) / edge;
+        if (apart - apart.round()).abs() > ROUNDING {
+            let accepted = format!("{of_file}, as in `{}`, or no `displacement`", self.state.file);
+            self.push("space.shear.displacement", format!("found {displacement}"), accepted);
+        } else if displacement != 0.0 && number_of_copies(self.state.copies()) > 1 {
+            let found = format!("found copies of a box whose boundaries are displaced by {displacement}");
+            self.push("state.replicate", found, "one copy");
+        }
+        self.problems.is_empty()
     }
 
     /// The species of the scene for each one of the file that has particles.

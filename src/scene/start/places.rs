@@ -2,17 +2,18 @@
 
 use super::{FileStart, StateFile, StateVelocities};
 use crate::document::{FileLinks, FilePlaces};
-use crate::state::crossings;
+use crate::state::{crossings, sheared_copy};
 use crate::state_file::{Links, ParticleFile};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What a scene keeps of a file without mistakes, in whose box of these edges all particles are; of the dimensions some may have walls.
+/// What a scene keeps of a file without mistakes, in whose box of these edges all particles are; of the dimensions some may have
+/// walls, and across one the copy of the box may be displaced along x, in 2⁻³² of the box.
 pub(super) fn start(
     file: &ParticleFile,
     state: &StateFile,
     species: &[Option<u8>],
-    (dimension, walled): (usize, [bool; 3]),
+    (dimension, walled, sheared): (usize, [bool; 3], Option<(usize, u32)>),
     lengths: [f64; 3],
     species_of_scene: usize,
 ) -> FileStart {
@@ -45,7 +46,7 @@ pub(super) fn start(
     };
     let images =
         if copies == [1; 3] { file.images.iter().zip(&file.positions).map(image).collect() } else { Vec::new() };
-    let of_box = Cell { positions: &positions, species: &species, lengths, dimension, copies };
+    let of_box = Cell { positions: &positions, species: &species, lengths, dimension, copies, sheared };
     let bonds = file.bonds.iter().map(|links| of_box.links(links)).collect();
     let angles = file.angles.iter().map(|links| of_box.links(links)).collect();
     let tethers = fractions(&file.tethers);
@@ -77,6 +78,7 @@ struct Cell<'a> {
     lengths: [f64; 3],
     dimension: usize,
     copies: [u32; 3],
+    sheared: Option<(usize, u32)>,
 }
 
 impl Cell<'_> {
@@ -114,8 +116,10 @@ impl Cell<'_> {
 
     /// The shortest distance of two particles.
     fn distance(&self, a: usize, b: usize) -> f64 {
+        let [a, b] = [a, b].map(|particle| self.positions[particle]);
+        let b = self.sheared.map_or(b, |sheared| sheared_copy(a, b, sheared));
         let apart = (0..self.dimension).map(|axis| {
-            let turns = self.positions[a][axis].wrapping_sub(self.positions[b][axis]).cast_signed();
+            let turns = a[axis].wrapping_sub(b[axis]).cast_signed();
             f64::from(turns) * self.lengths[axis] / 4_294_967_296.0
         });
         apart.map(|part| part * part).sum::<f64>().sqrt()
@@ -143,6 +147,9 @@ pub(super) fn checksum(file: &ParticleFile) -> String {
         add("tethers", bytemuck::cast_slice(&file.tethers));
     }
     let masses: Vec<f64> = file.masses.iter().map(|mass| mass.unwrap_or(0.0)).collect();
+    if file.displacements != [0.0; 3] {
+        add("displacements", bytemuck::cast_slice(&file.displacements));
+    }
     add("masses", bytemuck::cast_slice(&masses));
     for links in &file.bonds {
         add(&links.name, bytemuck::cast_slice(&links.members));

@@ -22,6 +22,9 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     if !shear.rate.is_finite() {
         refuse("space.shear.rate", format!("found {}", shear.rate), "a finite number");
     }
+    if !shear.displacement.is_finite() {
+        refuse("space.shear.displacement", format!("found {}", shear.displacement), "a finite number");
+    }
     let dimension = scene.space.lengths.len();
     if shear.flow != Axis::X {
         let found = format!("found \"{}\"", shear.flow.name());
@@ -86,7 +89,6 @@ fn check_output(output: &Output, refuse: &mut impl FnMut(&str, String, &str)) {
     let paths = "follows paths of particles, whose copies move past each other";
     let distances = "finds pairs further than the cutoff round a box at rest";
     let analyses = [
-        ("trajectory", output.trajectory.is_some(), paths),
         ("diffusion", output.diffusion.is_some(), paths),
         ("radial_distribution", output.radial_distribution.is_some(), distances),
         ("chain_sizes", output.chain_sizes.is_some(), "adds up bonds round a box at rest"),

@@ -1,6 +1,6 @@
 //! Shear in numbers: by how much boundaries are displaced, and what a particle's momentum changes by where it crosses one.
 
-use crate::document::Scene;
+use crate::document::{Scene, Shear};
 use crate::families::Model;
 
 /// Periodic boundaries that move along x past each other.
@@ -12,18 +12,21 @@ pub struct ShearedBox {
     pub velocity: f64,
     /// What the displacement grows by in half a time step, in 2⁻⁶⁴ of the box.
     increment: u64,
+    /// The displacement at the start, in 2⁻³² of the box.
+    first: u32,
 }
 
 impl ShearedBox {
-    /// That of a scene; none at a rate of zero.
+    /// That of a scene; none at a rate of zero, unless boundaries are displaced.
     pub(crate) fn of(scene: &Scene) -> Option<Self> {
-        let shear = scene.space.shear.as_ref().filter(|shear| shear.rate != 0.0)?;
+        let is_there = |shear: &&Shear| shear.rate != 0.0 || shear.first_shift(&scene.space.lengths) != 0;
+        let shear = scene.space.shear.as_ref().filter(is_there)?;
         let gradient = shear.gradient as usize;
         let edge = |axis: usize| scene.space.lengths.get(axis).copied().unwrap_or(1.0);
         let velocity = shear.rate * edge(gradient);
         let boxes = (0.5 * scene.time.step * velocity / edge(0)).fract();
         let increment = (boxes * 2_f64.powi(64)).round_ties_even() as i128 as u64;
-        Some(Self { gradient, velocity, increment })
+        Some(Self { gradient, velocity, increment, first: shear.first_shift(&scene.space.lengths) })
     }
 
     /// How far the copy of the box above it is displaced along x after some halves of time steps, in 2⁻³² of the box: exactly, after any
@@ -42,7 +45,13 @@ impl ShearedBox {
     /// ```
     #[must_use]
     pub fn shift(&self, halves: u64) -> u32 {
-        (halves.wrapping_mul(self.increment) >> 32) as u32
+        self.first.wrapping_add((halves.wrapping_mul(self.increment) >> 32) as u32)
+    }
+
+    /// How far it is displaced at the start, in the same unit.
+    #[must_use]
+    pub fn first_shift(&self) -> u32 {
+        self.first
     }
 
     /// The low and the high word of what the displacement grows by in half a time step.

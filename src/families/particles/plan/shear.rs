@@ -45,6 +45,7 @@ pub(super) fn add_constants(model: &Model, parts: u8, entries_before: Option<usi
         (Constant::ShearStride, f64::from(rows_of_a_layer)),
         (Constant::ShearLow, f64::from(low)),
         (Constant::ShearHigh, f64::from(high)),
+        (Constant::ShearFirst, f64::from(shear.first_shift())),
         moment(0),
         (Constant::ShearPart, 2.0 / f64::from(parts)),
         match entries_before {
