@@ -32,8 +32,8 @@ const ALIVE: u64 = u64::MAX;
 
 /// Time for the answer of a rank that waits.
 const GRACE: Duration = Duration::from_secs(1);
-/// Of several ranks that miss the same one, the first speaks and ends all before the turn of the next.
-const TURN: Duration = Duration::from_millis(500);
+/// Of several ranks that miss the same one, the first speaks and ends all before the turn of the next: launchers take a second.
+const TURN: Duration = Duration::from_secs(2);
 const TURNS: u32 = 4;
 
 /// A message is sent in pieces of at most so many bytes: MPI counts in 32 bits.
@@ -138,7 +138,11 @@ fn head_of(message: Message) -> [u64; 2] {
 impl Line {
     /// Ends all ranks: who does not answer would not hear of anything else.
     fn lose(&self, rank: u32) -> ! {
-        thread::sleep(TURN * self.world.rank().cast_unsigned().min(TURNS));
+        let turn = TURN * self.world.rank().cast_unsigned().min(TURNS);
+        let _: Option<()> = wait_for(turn, || {
+            self.answer_questions();
+            None
+        });
         (self.alarm)(&format!("rank {rank} has not answered for {} s", self.patience.as_secs()));
         self.world.abort(LOST)
     }
@@ -165,7 +169,7 @@ impl Line {
         })
     }
 
-    /// Waits for something that depends on a rank: twice, if that waits as well, for the one that it waits for may be lost.
+    /// Waits for something that depends on a rank: twice, if that waits as well, until whoever waits for the one that is lost has spoken.
     fn wait_for<T>(&self, rank: u32, mut attempt: impl FnMut() -> Option<T>) -> T {
         let mut attempt = || {
             attempt().or_else(|| {
@@ -181,7 +185,7 @@ impl Line {
             answer.map_or_else(
                 |(message, _)| {
                     let _ = head_of(message);
-                    wait_for(self.patience, &mut attempt)
+                    wait_for(self.patience + GRACE + TURN * (TURNS + 1), &mut attempt)
                 },
                 Some,
             )

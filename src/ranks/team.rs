@@ -71,8 +71,7 @@ impl<'a> Team<'a> {
         team.introduce(0, introduction);
         team.upload(state)?;
         if !mixed && !computes_alike(&team.ranks) {
-            let reason =
-                format!("the ranks compute differently: from the same state they get{}", remedy(&team.ranks));
+            let reason = format!("the ranks compute differently: from the same state they get{}", remedy(&team.ranks));
             return Err(EngineError::Ranks { reason });
         }
         Ok(team)
