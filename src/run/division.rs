@@ -194,15 +194,15 @@ pub struct Share {
     pub most: u32,
 }
 
-/// Seconds that an exchange takes however little it brings, and bytes a second from a device to its host (PCIe 4, in each direction) and
-/// from host to host (100 Gb/s).
+/// Seconds that an exchange takes however little it brings, and bytes a second from a device to its host (PCI Express 4, in each
+/// direction) and from host to host (100 Gb/s).
 const FIXED: f64 = 150e-6;
 const TO_HOST: f64 = 22e9;
 const BETWEEN_HOSTS: f64 = 12.5e9;
 
 impl Share {
-    /// How many times as fast as one rank so many are, if that takes so many seconds a step: with an adapter each, PCIe 4, a network of
-    /// 100 Gb/s, and exchanges that do not overlap with anything.
+    /// How many times as fast as one rank so many are, if that takes so many seconds a step: with an adapter each, PCI Express 4, a
+    /// network of 100 Gb/s, and exchanges that do not overlap with anything.
     ///
     /// ```
     /// use mesoscope::run::Share;

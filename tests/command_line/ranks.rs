@@ -94,7 +94,7 @@ fn what_is_not_shared_is_told_with_what_is() {
         ("coloured-noise", &[], "coloured noise: on one rank only"),
         ("dpd-fluid", &["integrator.type=cotter-reich", fixed], "fixed particles: on one rank only"),
         ("dpd-fluid", &["integrator.type=cotter-reich", memory], "baths with memory: on one rank only"),
-        ("dpd-fluid", &["space.box=[40]"], "particles on a line: on one rank only"),
+        ("dpd-fluid", &["integrator.type=cotter-reich", "space.box=[40]"], "particles on a line: on one rank only"),
         ("langevin-gas", &[], "on one rank only"),
         ("gle-oscillator", &[], "on one rank only"),
         ("dpd-fluid", &[r#"output.stress={"every":10}"#], "`output.stress` is measured on one device"),
@@ -126,18 +126,22 @@ fn wrong_numbers_of_ranks_are_refused() {
 #[test]
 fn particles_may_all_be_with_one_rank() {
     let place = |number: usize, spacing: f64| 0.2 + spacing * number as f64;
-    let positions: Vec<[f64; 3]> = (0..3136)
-        .map(|number| [place(number % 14, 0.56), place(number / 14 % 14, 0.56), place(number / 196, 0.48)])
+    let positions: Vec<[f64; 3]> = (0..8000)
+        .map(|number| [place(number % 20, 0.58), place(number / 20 % 20, 0.58), place(number / 400, 0.58)])
         .collect();
     let place = Place::of(json!({
-        "title": "one half", "space": {"box": [8, 8, 24]}, "time": {"step": 0.005, "steps": 12}, "temperature": 1,
-        "particles": [{"species": "A", "count": 3136, "placement": {"type": "listed", "positions": positions}}],
+        "title": "one part",
+        "integrator": {"type": "groot-warren"},
+        "space": {"box": [12, 12, 48]},
+        "time": {"step": 0.005, "steps": 12},
+        "temperature": 1,
+        "particles": [{"species": "A", "count": 8000, "placement": {"type": "listed", "positions": positions}}],
         "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
         "output": {"energies": {"every": 3}, "plot": {"width": 320, "height": 240}, "snapshot": {"width": 100, "height": 80}},
     }));
     place.run("alone", &["--quiet"]);
     let (scene, out) = (place.scene(), place.argument("shared"));
-    let (_, told) = succeeds_and_tells(&["run", &scene, "--out", &out, "--ranks", "1,1,3"]);
+    let (_, told) = succeeds_and_tells(&["run", &scene, "--out", &out, "--ranks", "1,1,4"]);
     assert!(told.contains("continuing from step 0 with more memory"), "{told}");
     for name in [files::ENERGIES, files::CHECKPOINT, files::SNAPSHOT] {
         assert!(bytes(&place.path("alone").join(name)) == bytes(&place.path("shared").join(name)), "{name}");

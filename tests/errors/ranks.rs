@@ -13,7 +13,7 @@ use mesoscope::run::{self, Event, Outcome, RunError, Simulation};
 use mesoscope::scene::Scene;
 use tempfile::TempDir;
 
-use crate::support::program::results;
+use crate::support::program::{results, text};
 use crate::support::{GROOT_WARREN, adapter, fluid, gpu, hardware, start};
 
 const TWO: Division = Division { parts: [1, 1, 2] };
@@ -24,7 +24,7 @@ fn scene() -> Scene {
 }
 
 /// What is done to a message.
-type Change = fn(String) -> String;
+type Change = fn(&str) -> String;
 
 /// One of two ranks.
 struct Rank {
@@ -66,13 +66,13 @@ impl Channel for Line<'_> {
     fn listen(&mut self) -> Result<Vec<u8>, String> {
         let message = self.0.channel.borrow_mut().listen()?;
         let is_call = message.starts_with(b"{\"Share\"");
-        Ok(if is_call { (self.0.heard)(String::from_utf8(message).unwrap()).into_bytes() } else { message })
+        Ok(if is_call { (self.0.heard)(text(&message)).into_bytes() } else { message })
     }
 
     fn answer(&mut self, message: &[u8]) -> Result<(), String> {
         let end = message.iter().position(|byte| *byte == b'\n').unwrap();
         let (line, rest) = message.split_at(end);
-        let line = (self.0.said)(String::from_utf8(line.to_vec()).unwrap());
+        let line = (self.0.said)(text(line));
         self.0.channel.borrow_mut().answer(&[line.as_bytes(), rest].concat())
     }
 
@@ -103,25 +103,25 @@ fn share(simulation: Simulation, changes: [Change; 2]) -> (Result<Outcome, RunEr
     (ended, warnings)
 }
 
-fn same(message: String) -> String {
-    message
+fn same(message: &str) -> String {
+    message.to_owned()
 }
 
 /// As a driver does that rounds another way: forces differ in the last digits that count.
-fn stiffer(call: String) -> String {
+fn stiffer(call: &str) -> String {
     let stiffer = call.replace("\"repulsion\":25.0", "\"repulsion\":25.00001");
     assert_ne!(stiffer, call);
     stiffer
 }
 
 /// Says that it computes something else.
-fn unlike(answer: String) -> String {
-    let Some((before, after)) = answer.split_once("\"arithmetic\":") else { return answer };
+fn unlike(answer: &str) -> String {
+    let Some((before, after)) = answer.split_once("\"arithmetic\":") else { return answer.to_owned() };
     let digits = after.find(|letter: char| !letter.is_ascii_digit()).unwrap();
     format!("{before}\"arithmetic\":7{}", &after[digits..])
 }
 
-fn newer(call: String) -> String {
+fn newer(call: &str) -> String {
     call.replacen(concat!("\"version\":\"", env!("CARGO_PKG_VERSION")), "\"version\":\"99", 1)
 }
 

@@ -272,7 +272,7 @@ fn a_panic_of_a_rank_ends_all() {
 fn a_first_rank_that_stops_while_it_writes_ends_all() {
     let run = Run::of(100_000, &["--set", "output.checkpoint.every=1"]);
     let directory = run.directory("out");
-    let mut child = impatient(run.command(3, "out")).spawn().unwrap();
+    let mut child = impatient(run.command(4, "out")).spawn().unwrap();
     under_way(&run, "out", &mut child, Duration::ZERO);
     let first = rank(&directory, 0).unwrap();
     let begun = Instant::now();
