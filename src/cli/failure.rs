@@ -144,6 +144,7 @@ fn exit_code(error: &RunError) -> u8 {
         RunError::Scene(SceneError::Read { .. } | SceneError::StateChanged { .. }) => 5,
         // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
         RunError::Scene(_)
+        | RunError::Unshared { .. }
         | RunError::Undividable { .. }
         | RunError::Plot { source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, .. } => 2,
         RunError::Gpu(_) | RunError::TooLarge { .. } | RunError::Plot { .. } | RunError::Engine(_) => 3,

@@ -29,6 +29,7 @@ pub fn share(choice: &AdapterChoice, work: Work<'_>) -> Result<(), Failure> {
         abort(101);
     }));
     let rank = world.rank();
+    panic_if_asked(rank);
     if rank > 0 {
         // Requests to stop are for the first.
         let _ = super::interruption::interrupt();
@@ -38,6 +39,16 @@ pub fn share(choice: &AdapterChoice, work: Work<'_>) -> Result<(), Failure> {
     run::dismiss(&world)?;
     done
 }
+
+/// What the test of the hook asks for.
+#[cfg(all(feature = "mpi", debug_assertions))]
+fn panic_if_asked(rank: u32) {
+    let asked = std::env::var("MESOSCOPE_TEST_PANIC").is_ok_and(|asked| asked == rank.to_string());
+    assert!(!asked, "asked to panic");
+}
+
+#[cfg(all(feature = "mpi", not(debug_assertions)))]
+fn panic_if_asked(_: u32) {}
 
 /// The same of a program that was built without MPI: copies have been refused.
 #[cfg(not(feature = "mpi"))]

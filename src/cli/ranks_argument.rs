@@ -7,7 +7,7 @@ use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Ranks};
 use mesoscope::scene::Scene;
 
-use super::{AdapterArgument, Failure, line};
+use super::{AdapterArgument, Failure, launcher, line};
 
 /// How many ranks.
 #[derive(Debug, clap::Args)]
@@ -51,10 +51,9 @@ impl RanksArgument {
         processes: Option<&dyn Processes>,
     ) -> Result<Option<Division>, Failure> {
         let copies = processes.map(Processes::count);
-        let alike = copies.unwrap_or_else(|| adapter.alike());
         let ranks = match &self.ranks {
             None if copies.is_none() => return Ok(None),
-            None | Some(Asked::Auto) => Ranks::Count(alike),
+            None | Some(Asked::Auto) => Ranks::Count(copies.unwrap_or_else(|| adapter.alike())),
             Some(Asked::Count(count)) => Ranks::Count(*count),
             Some(Asked::Along(along)) => {
                 let dimension = scene.space.lengths.len();
@@ -77,15 +76,22 @@ impl RanksArgument {
                 division.ranks()
             )));
         }
-        if division.ranks() > alike {
-            line(&format!(
-                "warning: {} ranks share {alike} {}: they take turns on it",
-                division.ranks(),
-                if alike == 1 { "adapter" } else { "adapters" }
-            ));
+        // Of processes only those of this machine are known.
+        let here = if copies.is_some() { launcher::local_copies() as u32 } else { division.ranks() };
+        if division.ranks() > 1
+            && let Some(warning) = crowding(here, adapter.alike())
+        {
+            line(&format!("warning: {warning}"));
         }
         Ok((division.ranks() > 1).then_some(division))
     }
+}
+
+/// That ranks on this machine have to share adapters, if they have.
+fn crowding(ranks: u32, adapters: u32) -> Option<String> {
+    let those =
+        if adapters == 1 { "adapter of this machine: they take turns on it" } else { "adapters of this machine" };
+    (ranks > adapters).then(|| format!("{ranks} ranks share {adapters} {those}"))
 }
 
 impl AdapterArgument {
@@ -105,7 +111,17 @@ impl AdapterArgument {
 
 #[cfg(test)]
 mod tests {
-    use super::{Asked, asked};
+    use super::{Asked, asked, crowding};
+
+    #[test]
+    fn ranks_that_share_adapters_are_told() {
+        assert_eq!((crowding(4, 4), crowding(1, 2)), (None, None));
+        assert!(
+            crowding(2, 1)
+                .is_some_and(|told| told.starts_with("2 ranks share 1 adapter of") && told.ends_with("on it"))
+        );
+        assert!(crowding(8, 4).is_some_and(|told| told.starts_with("8 ranks share 4 adapters of")));
+    }
 
     #[test]
     fn ranks_are_a_number_or_one_for_each_axis() {

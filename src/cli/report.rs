@@ -40,6 +40,7 @@ pub fn execute(
     let result = simulation.execute_among(processes, choice, &mut |event| reporter.show(event));
     reporter.clear();
     let outcome = result?;
+    known.append(&mut reporter.told);
     for warning in outcome.summary.warnings.iter().filter(|warning| !known.contains(warning)) {
         line(&format!("warning: {warning}"));
     }
@@ -70,6 +71,8 @@ struct Reporter {
     reported: u64,
     reported_at: Instant,
     first_step: u64,
+    /// Warnings that came on the way.
+    told: Vec<String>,
 }
 
 impl Reporter {
@@ -84,6 +87,15 @@ impl Reporter {
             reported: 0,
             reported_at: Instant::now(),
             first_step: 0,
+            told: Vec::new(),
+        }
+    }
+
+    /// Prints a line above the bar.
+    fn say(&self, text: &str) {
+        match &self.bar {
+            Some(bar) => bar.suspend(|| line(text)),
+            None => line(text),
         }
     }
 
@@ -115,11 +127,11 @@ impl Reporter {
             }
             Event::Advanced(progress) => self.advanced(&progress),
             Event::Repeating { from, reason, with } => {
-                let text = format!("note: {reason}; continuing from step {} with {with}", grouped(from));
-                match &self.bar {
-                    Some(bar) => bar.suspend(|| line(&text)),
-                    None => line(&text),
-                }
+                self.say(&format!("note: {reason}; continuing from step {} with {with}", grouped(from)));
+            }
+            Event::Warned { warning } => {
+                self.say(&format!("warning: {warning}"));
+                self.told.push(warning.to_owned());
             }
             Event::Finishing => {
                 if let Some(bar) = &self.bar {

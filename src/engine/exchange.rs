@@ -38,6 +38,10 @@ pub struct Traffic {
     pub copies: u64,
     /// Time spent waiting for peers.
     pub waiting: Duration,
+    /// Time in which the device computed, with the copies from it that follow in the same submission.
+    pub computing: Duration,
+    /// Time of the exchanges but for that: waiting, and what the host does before and after.
+    pub exchanging: Duration,
 }
 
 /// The exchange of one rank.
@@ -197,6 +201,7 @@ impl<'a> Exchange<'a> {
         let head = 4 * (self.part.peers.len() as u64 + 1);
         let (outgoing, counts) = (&self.outgoing, &self.outgoing_counts);
         let guessed = head + particle * self.guesses.iter().sum::<u64>();
+        let submitted = Instant::now();
         let read = read_after(self.gpu, recording.take(), guessed, |encoder, staging| {
             encoder.copy_buffer_to_buffer(counts, 0, staging, 0, head);
             let mut at = head;
@@ -206,6 +211,8 @@ impl<'a> Exchange<'a> {
             }
             encoder.clear_buffer(counts, 0, Some(head - 4));
         })?;
+        self.traffic.computing += submitted.elapsed();
+        let computed = Instant::now();
         let head_words: Vec<u32> = bytemuck::pod_collect_to_vec(&read[..head as usize]);
         let (sorted, counts) = head_words.split_last().map_or((0, &[][..]), |(sorted, counts)| (*sorted, counts));
         let counts: Vec<u64> = counts.iter().map(|count| u64::from(*count).min(self.part.room)).collect();
@@ -240,6 +247,7 @@ impl<'a> Exchange<'a> {
             self.traffic.copies += if self.part.halo > 0.0 { fits } else { 0 };
         }
         self.store_count(stored);
+        self.traffic.exchanging += computed.elapsed();
         Ok(())
     }
 
@@ -255,6 +263,7 @@ impl<'a> Exchange<'a> {
         let none = Stretch { first: 0, count: 0 };
         let stretch_of = |rank: usize| sum.stretches.get(rank).copied().unwrap_or(none);
         let own = stretch_of(rank);
+        let submitted = Instant::now();
         let read = read_after(self.gpu, recording.take(), 4 * own.count, |encoder, staging| {
             let mut at = 0;
             for piece in sum.pieces(own).into_iter().filter(|piece| piece.count > 0) {
@@ -262,6 +271,8 @@ impl<'a> Exchange<'a> {
                 at += 4 * piece.count;
             }
         })?;
+        self.traffic.computing += submitted.elapsed();
+        let computed = Instant::now();
         let others = self.part.others();
         let begun = Instant::now();
         let arrived = self.swap.swap(&self.part.part, &others, &vec![read.as_slice(); others.len()]).map_err(lost)?;
@@ -285,6 +296,7 @@ impl<'a> Exchange<'a> {
         }
         let sums: Vec<i32> = sums.into_iter().map(|sum| i32::try_from(sum).unwrap_or(i32::MIN)).collect();
         self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&sums));
+        self.traffic.exchanging += computed.elapsed();
         Ok(())
     }
 

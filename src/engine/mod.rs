@@ -13,7 +13,7 @@ mod timing;
 pub use error::EngineError;
 pub use exchange::{Swap, Traffic};
 pub(crate) use readback::read as read_back;
-pub use stepper::Stepper;
+pub use stepper::{RankReport, Stepper};
 pub use timing::{StageClock, StageTime};
 
 use std::collections::{HashMap, VecDeque};

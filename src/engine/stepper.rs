@@ -5,6 +5,19 @@ use crate::plan::Plan;
 use crate::shaders::Array;
 use crate::state::State;
 
+/// One of several ranks that share a state.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct RankReport {
+    /// The machine.
+    pub host: String,
+    /// The adapter and its driver.
+    pub adapter: String,
+    /// A checksum of what it computes from a state that all ranks know: ranks that round alike have the same.
+    pub arithmetic: u32,
+    /// What it has exchanged.
+    pub traffic: Traffic,
+}
+
 /// What advances a state and samples it; [`Engine`] says what each of these does.
 #[allow(missing_docs, clippy::missing_errors_doc)]
 pub trait Stepper {
@@ -16,10 +29,13 @@ pub trait Stepper {
     fn state(&mut self) -> Result<State, EngineError>;
     fn reported(&mut self) -> Result<State, EngineError>;
 
-    /// Adapter and exchanges of each rank, of several.
-    fn shared(&self) -> Vec<(&str, Traffic)> {
-        Vec::new()
+    /// Each rank, of several.
+    fn ranks(&self) -> &[RankReport] {
+        &[]
     }
+
+    /// Lets other ranks know that this one is at work while it tells them nothing for long.
+    fn keep_alive(&self) {}
 
     /// Exchanges that a limit has cut, of what has any.
     fn limited_exchanges(&mut self) -> Result<u64, EngineError> {

@@ -24,6 +24,12 @@ pub enum KeptQuantity {
 }
 
 impl KeptQuantity {
+    /// Whether it is kept only if both ends of a pair are computed alike, as by ranks that round alike.
+    #[must_use]
+    pub fn is_exchanged(self) -> bool {
+        !matches!(self, Self::Mass | Self::MeshMass)
+    }
+
     /// Its name in a summary.
     #[must_use]
     pub fn name(self) -> &'static str {

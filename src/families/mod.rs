@@ -204,15 +204,17 @@ pub(crate) trait Physics {
 
     /// What of it several ranks cannot share, in words; nothing where they can share all.
     fn unshared(&self, _: &Model) -> Vec<String> {
-        vec![
-            "scenes of this kind run on one rank: particles with pair forces and shallow water can be shared"
-                .to_owned(),
-        ]
+        vec!["scenes of this kind: on one rank only".to_owned()]
     }
 
     /// Rows of cells of a mesh, of which each of several ranks has whole ones; without a mesh the box is divided anywhere.
     fn rows(&self) -> Option<Rows> {
         None
+    }
+
+    /// The part of the arithmetic of a step that each of several ranks does for itself, as if it were alone.
+    fn undivided(&self) -> f64 {
+        0.0
     }
 
     /// The same kind of scene with a few particles, from which ranks find out whether they compute alike; a small fluid where there is none.

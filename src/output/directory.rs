@@ -61,6 +61,17 @@ impl RunDirectory {
 
     /// Removes the files of an earlier run, if that is allowed, and makes sure that the directory can be written to.
     pub(crate) fn clear(&self, force: bool) -> Result<(), OutputError> {
+        let in_the_way = self.in_the_way(force)?;
+        self.probe()?;
+        for name in in_the_way {
+            let path = self.file(&name);
+            fs::remove_file(&path).map_err(OutputError::io("replace", &path))?;
+        }
+        Ok(())
+    }
+
+    /// The files of an earlier run, if they may be removed and can be.
+    pub(crate) fn in_the_way(&self, force: bool) -> Result<Vec<String>, OutputError> {
         let in_the_way = self.names(files::is_of_a_run)?;
         // Nothing is removed where not everything can be.
         let mut paths = in_the_way.iter().map(|name| self.file(name));
@@ -70,12 +81,7 @@ impl RunDirectory {
         if let (false, Some(name)) = (force, in_the_way.first()) {
             return Err(OutputError::ResultExists { path: self.file(name) });
         }
-        self.probe()?;
-        for name in in_the_way {
-            let path = self.file(&name);
-            fs::remove_file(&path).map_err(OutputError::io("replace", &path))?;
-        }
-        Ok(())
+        Ok(in_the_way)
     }
 
     /// Takes the lock of the directory of an earlier run, to resume it or to draw its plots, and removes what a killed

@@ -149,6 +149,12 @@ pub struct RanksSummary {
     pub parts: [u32; 3],
     /// How far around its part a rank knew the particles.
     pub halo: f64,
+    /// Whether all ranks computed the same from the same state.
+    #[serde(default)]
+    pub alike: bool,
+    /// Time that the slowest rank computed a step, over the mean of all: what an even load would save.
+    #[serde(default)]
+    pub slowest_over_mean: f64,
     /// Each rank.
     pub ranks: Vec<RankSummary>,
 }
@@ -156,12 +162,24 @@ pub struct RanksSummary {
 /// One of the ranks that shared a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct RankSummary {
+    /// The machine it was on.
+    #[serde(default)]
+    pub host: String,
+    /// A checksum of what it computed from a state that all ranks knew: ranks that round alike have the same.
+    #[serde(default)]
+    pub arithmetic: String,
     /// The adapter it computed on.
     pub adapter: String,
     /// Particles of other ranks that it got at the end of a step, on average.
     pub copies: f64,
     /// Bytes that it sent at the end of a step, on average.
     pub bytes_per_step: f64,
+    /// Seconds a step that its device computed, on average, with the copies from it to the host.
+    #[serde(default)]
+    pub seconds_computing: f64,
+    /// Seconds a step that the exchange took but for these copies, on average: waiting, and what the host did before and after.
+    #[serde(default)]
+    pub seconds_exchanging: f64,
     /// Seconds a step that it waited for other ranks, on average.
     pub seconds_waiting: f64,
 }

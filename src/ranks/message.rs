@@ -39,8 +39,8 @@ pub(super) struct Answer {
     pub samples: Vec<(usize, u64, Vec<i64>)>,
     /// What went wrong, if anything.
     pub problem: Option<Problem>,
-    /// What it has exchanged until now: times, bytes, copies, nanoseconds.
-    pub exchanged: [u64; 4],
+    /// What it has exchanged until now: times, bytes, copies, and nanoseconds of waiting, computing and exchanging.
+    pub exchanged: [u64; 6],
     /// Who it is, at the beginning.
     pub introduction: Option<Introduction>,
 }
@@ -117,8 +117,9 @@ impl Problem {
 impl Answer {
     pub(super) fn of(samples: Vec<Sample>, ended: Result<(), &EngineError>, traffic: Traffic) -> Self {
         let samples = samples.into_iter().map(|sample| (sample.sampler, sample.step, sample.sums)).collect();
-        let Traffic { exchanges, bytes, copies, waiting } = traffic;
-        let exchanged = [exchanges, bytes, copies, waiting.as_nanos() as u64];
+        let Traffic { exchanges, bytes, copies, waiting, computing, exchanging } = traffic;
+        let [waiting, computing, exchanging] = [waiting, computing, exchanging].map(|time| time.as_nanos() as u64);
+        let exchanged = [exchanges, bytes, copies, waiting, computing, exchanging];
         Self { samples, problem: ended.err().map(Problem::of), exchanged, introduction: None }
     }
 }

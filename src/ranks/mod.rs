@@ -15,7 +15,8 @@ pub mod threads;
 
 pub use member::{decline, serve};
 pub use message::Introduction;
-pub use team::Team;
+pub(crate) use team::remedy;
+pub use team::{Team, computes_alike};
 
 use crate::engine::Swap;
 use std::time::Duration;
@@ -23,7 +24,8 @@ use std::time::Duration;
 /// A rank that has not answered by then counts as lost.
 pub const PATIENCE: Duration = Duration::from_mins(10);
 
-/// How the first rank tells the others what to do, and they answer. None of these waits longer than [`PATIENCE`].
+/// How the first rank tells the others what to do, and they answer. None of these waits longer than [`PATIENCE`] for a rank that may be
+/// lost without notice, as a process may.
 pub trait Channel {
     /// Number of ranks.
     fn count(&self) -> u32;
@@ -34,7 +36,12 @@ pub trait Channel {
     /// Which rank is lost, in words.
     fn tell(&mut self, message: &[u8]) -> Result<(), String>;
 
-    /// What the first rank tells; of all others.
+    /// Lets all other ranks know that the first is at work; of the first rank, wherever it may not tell them anything for long.
+    /// Whatever is wrong shows when it does.
+    fn keep_alive(&self);
+
+    /// What the first rank tells; of all others. They wait for as long as it keeps alive; threads for as long as it is there, for a
+    /// process that stops stops all its threads.
     ///
     /// # Errors
     /// That the first rank is lost, in words.

@@ -1,5 +1,8 @@
 //! Ranks that are processes, on one machine or several, started by a launcher of MPI. Nothing waits longer than is patient: who does ends
 //! all ranks.
+//!
+//! A rank that has waited for so long asks the one that it waits for. Whoever waits too answers at once, so that only those speak that
+//! wait for the rank that is lost. The first rank, which writes and draws between commands, keeps alive in the meantime.
 
 use super::{Channel, PATIENCE, Processes};
 use crate::engine::Swap;
@@ -19,6 +22,19 @@ const ANSWER: i32 = 2;
 const PARCEL: i32 = 3;
 /// Its sender will send no parcels any more.
 const GONE: i32 = 4;
+/// Whether its receiver waits as well, ...
+const ASKED: i32 = 5;
+/// ... and that it does.
+const WAITING: i32 = 6;
+
+/// The length of a command that is none: its sender is at work.
+const ALIVE: u64 = u64::MAX;
+
+/// Time for the answer of a rank that waits.
+const GRACE: Duration = Duration::from_secs(1);
+/// Of several ranks that miss the same one, the first speaks and ends all before the turn of the next: launchers take a second.
+const TURN: Duration = Duration::from_secs(2);
+const TURNS: u32 = 4;
 
 /// A message is sent in pieces of at most so many bytes: MPI counts in 32 bits.
 const PIECE: usize = 1 << 30;
@@ -93,7 +109,7 @@ struct Peers {
 }
 
 /// Tries again and again, with sleeps that become longer.
-fn wait_for<T>(patience: Option<Duration>, mut attempt: impl FnMut() -> Option<T>) -> Option<T> {
+fn wait_for<T>(patience: Duration, mut attempt: impl FnMut() -> Option<T>) -> Option<T> {
     let begun = Instant::now();
     let [mut nap, longest] = NAPS;
     loop {
@@ -101,7 +117,7 @@ fn wait_for<T>(patience: Option<Duration>, mut attempt: impl FnMut() -> Option<T
             return Some(found);
         }
         let waited = begun.elapsed();
-        if patience.is_some_and(|patience| waited > patience) {
+        if waited > patience {
             return None;
         }
         // The first answers come within microseconds.
@@ -112,9 +128,21 @@ fn wait_for<T>(patience: Option<Duration>, mut attempt: impl FnMut() -> Option<T
     }
 }
 
+/// What a message says that is no piece of another.
+fn head_of(message: Message) -> [u64; 2] {
+    let mut head = [0; 2];
+    message.matched_receive_into(bytemuck::bytes_of_mut(&mut head));
+    head
+}
+
 impl Line {
     /// Ends all ranks: who does not answer would not hear of anything else.
     fn lose(&self, rank: u32) -> ! {
+        let turn = TURN * self.world.rank().cast_unsigned().min(TURNS);
+        let _: Option<()> = wait_for(turn, || {
+            self.answer_questions();
+            None
+        });
         (self.alarm)(&format!("rank {rank} has not answered for {} s", self.patience.as_secs()));
         self.world.abort(LOST)
     }
@@ -132,42 +160,73 @@ impl Line {
             let done = meanwhile();
             for (rank, request) in requests {
                 let mut waiting = Some(request);
-                let sent = wait_for(Some(self.patience), || {
+                self.wait_for(rank, || {
                     waiting = waiting.take().and_then(|request| request.test().err());
                     waiting.is_none().then_some(())
                 });
-                if sent.is_none() {
-                    self.lose(rank);
-                }
             }
             done
         })
     }
 
-    /// The next message of some kinds from a rank.
-    fn next(&self, rank: u32, tags: &[i32], patience: Option<Duration>) -> (Message, Status) {
-        let process = self.world.process_at_rank(rank.cast_signed());
-        let found = wait_for(patience, || tags.iter().find_map(|tag| process.immediate_matched_probe_with_tag(*tag)));
+    /// Waits for something that depends on a rank: twice, if that waits as well, until whoever waits for the one that is lost has spoken.
+    fn wait_for<T>(&self, rank: u32, mut attempt: impl FnMut() -> Option<T>) -> T {
+        let mut attempt = || {
+            attempt().or_else(|| {
+                self.answer_questions();
+                None
+            })
+        };
+        let found = wait_for(self.patience, &mut attempt).or_else(|| {
+            self.send_head(rank.cast_signed(), 0, ASKED);
+            let process = self.world.process_at_rank(rank.cast_signed());
+            let waits = || process.immediate_matched_probe_with_tag(WAITING);
+            let answer = wait_for(GRACE, || attempt().map(Ok).or_else(|| waits().map(Err)))?;
+            answer.map_or_else(
+                |(message, _)| {
+                    let _ = head_of(message);
+                    wait_for(self.patience + GRACE + TURN * (TURNS + 1), &mut attempt)
+                },
+                Some,
+            )
+        });
         found.unwrap_or_else(|| self.lose(rank))
     }
 
+    /// Sends what is so short that nobody waits until it is received.
+    fn send_head(&self, rank: i32, length: u64, tag: i32) {
+        self.world.process_at_rank(rank).send_with_tag(bytemuck::bytes_of(&[length, self.round]), tag);
+    }
+
+    fn answer_questions(&self) {
+        while let Some((message, status)) = self.world.any_process().immediate_matched_probe_with_tag(ASKED) {
+            let _ = head_of(message);
+            self.send_head(status.source_rank(), 0, WAITING);
+        }
+    }
+
+    /// The next message of some kinds from a rank.
+    fn next(&self, rank: u32, tags: &[i32]) -> (Message, Status) {
+        let process = self.world.process_at_rank(rank.cast_signed());
+        self.wait_for(rank, || tags.iter().find_map(|tag| process.immediate_matched_probe_with_tag(*tag)))
+    }
+
     /// What a rank sends; nothing if it has gone.
-    fn receive(&self, rank: u32, tags: &[i32], patience: Option<Duration>) -> Option<Vec<u8>> {
+    fn receive(&self, rank: u32, tags: &[i32]) -> Option<Vec<u8>> {
         let (length, tag) = loop {
-            let (message, status) = self.next(rank, tags, patience);
-            let mut head = [0_u64; 2];
-            message.matched_receive_into(bytemuck::bytes_of_mut(&mut head));
-            let [length, round] = head;
+            let (message, status) = self.next(rank, tags);
+            let [length, round] = head_of(message);
             match status.tag() {
                 GONE if round == self.round => return None,
                 // It had left in an earlier round.
                 GONE => {}
+                COMMAND if length == ALIVE => {}
                 tag => break (length, tag),
             }
         };
         let mut bytes = vec![0; usize::try_from(length).unwrap_or(usize::MAX)];
         for piece in bytes.chunks_mut(PIECE) {
-            let (message, _) = self.next(rank, &[tag], Some(self.patience));
+            let (message, _) = self.next(rank, &[tag]);
             message.matched_receive_into(piece);
         }
         Some(bytes)
@@ -193,9 +252,12 @@ impl Channel for Line {
         Ok(())
     }
 
+    fn keep_alive(&self) {
+        self.others().for_each(|rank| self.send_head(rank.cast_signed(), ALIVE, COMMAND));
+    }
+
     fn listen(&mut self) -> Result<Vec<u8>, String> {
-        // The first rank may compute, write and draw as long as it likes; if it ends, the launcher ends all.
-        self.receive(0, &[COMMAND], None).ok_or_else(|| gone(0))
+        self.receive(0, &[COMMAND]).ok_or_else(|| gone(0))
     }
 
     fn answer(&mut self, message: &[u8]) -> Result<(), String> {
@@ -204,9 +266,7 @@ impl Channel for Line {
     }
 
     fn collect(&mut self) -> Result<Vec<Vec<u8>>, String> {
-        let received =
-            self.others().map(|rank| self.receive(rank, &[ANSWER], Some(self.patience)).ok_or_else(|| gone(rank)));
-        received.collect()
+        self.others().map(|rank| self.receive(rank, &[ANSWER]).ok_or_else(|| gone(rank))).collect()
     }
 }
 
@@ -214,10 +274,7 @@ impl Swap for Peers {
     fn swap(&mut self, _: &Part, peers: &[u32], outgoing: &[&[u8]]) -> Result<Vec<Vec<u8>>, String> {
         let parcels: Vec<(u32, &[u8])> = peers.iter().copied().zip(outgoing.iter().copied()).collect();
         self.line.send(&parcels, PARCEL, || {
-            let received = peers.iter().map(|peer| {
-                self.line.receive(*peer, &[PARCEL, GONE], Some(self.line.patience)).ok_or_else(|| gone(*peer))
-            });
-            received.collect()
+            peers.iter().map(|peer| self.line.receive(*peer, &[PARCEL, GONE]).ok_or_else(|| gone(*peer))).collect()
         })
     }
 

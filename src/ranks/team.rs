@@ -3,7 +3,7 @@
 use super::Channel;
 use super::member::execute;
 use super::message::{Answer, Command, Contents, Introduction, Problem, join, read, written};
-use crate::engine::{Engine, EngineError, Sample, Stepper, Traffic};
+use crate::engine::{Engine, EngineError, RankReport, Sample, Stepper, Traffic};
 use crate::plan::{PARTICLE_WORDS, Plan, Sampler};
 use crate::shaders::Array;
 use crate::state::State;
@@ -16,6 +16,23 @@ const WORDS: usize = PARTICLE_WORDS as usize;
 /// What is wrong if not all particles come back.
 const LOST: &str = "particles were lost between ranks";
 
+/// Whether ranks computed the same from the same state: then a run has the bytes of one rank.
+#[must_use]
+pub fn computes_alike(ranks: &[RankReport]) -> bool {
+    ranks.windows(2).all(|two| two[0].arithmetic == two[1].arithmetic)
+}
+
+/// Who the ranks are, and what to do if they do not compute alike.
+pub(crate) fn remedy(ranks: &[RankReport]) -> String {
+    let ranks = ranks.iter().zip(0..).map(|(RankReport { host, adapter, arithmetic, .. }, rank)| {
+        format!("\n  rank {rank} on {host}, {adapter}: {arithmetic:08x}")
+    });
+    format!(
+        "{}\ntake adapters and drivers of one kind, or `--mixed`, with which momentum is conserved to rounding only",
+        ranks.collect::<String>()
+    )
+}
+
 /// Several ranks that advance one state.
 pub struct Team<'a> {
     engine: Engine<'a>,
@@ -23,8 +40,7 @@ pub struct Team<'a> {
     /// Rows to which not all ranks have added yet, by step and sampler.
     incomplete: BTreeMap<(u64, usize), (u32, Vec<i64>)>,
     collected: Vec<Sample>,
-    traffic: Vec<Traffic>,
-    introductions: Vec<Introduction>,
+    ranks: Vec<RankReport>,
     species: Vec<u32>,
     /// The step whose particles have been gathered and measured.
     measured: Option<u64>,
@@ -48,14 +64,15 @@ impl<'a> Team<'a> {
             channel,
             incomplete: BTreeMap::new(),
             collected: Vec::new(),
-            traffic: vec![Traffic::default(); count],
-            introductions: vec![introduction; count],
+            ranks: vec![RankReport::default(); count],
             species: Vec::new(),
             measured: None,
         };
+        team.introduce(0, introduction);
         team.upload(state)?;
-        if !mixed && !team.computes_alike() {
-            return Err(EngineError::Ranks { reason: team.differences() });
+        if !mixed && !computes_alike(&team.ranks) {
+            let reason = format!("the ranks compute differently: from the same state they get{}", remedy(&team.ranks));
+            return Err(EngineError::Ranks { reason });
         }
         Ok(team)
     }
@@ -75,26 +92,15 @@ impl<'a> Team<'a> {
 
     /// What each rank has exchanged, in their order.
     #[must_use]
-    pub fn traffic(&self) -> &[Traffic] {
-        &self.traffic
+    pub fn traffic(&self) -> Vec<Traffic> {
+        self.ranks.iter().map(|rank| rank.traffic).collect()
     }
 
-    /// Whether all ranks computed the same from the same state: then a run has the bytes of one rank.
-    #[must_use]
-    pub fn computes_alike(&self) -> bool {
-        self.introductions.windows(2).all(|two| two[0].arithmetic == two[1].arithmetic)
-    }
-
-    /// That ranks do not compute alike, and who they are.
-    fn differences(&self) -> String {
-        let ranks = self.introductions.iter().zip(0..).map(|(Introduction { host, adapter, arithmetic }, rank)| {
-            format!("\n  rank {rank} on {host}, {adapter}: {arithmetic:08x}")
-        });
-        format!(
-            "the ranks compute differently: from the same state they get{}\n\
-             take adapters and drivers of one kind, or `--mixed`, with which momentum is conserved to rounding only",
-            ranks.collect::<String>()
-        )
+    fn introduce(&mut self, rank: usize, introduction: Introduction) {
+        let Introduction { host, adapter, arithmetic } = introduction;
+        if let Some(known) = self.ranks.get_mut(rank) {
+            *known = RankReport { host, adapter, arithmetic, traffic: known.traffic };
+        }
     }
 
     /// Lets all ranks do something; what they give together.
@@ -152,12 +158,13 @@ impl<'a> Team<'a> {
 
     /// Adds the sums of a rank to those of the others.
     fn add(&mut self, rank: usize, answer: Answer) {
-        let [exchanges, bytes, copies, waiting] = answer.exchanged;
-        if let Some(traffic) = self.traffic.get_mut(rank) {
-            *traffic = Traffic { exchanges, bytes, copies, waiting: Duration::from_nanos(waiting) };
+        let [exchanges, bytes, copies, times @ ..] = answer.exchanged;
+        let [waiting, computing, exchanging] = times.map(Duration::from_nanos);
+        if let Some(known) = self.ranks.get_mut(rank) {
+            known.traffic = Traffic { exchanges, bytes, copies, waiting, computing, exchanging };
         }
-        if let (Some(known), Some(introduction)) = (self.introductions.get_mut(rank), answer.introduction) {
-            *known = introduction;
+        if let Some(introduction) = answer.introduction {
+            self.introduce(rank, introduction);
         }
         for (sampler, step, sums) in answer.samples {
             let (added, total) = self.incomplete.entry((step, sampler)).or_insert_with(|| (0, vec![0; sums.len()]));
@@ -208,8 +215,12 @@ impl<'a> Team<'a> {
 }
 
 impl Stepper for Team<'_> {
-    fn shared(&self) -> Vec<(&str, Traffic)> {
-        self.introductions.iter().zip(&self.traffic).map(|(rank, traffic)| (rank.adapter.as_str(), *traffic)).collect()
+    fn ranks(&self) -> &[RankReport] {
+        &self.ranks
+    }
+
+    fn keep_alive(&self) {
+        self.channel.keep_alive();
     }
 
     fn plan(&self) -> &Plan {

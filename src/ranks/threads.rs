@@ -106,8 +106,10 @@ impl Channel for Threads {
         self.to.iter().zip(1..).try_for_each(|(to, rank)| said(Some(to), rank, message))
     }
 
+    fn keep_alive(&self) {}
+
     fn listen(&mut self) -> Result<Vec<u8>, String> {
-        // The first rank may compute, write and draw as long as it likes; if it ends, this is told at once.
+        // The first rank may compute, write and draw as long as it likes: it cannot stop alone, and its end is told at once.
         self.from.first().and_then(|from| from.recv().ok()).ok_or_else(|| "rank 0 has ended".to_owned())
     }
 

@@ -11,13 +11,25 @@ pub(super) fn kept(model: &Model) -> Vec<KeptQuantity> {
     kept
 }
 
-/// What a run conserves, to the last bit or to rounding where that is said, but for what was seen to be lost.
-pub(super) fn conserved(model: &Model, lost: &[KeptQuantity]) -> Vec<String> {
+/// What a run conserves, to the last bit or to rounding where that is said, but for what was seen to be lost. Of `mixed` ranks, which
+/// compute differently, the two ends of a pair may be rounded differently.
+pub(super) fn conserved(model: &Model, lost: &[KeptQuantity], mixed: bool) -> Vec<String> {
     let mut conserved: Vec<String> = model.physics().never_changes().iter().map(|name| (*name).to_owned()).collect();
     let left = kept(model).into_iter().filter(|quantity| !lost.contains(quantity));
-    conserved.extend(left.map(|quantity| format!("{}, to the last bit", quantity.name())));
+    let exactness = |quantity: KeptQuantity| if mixed && quantity.is_exchanged() { "rounding" } else { "the last bit" };
+    conserved.extend(left.map(|quantity| format!("{}, to {}", quantity.name(), exactness(quantity))));
     conserved.extend(model.physics().kept_to_rounding(model).map(|what| format!("{what}, to rounding")));
     conserved
+}
+
+/// What has to be known of a run whose ranks compute differently.
+pub(super) fn warning_of_mixed_ranks(model: &Model) -> String {
+    let momentum = kept(model).into_iter().find(|quantity| quantity.is_exchanged());
+    let momentum = momentum.map(|quantity| format!(", and the {} is conserved to rounding only", quantity.name()));
+    format!(
+        "not all ranks of this run compute alike (`--mixed`): results are not those of one rank to the last bit{}",
+        momentum.unwrap_or_default()
+    )
 }
 
 /// What a run does not conserve, with the reasons, and what was seen to change that was to be kept.
@@ -58,7 +70,7 @@ mod tests {
                 "interactions": [{{"type": "voronoi", {interaction}}}]}}"#
             );
             let model = Model::new(&scene::parse("test", &text, &[]).expect("a scene"));
-            (conserved(&model, &[]), not_conserved(&model, &[]))
+            (conserved(&model, &[], false), not_conserved(&model, &[]))
         };
         let kept = ["mass, to the last bit", "total momentum, to the last bit", "total energy, to the last bit"];
         assert_eq!(fate(r#""energy": {}"#, 1.0), (kept.map(str::to_owned).to_vec(), Vec::new()));
@@ -84,7 +96,7 @@ mod tests {
                 "interactions": [{{"type": "dpd", "repulsion": 1}}{force}]}}"#
             );
             let model = Model::new(&scene::parse("test", &text, &[]).expect("a scene"));
-            (conserved(&model, &[]), not_conserved(&model, &[]))
+            (conserved(&model, &[], false), not_conserved(&model, &[]))
         };
         let (kept, lost) = told(r#"{"z": {}}"#, "");
         assert_eq!(kept, ["mass", "total momentum with what walls have taken up, to the last bit"]);
@@ -178,11 +190,11 @@ mod tests {
             match momentum {
                 "" => {
                     assert_eq!(lost.len(), 1, "{interactions}: {lost:?}");
-                    assert_eq!(conserved(&model, &[]), ["mass", "total momentum, to the last bit"]);
+                    assert_eq!(conserved(&model, &[], false), ["mass", "total momentum, to the last bit"]);
                 }
                 reason => {
                     assert!(lost[1].starts_with("total momentum: ") && lost[1].contains(reason), "{lost:?}");
-                    assert_eq!(conserved(&model, &[]), ["mass"]);
+                    assert_eq!(conserved(&model, &[], false), ["mass"]);
                 }
             }
         }

@@ -38,12 +38,12 @@ pub enum Ranks {
 /// ```
 ///
 /// # Errors
-/// [`RunError::Undividable`] with everything that hinders.
+/// [`RunError::Unshared`] with everything that hinders, or [`RunError::Undividable`] with how many fit.
 pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, RunError> {
     let refuse = |reasons: Vec<String>| Err(RunError::Undividable { reasons });
     let reasons = hindrances(scene, model);
     if !reasons.is_empty() {
-        return refuse(reasons);
+        return Err(RunError::Unshared { reasons });
     }
     let dimension = model.units.dimension;
     let (with_bonds, halo) = halo(scene, model);
@@ -72,10 +72,12 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
             if reasons.is_empty() { Ok(Division { parts }) } else { refuse(reasons) }
         }
         Ranks::Count(count) => {
+            let room = most.iter().fold(1_u32, |room, most| room.saturating_mul(*most));
             let best = |count: u32| {
-                let fit = divisions(count, dimension)
-                    .into_iter()
-                    .filter(|parts| (0..3).all(|axis| parts[axis] <= most[axis]));
+                if count > room {
+                    return None;
+                }
+                let fit = divisions(count, dimension, most).into_iter();
                 fit.map(|parts| Division { parts }).min_by(|a, b| {
                     let copies = |division: &Division| division.domain(0).with_halo(&model.units, with_bonds).share();
                     copies(a).total_cmp(&copies(b))
@@ -83,7 +85,7 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
             };
             best(count).map_or_else(
                 || {
-                    let fits = (1..count.min(MOST)).rev().find(|fewer| best(*fewer).is_some()).unwrap_or(1);
+                    let fits = (1..=count.min(MOST).min(room)).rev().find(|fewer| best(*fewer).is_some()).unwrap_or(1);
                     if model.physics().rows().is_some() {
                         return refuse(vec![thin((1, count))]);
                     }
@@ -146,13 +148,17 @@ fn hindrances(scene: &Scene, model: &Model) -> Vec<String> {
     reasons
 }
 
-/// All ways to divide a box of this many dimensions into so many parts.
-fn divisions(count: u32, dimension: usize) -> Vec<[u32; 3]> {
-    let divisors = |number: u32| (1..=number).filter(move |divisor| number.is_multiple_of(*divisor));
+/// All ways to divide a box of this many dimensions into so many parts, of which only so many fit along each axis.
+fn divisions(count: u32, dimension: usize, most: [u32; 3]) -> Vec<[u32; 3]> {
+    let divisors =
+        |number: u32, most: u32| (1..=number.min(most)).filter(move |divisor| number.is_multiple_of(*divisor));
     let mut found = Vec::new();
-    for z in divisors(count) {
-        for y in divisors(count / z) {
+    for z in divisors(count, most[2]) {
+        for y in divisors(count / z, most[1]) {
             let x = count / z / y;
+            if x > most[0] {
+                continue;
+            }
             if dimension == 3 || z == 1 && (dimension == 2 || y == 1) {
                 found.push([x, y, z]);
             }
@@ -180,8 +186,38 @@ pub struct Share {
     pub bytes: f64,
     /// Nodes of the mesh that it adds to, and all of them, if there is a mesh.
     pub nodes: Option<[u64; 2]>,
+    /// The part of the arithmetic of a step that every rank does for itself, as if it were alone.
+    pub undivided: f64,
+    /// How often it waits for other ranks in a step.
+    pub exchanges: u32,
     /// The most ranks that fit.
     pub most: u32,
+}
+
+/// Seconds that an exchange takes however little it brings, and bytes a second from a device to its host (PCI Express 4, in each
+/// direction) and from host to host (100 Gb/s).
+const FIXED: f64 = 150e-6;
+const TO_HOST: f64 = 22e9;
+const BETWEEN_HOSTS: f64 = 12.5e9;
+
+impl Share {
+    /// How many times as fast as one rank so many are, if that takes so many seconds a step: with an adapter each, PCI Express 4, a
+    /// network of 100 Gb/s, and exchanges that do not overlap with anything.
+    ///
+    /// ```
+    /// use mesoscope::run::Share;
+    ///
+    /// // A million particles of a rank, in a cube with a halo of one cutoff, at a billion particle-steps/s.
+    /// let share = Share { own: 1e6, copies: 8.9e4, bytes: 2.8e6, exchanges: 1, ..Share::default() };
+    /// let efficiency = share.speed_up(8, 8e-3) / 8.0;
+    /// assert!((efficiency - 0.58).abs() < 0.01, "{efficiency}");
+    /// ```
+    #[must_use]
+    pub fn speed_up(&self, ranks: u32, seconds: f64) -> f64 {
+        let part = (1.0 - self.undivided) / f64::from(ranks) * (self.own + self.copies) / self.own.max(1.0);
+        let exchange = f64::from(self.exchanges) * FIXED + self.bytes * (2.0 / TO_HOST + 1.0 / BETWEEN_HOSTS);
+        seconds / (seconds * (part + self.undivided) + exchange)
+    }
 }
 
 /// What each rank of a division has to do, without a device.
@@ -211,6 +247,9 @@ pub fn share_of(scene: &Scene, model: &Model, division: Division) -> Share {
         copies,
         peers: peers.len(),
         bytes: 4.0 * f64::from(PARTICLE_WORDS) * copies + summed as f64,
+        undivided: model.physics().undivided(),
+        // What is summed on a mesh is exchanged in mid-step.
+        exchanges: if summed > 0 { 2 } else { 1 },
         nodes: model.physics().rows().map(|_| [summed / 4 / peers.len().max(1) as u64, model.physics().nodes()]),
         most: most_parts(model, *close).into_iter().product(),
     }

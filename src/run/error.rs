@@ -95,7 +95,17 @@ pub enum RunError {
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
     /// Several ranks cannot share the run.
-    #[error("several ranks cannot share this run:\n  {}", .reasons.join("\n  "))]
+    #[error(
+        "several ranks cannot share this run:\n  {}\nthey share particles with pair forces, bonds, angles and tethers, and shallow \
+         water: docs/guide/ranks.md says with what",
+        .reasons.join("\n  ")
+    )]
+    Unshared {
+        /// Everything that hinders.
+        reasons: Vec<String>,
+    },
+    /// The box cannot be divided among so many ranks.
+    #[error("the box cannot be divided like this:\n  {}", .reasons.join("\n  "))]
     Undividable {
         /// Everything that hinders.
         reasons: Vec<String>,

@@ -1,9 +1,9 @@
 //! A run under way: from one event to the next, and its files.
 
 use super::analyses::Analyses;
-use super::conservation::{conserved, not_conserved};
+use super::conservation::{conserved, not_conserved, warning_of_mixed_ranks};
 use super::energies::{self, EnergyRecorder};
-use super::kept_sums::{self, KeptSums};
+use super::kept_sums::{KeptSums, Sharing};
 use super::pace::Pace;
 use super::pictures::{Pictures, mesh_depth};
 use super::schedule::Schedule;
@@ -11,13 +11,13 @@ use super::sections::Sections;
 use super::tally::Carried;
 use super::task::Task;
 use super::{Event, Progress, RunError};
-use crate::engine::{Sample, Stepper};
+use crate::engine::{EngineError, Sample, Stepper};
 use crate::families::{KeptQuantity, Model, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
 use crate::output::summary::{AdapterSummary, RanksSummary};
 use crate::output::{Checkpoint, Extent, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files};
-use crate::plan::Plan;
+use crate::ranks::{computes_alike, remedy};
 use crate::scene::Scene;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -74,7 +74,9 @@ impl<'a> Run<'a> {
         let analyses = Analyses::new(scene, model, engine.plan(), &sections)?;
         analyses.continue_windows(engine, &sections)?;
         let carried = Carried::new(model, &sections)?;
-        let kept_sums = KeptSums::new(model, &start.state, &sections)?;
+        let ranks = engine.ranks();
+        let sharing = Sharing { strict: ranks.len() > 1 && !task.mixed, mixed: !computes_alike(ranks) };
+        let kept_sums = KeptSums::new(model, &start.state, &sections, sharing)?;
         let schedule = Schedule::new(scene, model, analyses.state_intervals());
         let written = |name: &str| match start.files.iter().find(|(known, _)| known == name) {
             // At step 0 there is nothing yet.
@@ -134,7 +136,7 @@ impl<'a> Run<'a> {
                 let advanced = engine.advance(steps, steps);
                 // A failure is found a few batches late: what came before it is good.
                 let samples = engine.take_samples();
-                self.record(&samples, engine.plan())?;
+                self.record(&samples, engine)?;
                 self.energies.flush()?;
                 advanced?;
                 pace.submitted(steps);
@@ -172,7 +174,7 @@ impl<'a> Run<'a> {
         }
         let samples = engine.finish()?;
         pace.finished();
-        self.record(&samples, engine.plan())?;
+        self.record(&samples, engine)?;
         self.energies.flush()?;
         let number = self.schedule.snapshot(step);
         let frame = self.schedule.frame(step);
@@ -182,15 +184,18 @@ impl<'a> Run<'a> {
             if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
                 trajectory.append(&state)?;
                 trajectory.flush()?;
+                engine.keep_alive();
             }
             if self.model.picture() == PictureKind::Fields {
                 let depth = mesh_depth(engine, self.model)?;
                 for number in number.map(Some).into_iter().chain(last.then_some(None)) {
                     self.pictures.fields(number, &state, &depth, self.model)?;
+                    engine.keep_alive();
                 }
             } else {
                 if let Some(number) = number {
                     self.pictures.snapshot(&files::snapshot(number), &state, self.model)?;
+                    engine.keep_alive();
                 }
                 if last {
                     self.pictures.snapshot(files::SNAPSHOT, &state, self.model)?;
@@ -205,13 +210,14 @@ impl<'a> Run<'a> {
         let state = engine.state();
         pace.finished();
         let samples = engine.take_samples();
-        self.record(&samples, engine.plan())?;
+        self.record(&samples, engine)?;
         let state = state?;
         // The checkpoint counts on what is in the files before its step.
         self.energies.sync()?;
         if let Some(trajectory) = &mut self.trajectory {
             trajectory.flush()?;
         }
+        engine.keep_alive();
         let mut sections = self.analyses.sections_of_samples();
         sections.extend(self.analyses.open_windows(engine)?);
         if !self.notices.is_empty() {
@@ -219,7 +225,7 @@ impl<'a> Run<'a> {
         }
         sections.push((energies::SECTION.to_owned(), self.energies.section()));
         sections.extend(self.analyses.sections_of_states());
-        sections.push((kept_sums::SECTION.to_owned(), self.kept_sums.section()));
+        sections.extend(self.kept_sums.sections());
         sections.extend(self.pictures.sections());
         sections.extend(self.carried.section(self.model, engine)?);
         let mut written = vec![(files::ENERGIES.to_owned(), self.energies.extent())];
@@ -229,17 +235,22 @@ impl<'a> Run<'a> {
         written.extend_from_slice(self.pictures.arrays());
         let path = self.directory.file(files::CHECKPOINT);
         checkpoint::save(&path, self.task.id, self.scene, &state, &written, &sections)?;
+        engine.keep_alive();
         self.saved_step = state.step;
         self.saved_at = Instant::now();
         pace.begin();
         Ok(())
     }
 
-    fn record(&mut self, samples: &[Sample], plan: &Plan) -> Result<(), RunError> {
+    fn record(&mut self, samples: &[Sample], engine: &dyn Stepper) -> Result<(), RunError> {
         for sample in samples {
             if sample.sampler == 0 {
                 self.kept_sums.compare(sample);
-                let mut observables = observables_of(sample, plan, self.model);
+                if let Some(reason) = self.kept_sums.refused() {
+                    let reason = format!("{reason}: the ranks do not compute alike{}", remedy(engine.ranks()));
+                    return Err(EngineError::Ranks { reason }.into());
+                }
+                let mut observables = observables_of(sample, engine.plan(), self.model);
                 self.carried.complete(self.model, &mut observables);
                 self.energies.add(&observables)?;
             } else {
@@ -265,12 +276,24 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Writes tables, summary and plots.
+    /// What has to be known of the ranks that share it, if they compute differently.
+    pub(super) fn warning_of_ranks(&self) -> Option<String> {
+        self.kept_sums.is_mixed().then(|| warning_of_mixed_ranks(self.model))
+    }
+
+    /// Writes tables, summary and plots; `engine` has come to the end.
     pub(super) fn conclude(
         mut self,
+        engine: &dyn Stepper,
         warnings: Vec<String>,
         (steps, spent): (u64, Duration),
     ) -> Result<Outcome, RunError> {
+        let (task, saved_step) = (self.task, self.saved_step);
+        // What comes next may take long.
+        let go_on = || {
+            engine.keep_alive();
+            task.obey(saved_step)
+        };
         let adapter = AdapterSummary::from(self.gpu.description());
         let mut summary = Summary::new(self.task.id, self.scene.clone(), adapter, self.model.particle_count());
         let last_step = self.scene.time.steps;
@@ -283,10 +306,10 @@ impl<'a> Run<'a> {
         summary.warnings = warnings;
         summary.ranks = self.ranks.take();
         self.energies.summarise(&mut summary);
-        self.analyses.conclude(self.directory, &mut summary, &|| self.obey())?;
+        self.analyses.conclude(self.directory, &mut summary, &go_on)?;
         let changed = self.kept_sums.lost();
         let lost: Vec<KeptQuantity> = changed.iter().map(|(quantity, _)| *quantity).collect();
-        summary.conserved_exactly = conserved(self.model, &lost);
+        summary.conserved_exactly = conserved(self.model, &lost, self.kept_sums.is_mixed());
         summary.not_conserved = not_conserved(self.model, &changed);
         let written = |name: &&str| self.directory.file(name).exists();
         let is_table = |name: &&str| Path::new(name).extension().is_some_and(|extension| extension == "csv");
@@ -297,10 +320,10 @@ impl<'a> Run<'a> {
         // Numbers first: they are worth more than pictures if the disk is full.
         let path = self.directory.file(files::SUMMARY);
         summary.save(&path)?;
-        self.obey()?;
+        go_on()?;
         self.pictures.energies(&self.energies.table(), self.model, &summary)?;
-        let (task, saved_step) = (self.task, self.saved_step);
-        self.pictures.analyses(&summary, &|| task.obey(saved_step))?;
+        self.pictures.analyses(&summary, &go_on)?;
+        engine.keep_alive();
         // What was moved away or replaced under way is not what `run.json` speaks of.
         self.energies.check()?;
         if let Some(trajectory) = &self.trajectory {

@@ -8,12 +8,27 @@ use crate::output::checkpoint::CheckpointError;
 use crate::state::State;
 
 /// Name of the section of a checkpoint.
-pub(super) const SECTION: &str = "kept_sums";
+const SECTION: &str = "kept_sums";
+/// Name of the section, without content, of a run that was shared by ranks that compute differently.
+const MIXED: &str = "mixed_ranks";
+
+/// The ranks that share a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Sharing {
+    /// There are several, and they have to compute alike.
+    pub strict: bool,
+    /// They compute differently.
+    pub mixed: bool,
+}
 
 /// The integer sums that a model keeps, as they were at the start, and the changes that were seen since.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct KeptSums {
     sums: Vec<Watched>,
+    /// Whether no sum may change.
+    strict: bool,
+    /// Whether some part of the run was shared by ranks that compute differently.
+    mixed: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -42,7 +57,12 @@ impl KeptSums {
     ///
     /// # Errors
     /// [`CheckpointError::Malformed`] where that is of another length.
-    pub(super) fn new(model: &Model, state: &State, sections: &Sections<'_>) -> Result<Self, CheckpointError> {
+    pub(super) fn new(
+        model: &Model,
+        state: &State,
+        sections: &Sections<'_>,
+        sharing: Sharing,
+    ) -> Result<Self, CheckpointError> {
         let kept = model.physics().kept(model, state).into_iter();
         let mut sums: Vec<Watched> = kept.map(|sum| Watched { sum, change: None }).collect();
         if let Some(kept) = sections.integers(SECTION, (NUMBERS * sums.len()) as u64)? {
@@ -52,11 +72,23 @@ impl KeptSums {
                 sum.change = (*first != 0).then_some(change);
             }
         }
-        Ok(Self { sums })
+        // What changed before is not the fault of these ranks.
+        let strict = sharing.strict && sums.iter().all(|sum| sum.change.is_none());
+        Ok(Self { sums, strict, mixed: sharing.mixed || sections.has(MIXED) })
     }
 
     /// What a checkpoint has to keep.
-    pub(super) fn section(&self) -> Vec<u8> {
+    pub(super) fn sections(&self) -> Vec<(String, Vec<u8>)> {
+        let mixed = self.mixed.then(|| (MIXED.to_owned(), Vec::new()));
+        std::iter::once((SECTION.to_owned(), self.section())).chain(mixed).collect()
+    }
+
+    /// Whether some part of the run was shared by ranks that compute differently.
+    pub(super) fn is_mixed(&self) -> bool {
+        self.mixed
+    }
+
+    fn section(&self) -> Vec<u8> {
         let numbers = |sum: &Watched| {
             let change = sum.change.unwrap_or(Change { step: 0, first: 0, largest: 0 });
             [sum.sum.total, change.step as i64, change.first, change.largest]
@@ -86,6 +118,7 @@ impl KeptSums {
             let size = format!("{}{}", size(sum, change.largest), sum.direction);
             match lost.iter_mut().find(|(quantity, _)| *quantity == sum.quantity) {
                 Some((_, text)) => *text = format!("{text}, {size}"),
+                None if self.mixed => lost.push((sum.quantity, format!("on ranks of several kinds changed by {size}"))),
                 None => lost.push((sum.quantity, format!("on this driver changed by {size}"))),
             }
         }
@@ -94,15 +127,40 @@ impl KeptSums {
 
     /// Says once of the sum that changed first when and by how much.
     pub(super) fn warning(&self) -> Option<String> {
-        let (sum, change) = self.changed().min_by_key(|(_, change)| change.step)?;
+        if self.mixed {
+            let (sum, change) = self.first()?;
+            let size = size(sum, change.first);
+            return Some(format!(
+                "the {}{} had changed by {size} at step {}, as it does where ranks compute differently",
+                sum.quantity.name(),
+                sum.direction,
+                change.step,
+            ));
+        }
         Some(format!(
-            "the {}{} should be constant to the last bit, but at step {} it had changed by {}: a defect of this driver's compiler or \
-             of mesoscope; please report it with the name of the adapter",
+            "{}: a defect of this driver's compiler or of mesoscope; please report it with the name of the adapter",
+            self.changed_in_words()?
+        ))
+    }
+
+    /// Why ranks that have to compute alike do not, if a sum shows it.
+    pub(super) fn refused(&self) -> Option<String> {
+        self.strict.then(|| self.changed_in_words()).flatten()
+    }
+
+    fn changed_in_words(&self) -> Option<String> {
+        let (sum, change) = self.first()?;
+        Some(format!(
+            "the {}{} should be constant to the last bit, but at step {} it had changed by {}",
             sum.quantity.name(),
             sum.direction,
             change.step,
             size(sum, change.first),
         ))
+    }
+
+    fn first(&self) -> Option<(&KeptSum, Change)> {
+        self.changed().min_by_key(|(_, change)| change.step)
     }
 
     fn changed(&self) -> impl Iterator<Item = (&KeptSum, Change)> {
@@ -121,7 +179,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::families::initial_state;
-    use crate::run::conservation::{conserved, not_conserved};
+    use crate::run::conservation::{conserved, not_conserved, warning_of_mixed_ranks};
     use crate::scene;
     use std::path::Path;
 
@@ -160,11 +218,12 @@ mod tests {
             (WATER, 5, "mass on the mesh", 0),
         ] {
             let (model, state, mut sample) = start(text);
-            let mut sums = KeptSums::new(&model, &state, &at(0, &[])).unwrap();
+            let one = Sharing::default();
+            let mut sums = KeptSums::new(&model, &state, &at(0, &[]), one).unwrap();
             sums.compare(&sample);
             assert_eq!((sums.warning(), sums.lost()), (None, Vec::new()));
             let claim = format!("{name}, to the last bit");
-            assert!(conserved(&model, &[]).contains(&claim), "{claim}");
+            assert!(conserved(&model, &[], false).contains(&claim), "{claim}");
 
             for (step, change) in [(40, 1), (80, -3), (120, 0)] {
                 let mut tampered = sample.clone();
@@ -179,7 +238,7 @@ mod tests {
             assert!(warning.contains("at step 40 it had changed"), "{warning}");
             let lost = sums.lost();
             let kept: Vec<KeptQuantity> = lost.iter().map(|(quantity, _)| *quantity).collect();
-            let found = conserved(&model, &kept);
+            let found = conserved(&model, &kept, false);
             assert!(!found.contains(&claim) && found.len() == others, "{found:?}");
             let entry = not_conserved(&model, &lost);
             let text = format!("{name}: on this driver changed by -");
@@ -187,17 +246,55 @@ mod tests {
 
             // An interruption changes nothing of that.
             let section = [(SECTION.to_owned(), sums.section())];
-            assert_eq!(KeptSums::new(&model, &state, &at(160, &section)).unwrap(), sums);
+            assert_eq!(KeptSums::new(&model, &state, &at(160, &section), one).unwrap(), sums);
             let short = [(SECTION.to_owned(), sums.section()[8..].to_vec())];
-            assert!(KeptSums::new(&model, &state, &at(160, &short)).is_err());
+            assert!(KeptSums::new(&model, &state, &at(160, &short), one).is_err());
         }
+    }
+
+    /// Ranks that have to compute alike are refused once a sum changes; of those that need not, nobody is told of a defect.
+    #[test]
+    fn ranks_are_refused_or_keep_momentum_to_rounding() {
+        let (model, state, mut sample) = start(FLUID);
+        let sums = |sections: &[(String, Vec<u8>)], strict, mixed| {
+            KeptSums::new(&model, &state, &at(40, sections), Sharing { strict, mixed }).unwrap()
+        };
+        let unchanged = [(SECTION.to_owned(), sums_at_start(&model, &state).section())];
+        let (mut alike, mut mixed) = (sums(&unchanged, true, false), sums(&unchanged, false, true));
+        alike.compare(&sample);
+        assert_eq!(alike.refused(), None);
+        (sample.step, sample.sums[4]) = (80, sample.sums[4] - 2);
+        for sums in [&mut alike, &mut mixed] {
+            sums.compare(&sample);
+        }
+        let refused = alike.refused().unwrap();
+        assert!(refused.contains("total momentum along y") && refused.contains("at step 80"), "{refused}");
+        assert_eq!(mixed.refused(), None);
+        let warning = mixed.warning().unwrap();
+        assert!(warning.contains("(2 units) at step 80") && !warning.contains("defect"), "{warning}");
+        assert!(mixed.lost()[0].1.starts_with("on ranks of several kinds changed by -"), "{:?}", mixed.lost());
+
+        // What was mixed stays so, and what it has changed is not the fault of the ranks that go on.
+        let kept = mixed.sections();
+        assert!(sums(&kept, true, false).is_mixed() && !sums(&unchanged, true, false).is_mixed());
+        assert_eq!(sums(&kept, true, false).refused(), None);
+        assert!(conserved(&model, &[], true).contains(&"total momentum, to rounding".to_owned()));
+        assert!(warning_of_mixed_ranks(&model).contains("total momentum is conserved to rounding only"));
+        // Mass is brought to the nodes as integers.
+        let (water, ..) = start(WATER);
+        assert!(conserved(&water, &[], true).contains(&"mass on the mesh, to the last bit".to_owned()));
+        assert!(!warning_of_mixed_ranks(&water).contains("rounding"));
+    }
+
+    fn sums_at_start(model: &Model, state: &State) -> KeptSums {
+        KeptSums::new(model, state, &at(0, &[]), Sharing::default()).unwrap()
     }
 
     #[test]
     fn what_is_not_kept_is_not_compared() {
         let langevin = FLUID.replace(r#"{"type": "dpd", "friction": 1}"#, r#"{"type": "langevin", "friction": 1}"#);
         let (model, state, mut sample) = start(&langevin);
-        let mut sums = KeptSums::new(&model, &state, &at(0, &[])).unwrap();
+        let mut sums = KeptSums::new(&model, &state, &at(0, &[]), Sharing::default()).unwrap();
         sample.sums[3] += 1000;
         sums.compare(&sample);
         assert_eq!((sums.warning(), sums.section().len()), (None, 0));

@@ -91,6 +91,11 @@ pub enum Event<'a> {
         /// The step it will end with.
         last_step: u64,
     },
+    /// What its user should know before it goes on.
+    Warned {
+        /// In words.
+        warning: &'a str,
+    },
     /// The device has come further.
     Advanced(Progress),
     /// The run goes back to an earlier step, to repeat the steps since with more memory or wider halos; results are the same.

@@ -27,6 +27,8 @@ const FACTOR_OF_ARITHMETIC: f64 = 4.0;
 pub struct ExpectedTime {
     /// All steps and reports of the scene; opening the adapter and drawing come on top.
     pub seconds: f64,
+    /// A step.
+    pub step: f64,
     /// It may be as many times longer or shorter.
     pub factor: f64,
     /// Whether steps of the scene itself were timed; else those of a small fluid, in proportion to the arithmetic.
@@ -71,7 +73,7 @@ pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError>
     // A report visits everything once more.
     let reports: f64 = plan.samplers.iter().map(|sampler| all / sampler.every as f64).sum();
     let factor = if of_scene { FACTOR_OF_SCENE } else { FACTOR_OF_ARITHMETIC };
-    Ok(ExpectedTime { seconds: step * (all + reports), factor, of_scene, steps })
+    Ok(ExpectedTime { seconds: step * (all + reports), step, factor, of_scene, steps })
 }
 
 /// Seconds a step, and how many were timed.

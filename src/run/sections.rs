@@ -24,6 +24,11 @@ impl<'a> Sections<'a> {
         Self { step, path, kept }
     }
 
+    /// Whether there is a section of a name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.step > 0 && self.kept.iter().any(|(known, _)| known == name)
+    }
+
     /// The numbers of a section, of which there have to be so many; none at step 0.
     ///
     /// # Errors

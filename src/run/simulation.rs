@@ -1,6 +1,7 @@
 //! Runs that are started, resumed, and executed from their first step to their summary.
 
 use super::adapter::open_adapter;
+use super::conservation::warning_of_mixed_ranks;
 use super::execution::{NOTICES, Outcome, Run};
 use super::interrupt::Interrupt;
 use super::pace::Pace;
@@ -9,14 +10,14 @@ use super::plan::plan;
 use super::task::Task;
 use super::team;
 use super::{Event, RunError};
-use crate::engine::{Engine, EngineError, Stepper, Traffic};
+use crate::engine::{Engine, EngineError, RankReport, Stepper};
 use crate::families::{self, Instability, Model};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::{RankSummary, RanksSummary};
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
 use crate::plan::{Division, Hardware, Options, Part, Plan};
-use crate::ranks::Processes;
+use crate::ranks::{Processes, computes_alike};
 use crate::scene::{self, Scene, Warning};
 use std::path::PathBuf;
 
@@ -216,25 +217,42 @@ impl Simulation {
         let Self { scene, model, beginning, interrupt, notices, id, division, mixed } = self;
         let part = division.map(|division| Part { division, rank: 0 });
         let mut options = Options { part, ..Options::default() };
-        // Before the directory: an adapter that is not there should not cost an earlier run its files.
+        let keep_alive = || processes.iter().for_each(|processes| processes.channel().keep_alive());
         let (mut gpu, mut plan) = open_adapter(&scene, &model, choice, options)?;
-        let (directory, mut start, earlier) = match beginning {
+        keep_alive();
+        let (directory, mut start, earlier, mut replaces) = match beginning {
             Beginning::New { directory, force } => {
                 let state = families::initial_state(&scene, &model);
                 families::check_start(&scene, &model, &state)?;
-                let directory = RunDirectory::create(directory, force)?;
-                let scene = scene.clone();
-                (directory, Checkpoint { run_id: id, scene, state, files: Vec::new(), sections: Vec::new() }, None)
+                let directory = RunDirectory::make(directory)?;
+                directory.in_the_way(force)?;
+                let start =
+                    Checkpoint { run_id: id, scene: scene.clone(), state, files: Vec::new(), sections: Vec::new() };
+                (directory, start, None, Some(force))
             }
-            Beginning::Checkpoint { directory, checkpoint, earlier } => (directory, *checkpoint, earlier),
+            Beginning::Checkpoint { directory, checkpoint, earlier } => (directory, *checkpoint, earlier, None),
         };
+        keep_alive();
         let (first_step, last_step) = (start.state.step, scene.time.steps);
-        observer(Event::Started { adapter: gpu.description(), first_step, last_step });
         let mut pace = Pace::new(model.particle_count());
-        let task = Task { id, scene, model, directory, interrupt, notices, earlier };
+        let task = Task { id, scene, model, directory, interrupt, notices, mixed, earlier };
+        let mut begun = false;
         loop {
-            let opened = open(&task, &gpu, plan, (choice, processes, mixed), options, &start);
-            match opened.and_then(|mut engine| attempt(&task, &gpu, engine.as_mut(), &start, &mut pace, observer)) {
+            let opened = open(&task, &gpu, plan, (choice, processes), options, &start);
+            let ended = opened.and_then(|mut engine| {
+                if let Some(force) = replaces.take() {
+                    // Only now: an adapter or a rank that is not there should not cost an earlier run its files.
+                    task.directory.clear(force)?;
+                }
+                if !std::mem::replace(&mut begun, true) {
+                    observer(Event::Started { adapter: gpu.description(), first_step, last_step });
+                    if !computes_alike(engine.ranks()) {
+                        observer(Event::Warned { warning: &warning_of_mixed_ranks(&task.model) });
+                    }
+                }
+                attempt(&task, &gpu, engine.as_mut(), &start, &mut pace, observer)
+            });
+            match ended {
                 Err(RunError::Engine(error)) => {
                     let particles = task.model.particle_count();
                     let (reason, with);
@@ -248,9 +266,12 @@ impl Simulation {
                         }
                         error => return Err(error.into()),
                     };
-                    start = task.last_checkpoint(start)?;
+                    if begun {
+                        start = task.last_checkpoint(start)?;
+                    }
                     observer(Event::Repeating { from: start.state.step, reason, with });
                     (gpu, plan) = open_adapter(&task.scene, &task.model, choice, options)?;
+                    keep_alive();
                 }
                 ended => return ended,
             }
@@ -263,11 +284,11 @@ fn open<'a>(
     task: &Task,
     gpu: &'a Gpu,
     plan: Plan,
-    (choice, processes, mixed): (&AdapterChoice, Option<&'a dyn Processes>, bool),
+    (choice, processes): (&AdapterChoice, Option<&'a dyn Processes>),
     options: Options,
     start: &Checkpoint,
 ) -> Result<Box<dyn Stepper + 'a>, RunError> {
-    let scene = (&task.scene, &task.model);
+    let (scene, mixed) = ((&task.scene, &task.model), task.mixed);
     Ok(match (options.part, processes) {
         (Some(Part { division, .. }), Some(processes)) => {
             Box::new(team::team_of_processes(scene, gpu, (division, mixed), options, &start.state, processes)?)
@@ -309,24 +330,38 @@ fn attempt(
     observer(Event::Finishing);
     let mut warnings = task.notices.clone();
     warnings.extend(task.model.warnings(&task.scene).iter().map(ToString::to_string));
+    warnings.extend(run.warning_of_ranks());
     warnings.extend(run.kept_sums.warning());
     warnings.extend(pictures::lettering(&task.scene));
     let saved_step = run.saved_step;
-    run.conclude(warnings, pace.done()).map_err(|error| task.stopped(error, saved_step))
+    run.conclude(engine, warnings, pace.done()).map_err(|error| task.stopped(error, saved_step))
 }
 
 /// The ranks that have shared a run, if there are several.
 fn ranks(engine: &dyn Stepper) -> Option<RanksSummary> {
     let part = engine.plan().part.as_ref()?;
-    let of_rank = |(adapter, traffic): (&str, Traffic)| {
+    let of_rank = |RankReport { host, adapter, arithmetic, traffic }: &RankReport| {
         let steps = traffic.exchanges.max(1) as f64;
         RankSummary {
-            adapter: adapter.to_owned(),
+            host: host.clone(),
+            adapter: adapter.clone(),
+            arithmetic: format!("{arithmetic:08x}"),
             copies: traffic.copies as f64 / steps,
             bytes_per_step: traffic.bytes as f64 / steps,
+            seconds_computing: traffic.computing.as_secs_f64() / steps,
+            seconds_exchanging: traffic.exchanging.as_secs_f64() / steps,
             seconds_waiting: traffic.waiting.as_secs_f64() / steps,
         }
     };
-    let ranks = engine.shared().into_iter().map(of_rank).collect();
-    Some(RanksSummary { parts: part.part.division.parts, halo: part.halo, ranks })
+    let ranks: Vec<RankSummary> = engine.ranks().iter().map(of_rank).collect();
+    let computing = |rank: &RankSummary| rank.seconds_computing;
+    let mean = ranks.iter().map(computing).sum::<f64>() / ranks.len().max(1) as f64;
+    let slowest = ranks.iter().map(computing).fold(0.0, f64::max);
+    Some(RanksSummary {
+        parts: part.part.division.parts,
+        halo: part.halo,
+        alike: computes_alike(engine.ranks()),
+        slowest_over_mean: if mean > 0.0 { slowest / mean } else { 1.0 },
+        ranks,
+    })
 }

@@ -15,6 +15,8 @@ pub(super) struct Task {
     pub interrupt: Interrupt,
     /// What was done to the scene before the run.
     pub notices: Vec<String>,
+    /// Whether ranks may compute differently.
+    pub mixed: bool,
     /// What `run.json` says of an earlier part of the run.
     pub earlier: Option<Box<Summary>>,
 }

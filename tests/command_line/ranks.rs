@@ -77,8 +77,88 @@ fn everything_that_hinders_is_told() {
     place.scene["output"]["profiles"] = json!({"axis": "y", "bins": 3, "every": 2});
     let reasons = [
         "baths with memory: on one rank only",
-        "unless steps are split",
+        "where steps are not split: on one rank only",
         "`output.profiles` is measured on one device",
     ];
     fails(&["run", &place.scene(), "--out", &place.argument("out"), "--ranks", "2"], 2, &reasons);
+}
+
+/// Every scene that several ranks cannot share is refused with what they can.
+#[test]
+fn what_is_not_shared_is_told_with_what_is() {
+    let fixed = r#"particles=[{"species":"A","count":60},{"species":"B","count":9,"fixed":true}]"#;
+    let memory = r#"interactions=[{"type":"dpd","friction":1,"bath":{"type":"memory","rate":2}}]"#;
+    for (scene, changes, reason) in [
+        ("voronoi-dpd", &[][..], "scenes of this kind: on one rank only"),
+        ("harmonic-chain", &[], "harmonic chains: on one rank only"),
+        ("coloured-noise", &[], "coloured noise: on one rank only"),
+        ("dpd-fluid", &["integrator.type=cotter-reich", fixed], "fixed particles: on one rank only"),
+        ("dpd-fluid", &["integrator.type=cotter-reich", memory], "baths with memory: on one rank only"),
+        ("dpd-fluid", &["integrator.type=cotter-reich", "space.box=[40]"], "particles on a line: on one rank only"),
+        ("langevin-gas", &[], "on one rank only"),
+        ("gle-oscillator", &[], "on one rank only"),
+        ("dpd-fluid", &[r#"output.stress={"every":10}"#], "`output.stress` is measured on one device"),
+    ] {
+        let set = changes.iter().flat_map(|change| ["--set", change]);
+        let arguments: Vec<&str> = ["check", scene, "--ranks", "2"].into_iter().chain(set).collect();
+        fails(&arguments, 2, &[reason, "they share particles with pair forces", "docs/guide/ranks.md"]);
+    }
+}
+
+/// Numbers of ranks that make no sense or do not fit, however large.
+#[test]
+fn wrong_numbers_of_ranks_are_refused() {
+    for (ranks, part) in [
+        ("2,2", "`--ranks 2,2` has 2 numbers, where the box has 3 axes"),
+        ("4294967295", "parts leaves each wider than"),
+        ("4096", "ranks fit"),
+        ("1,1,4000000", "4000000 parts along z are too thin"),
+        ("0", "a whole number from 1 on"),
+        ("4294967296", "a whole number from 1 on"),
+    ] {
+        fails(&["check", "dpd-fluid", "--set", "output={}", "--ranks", ranks], 2, &[part]);
+    }
+    let changes = ["--set", "interactions.0.mesh=[32,32]", "--set", "particles.0.count=16384"];
+    fails(&[&["check", "shallow-water", "--ranks", "4294967295"][..], &changes].concat(), 2, &["32 rows of cells"]);
+}
+
+/// All particles in the part of one rank: the others have nothing to do, and the one needs more memory.
+#[test]
+fn particles_may_all_be_with_one_rank() {
+    let place = |number: usize, spacing: f64| 0.2 + spacing * number as f64;
+    let positions: Vec<[f64; 3]> = (0..8000)
+        .map(|number| [place(number % 20, 0.58), place(number / 20 % 20, 0.58), place(number / 400, 0.58)])
+        .collect();
+    let place = Place::of(json!({
+        "title": "one part",
+        "integrator": {"type": "groot-warren"},
+        "space": {"box": [12, 12, 48]},
+        "time": {"step": 0.005, "steps": 12},
+        "temperature": 1,
+        "particles": [{"species": "A", "count": 8000, "placement": {"type": "listed", "positions": positions}}],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
+        "output": {"energies": {"every": 3}, "plot": {"width": 320, "height": 240}, "snapshot": {"width": 100, "height": 80}},
+    }));
+    place.run("alone", &["--quiet"]);
+    let (scene, out) = (place.scene(), place.argument("shared"));
+    let (_, told) = succeeds_and_tells(&["run", &scene, "--out", &out, "--ranks", "1,1,4"]);
+    assert!(told.contains("continuing from step 0 with more memory"), "{told}");
+    for name in [files::ENERGIES, files::CHECKPOINT, files::SNAPSHOT] {
+        assert!(bytes(&place.path("alone").join(name)) == bytes(&place.path("shared").join(name)), "{name}");
+    }
+    let shared = place.summary("shared").ranks.unwrap();
+    assert!(shared.alike && shared.slowest_over_mean >= 1.0, "{shared:?}");
+}
+
+/// More ranks than adapters, and what to expect of them.
+#[test]
+fn ranks_that_share_an_adapter_are_told_of() {
+    let fluid = ["dpd-fluid", "--set", "output={}", "--ranks", "2", "--adapter", "0"];
+    let water = ["shallow-water", "--set", "output={}", "--ranks", "2", "--adapter", "0"];
+    for scene in [fluid, water] {
+        let (found, told) = succeeds_and_tells(&[&["check"][..], &scene].concat());
+        assert!(told.contains("warning: 2 ranks share 1 adapter of this machine: they take turns on it"), "{told}");
+        let speed = found.lines().find(|line| line.trim_start().starts_with("speed")).unwrap();
+        assert!(speed.contains("times that of one rank") && speed.contains("PCIe 4"), "{speed}");
+    }
 }

@@ -1,14 +1,12 @@
 //! Several ranks with bonds, angles and tethers: the same bytes as one.
 
 use mesoscope::engine::{EngineError, Stepper as _};
-use mesoscope::gpu::Requirements;
 use mesoscope::plan::{Division, Options};
-use mesoscope::run;
 use mesoscope::scene::Scene;
 
-use super::ranks::{EVERY_THIRD, FOLLOWED, STEPS, continues, team};
+use super::ranks::{EVERY_THIRD, FOLLOWED, STEPS, continues, fits, team};
 use crate::support::bytes::{self, Bytes, same};
-use crate::support::{COTTER_REICH, GROOT_WARREN, PREDICTED, SPLITTING, STAGED, built_in, fluid, hardware, start};
+use crate::support::{COTTER_REICH, GROOT_WARREN, PREDICTED, SPLITTING, STAGED, built_in, fluid, start};
 
 const PAIRS: &str = r#"{"type":"dpd","repulsion":25,"friction":4.5}"#;
 const SPRINGS: &str = r#"{"type":"bonds","potential":{"type":"harmonic","stiffness":50,"length":0.6}}"#;
@@ -100,12 +98,6 @@ fn divided(scene: &Scene, parts: [u32; 3], batch: u64) -> (Bytes, u32) {
             Err(error) => panic!("{error}"),
         }
     }
-}
-
-/// Whether the adapter of the tests takes the plan of a scene: with walls or shear, plans for any GPU need more buffers.
-fn fits(scene: &Scene) -> bool {
-    let plan = run::plan(&start(scene).0, 0, &scene.output, hardware(), Options::default());
-    plan.storage_buffers <= Requirements::default().storage_buffers
 }
 
 #[test]

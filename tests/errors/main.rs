@@ -11,6 +11,7 @@ mod damage;
 mod fuzzing;
 mod many_body;
 mod molecules;
+mod ranks;
 mod scenes;
 mod shallow_water;
 mod shear;

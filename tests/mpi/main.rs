@@ -8,14 +8,14 @@ use std::process::{Child, Command, Output, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use mesoscope::output::Summary;
+use mesoscope::output::{Summary, files};
 use rand::{RngExt as _, SeedableRng as _, rngs::StdRng};
 use tempfile::TempDir;
 
-/// Seconds until a rank counts as lost.
-const PATIENCE: u64 = 4;
-/// Everything has to have ended by then: the patience twice, and what a loaded machine needs.
-const END: Duration = Duration::from_secs(30);
+/// Seconds until a rank counts as lost, where one is stopped: more than a loaded machine takes for any step, file or picture.
+const PATIENCE: u64 = 10;
+/// Everything has to have ended by then: the patience twice, the turns of all ranks, and what a loaded machine needs.
+const END: Duration = Duration::from_secs(90);
 /// Faults of each kind.
 const FAULTS: usize = 10;
 /// What a run leaves that has to be the same.
@@ -51,9 +51,14 @@ impl Run {
     /// Resumes without a launcher, and compares what is there at the end with an undisturbed run.
     #[track_caller]
     fn resumes_like(&self, name: &str, undisturbed: &str) {
+        self.resumes_by(Command::new(env!("CARGO_BIN_EXE_mesoscope")), name, undisturbed);
+    }
+
+    #[track_caller]
+    fn resumes_by(&self, mut program: Command, name: &str, undisturbed: &str) {
         let directory = self.directory(name);
         assert!(directory.join("checkpoint.bin").exists(), "no checkpoint");
-        let ended = Command::new(env!("CARGO_BIN_EXE_mesoscope")).arg("resume").arg(&directory).output().unwrap();
+        let ended = program.arg("resume").arg(&directory).output().unwrap();
         assert!(ended.status.success(), "{}", said(&ended));
         self.same(name, undisturbed);
     }
@@ -75,7 +80,13 @@ impl Run {
 fn launcher(ranks: u32) -> Command {
     let mut command = Command::new("mpirun");
     command.args(["--allow-run-as-root", "--oversubscribe", "-n", &ranks.to_string()]);
-    command.env("MESOSCOPE_PATIENCE", PATIENCE.to_string()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command
+}
+
+/// The same with less patience.
+fn impatient(mut command: Command) -> Command {
+    command.env("MESOSCOPE_PATIENCE", PATIENCE.to_string());
     command
 }
 
@@ -96,6 +107,11 @@ fn rank(directory: &Path, number: usize) -> Option<u32> {
         found.then_some(id)
     });
     processes.max()
+}
+
+/// How often a run says that something is wrong.
+fn errors(output: &Output) -> usize {
+    said(output).matches("error: ").count()
 }
 
 fn signal(kind: &str, process: u32) {
@@ -191,18 +207,25 @@ fn what_cannot_be_shared_is_told_once() {
         let run = Run::of(200, more);
         let output = ends(run.command(ranks, "out").spawn().unwrap(), &run.directory("out"));
         assert_eq!(output.status.code(), Some(code), "{}", said(&output));
-        assert_eq!(said(&output).matches("error: ").count(), 1, "{}", said(&output));
+        assert_eq!(errors(&output), 1, "{}", said(&output));
         assert!(said(&output).contains(expected), "{}", said(&output));
     }
 }
 
-/// A rank without an adapter: one message, and nothing of an earlier run is lost.
+/// A rank without an adapter: one message, and nothing of an earlier run is lost, though it might be replaced.
 #[test]
 fn a_rank_without_an_adapter_ends_all() {
-    let run = Run::of(200, &[]);
+    let run = Run::of(200, &["--force"]);
+    let earlier = run.command(1, "out").output().unwrap();
+    assert!(earlier.status.success(), "{}", said(&earlier));
     let mut command = launcher(1);
     let program = env!("CARGO_BIN_EXE_mesoscope");
     let directory = run.directory("out");
+    let files = || -> Vec<(PathBuf, Vec<u8>)> {
+        let paths = fs::read_dir(&directory).unwrap().map(|entry| entry.unwrap().path());
+        paths.map(|path| (path.clone(), fs::read(path).unwrap())).collect()
+    };
+    let before = files();
     command.arg(program).args(&run.arguments).arg("--out").arg(&directory);
     command.args([
         ":",
@@ -216,7 +239,81 @@ fn a_rank_without_an_adapter_ends_all() {
     command.arg(program).args(&run.arguments).arg("--out").arg(&directory);
     let output = ends(command.spawn().unwrap(), &directory);
     assert_eq!(output.status.code(), Some(3), "{}", said(&output));
-    assert!(said(&output).contains("rank 1: ") && said(&output).matches("error: ").count() == 1, "{}", said(&output));
+    assert!(said(&output).contains("rank 1: ") && errors(&output) == 1, "{}", said(&output));
+    assert!(before.len() > 4 && files() == before, "the earlier run is not what it was");
+}
+
+/// More ranks than adapters on a machine: a warning, once.
+#[test]
+fn ranks_that_share_an_adapter_are_told_of() {
+    let run = Run::of(20, &["--adapter", "0"]);
+    let output = run.command(2, "out").output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    let warnings = said(&output).matches("warning: 2 ranks share 1 adapter of this machine").count();
+    assert_eq!(warnings, 1, "{}", said(&output));
+}
+
+/// A rank that panics ends all, with its message and its code, whichever it is.
+#[test]
+fn a_panic_of_a_rank_ends_all() {
+    let run = Run::of(200, &[]);
+    for panicking in [0, 2] {
+        let mut command = run.command(3, "out");
+        command.env("MESOSCOPE_TEST_PANIC", panicking.to_string());
+        let output = ends(command.spawn().unwrap(), &run.directory("out"));
+        assert_eq!(output.status.code(), Some(101), "{}", said(&output));
+        assert_eq!(said(&output).matches("asked to panic").count(), 1, "{}", said(&output));
+        assert_eq!(errors(&output), 0, "{}", said(&output));
+    }
+}
+
+/// The first rank stops while it writes a checkpoint, and nobody waits for a command of its.
+#[test]
+fn a_first_rank_that_stops_while_it_writes_ends_all() {
+    let run = Run::of(100_000, &["--set", "output.checkpoint.every=1"]);
+    let directory = run.directory("out");
+    let mut child = impatient(run.command(4, "out")).spawn().unwrap();
+    under_way(&run, "out", &mut child, Duration::ZERO);
+    let first = rank(&directory, 0).unwrap();
+    let begun = Instant::now();
+    // What it writes has another name until it is complete.
+    while !is_writing(&directory) {
+        signal("-CONT", first);
+        assert!(begun.elapsed() < END, "nothing is written");
+        thread::sleep(Duration::from_micros(300));
+        signal("-STOP", first);
+    }
+    let output = ends(child, &directory);
+    assert_eq!(output.status.code(), Some(3), "{}", said(&output));
+    assert!(said(&output).contains(&format!("rank 0 has not answered for {PATIENCE} s")), "{}", said(&output));
+    assert_eq!(errors(&output), 1, "{}", said(&output));
+    let mut resume = Command::new(env!("CARGO_BIN_EXE_mesoscope"));
+    let resumed = resume.arg("resume").arg(&directory).args(["--steps", "1"]).output().unwrap();
+    assert!(resumed.status.success(), "{}", said(&resumed));
+}
+
+/// Whether a process, which is stopped, has not finished writing a file.
+fn is_writing(directory: &Path) -> bool {
+    let names = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().file_name());
+    names.filter_map(|name| name.into_string().ok()).any(|name| files::of_temporary(&name).is_some())
+}
+
+/// What a launcher leaves when it is interrupted can be resumed, also by processes.
+#[test]
+fn an_interrupted_launcher_leaves_a_checkpoint() {
+    let run = Run::of(3000, &[]);
+    assert!(run.command(1, "undisturbed").output().unwrap().status.success());
+    for kind in ["-INT", "-TERM"] {
+        let name = kind.trim_start_matches('-');
+        let mut child = run.command(4, name).spawn().unwrap();
+        under_way(&run, name, &mut child, Duration::from_millis(200));
+        signal(kind, child.id());
+        let output = ends(child, &run.directory(name));
+        assert!(!output.status.success(), "{}", said(&output));
+        let mut processes = launcher(2);
+        processes.arg(env!("CARGO_BIN_EXE_mesoscope"));
+        run.resumes_by(processes, name, "undisturbed");
+    }
 }
 
 /// Some rank is killed or stopped at some moment.
@@ -230,22 +327,21 @@ fn the_loss_of_a_rank_ends_all_and_the_run_resumes() {
         let kind = ["-KILL", "-STOP"][number % 2];
         let name = format!("fault-{number}");
         let directory = run.directory(&name);
-        let mut child = run.command(4, &name).spawn().unwrap();
+        let mut child = impatient(run.command(4, &name)).spawn().unwrap();
         under_way(&run, &name, &mut child, Duration::from_millis(random.random_range(0..600)));
         let lost = random.random_range(0..4);
         if let Some(process) = rank(&directory, lost) {
             signal(kind, process);
         }
         let output = ends(child, &directory);
-        assert!(!output.status.success(), "{kind} {lost}: {}", said(&output));
-        if kind == "-STOP" {
-            assert_eq!(output.status.code(), Some(3), "{}", said(&output));
-            assert!(
-                said(&output).contains(&format!("rank {lost} has not answered for {PATIENCE} s")),
-                "{}",
-                said(&output)
-            );
-        }
+        // Of what is killed the launcher tells, as of any program.
+        let (code, errors_told, told) = match kind {
+            "-STOP" => (3, 1, format!("rank {lost} has not answered for {PATIENCE} s")),
+            _ => (137, 0, "exited on signal 9".to_owned()),
+        };
+        assert_eq!(output.status.code(), Some(code), "{kind} {lost}: {}", said(&output));
+        assert_eq!(errors(&output), errors_told, "{kind} {lost}: {}", said(&output));
+        assert_eq!(said(&output).matches(&told).count(), 1, "{kind} {lost}: {}", said(&output));
         run.resumes_like(&name, "undisturbed");
         fs::remove_dir_all(&directory).unwrap();
     }

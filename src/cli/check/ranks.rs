@@ -1,13 +1,16 @@
 //! What each of several ranks that share a scene has to do.
 
 use mesoscope::families::Model;
-use mesoscope::numbers::{bytes, grouped};
+use mesoscope::numbers::{bytes, grouped, prefixed};
 use mesoscope::plan::Division;
-use mesoscope::run::share_of;
+use mesoscope::run::{Share, share_of};
 use mesoscope::scene::Scene;
 
-/// The rows of the overview.
-pub fn rows(scene: &Scene, model: &Model, division: Division) -> Vec<(&'static str, String)> {
+/// Particle-steps a second of a graphics card, where no adapter says how many.
+const SPEED: f64 = 1e9;
+
+/// The rows of the overview. One rank takes so many seconds a step, if that is known.
+pub fn rows(scene: &Scene, model: &Model, division: Division, step: Option<f64>) -> Vec<(&'static str, String)> {
     let dimension = scene.space.lengths.len();
     let share = share_of(scene, model, division);
     let product = |numbers: Vec<String>| numbers[..dimension].join(" × ");
@@ -25,6 +28,7 @@ pub fn rows(scene: &Scene, model: &Model, division: Division) -> Vec<(&'static s
             ("ranks", format!("{count} ({parts}), each {lengths}, of whole rows of cells; at most {most} fit")),
             ("shares", work),
             ("exchange", sends),
+            ("speed", speed(model, &share, division.ranks(), step)),
         ];
     }
     let (halo, copies) = (length(share.halo), share.copies);
@@ -39,5 +43,19 @@ pub fn rows(scene: &Scene, model: &Model, division: Division) -> Vec<(&'static s
             ),
         ),
         ("exchange", format!("about {sent} a step and rank, with {peers}")),
+        ("speed", speed(model, &share, division.ranks(), step)),
     ]
+}
+
+/// How much faster than one rank the ranks are expected to be.
+fn speed(model: &Model, share: &Share, ranks: u32, step: Option<f64>) -> String {
+    let particles = model.particle_count() as f64;
+    let (step, whose) = step.map_or((particles / SPEED, "a graphics card"), |step| (step, "this adapter"));
+    let times = share.speed_up(ranks, step);
+    format!(
+        "about {times:.1} times that of one rank, an efficiency of {:.0} %: with {} particle-steps/s of one as of {whose}, an adapter \
+         a rank, PCIe 4 and 100 Gb/s",
+        100.0 * times / f64::from(ranks),
+        prefixed(particles / step),
+    )
 }

@@ -321,7 +321,7 @@ impl Physics for Particles {
             (model.species.iter().any(|species| species.fixed && !species.frozen), "fixed particles"),
             (
                 !chained && !splits && of_split_steps,
-                "tethers, Langevin baths and friction along bonds, unless steps are split,",
+                "tethers, Langevin baths and friction along bonds where steps are not split",
             ),
             (!chained && model.units.dimension == 1, "particles on a line"),
         ];

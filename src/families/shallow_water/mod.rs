@@ -30,6 +30,7 @@ use crate::numbers::{grouped, with_error};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
 use crate::shaders::Constant;
 use crate::state::State;
+use plan::Arithmetic;
 use reference::ShallowWaterReference;
 use std::ops::Range;
 
@@ -154,6 +155,11 @@ impl Physics for ShallowWater {
 
     fn rows(&self) -> Option<Rows> {
         Some(Self::rows(self))
+    }
+
+    fn undivided(&self) -> f64 {
+        let arithmetic = Arithmetic::of(self);
+        arithmetic.transforms / arithmetic.sum()
     }
 
     fn small_scene(&self, scene: &Scene) -> Option<Scene> {

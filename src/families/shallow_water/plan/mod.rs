@@ -4,6 +4,7 @@ mod part;
 pub mod smoothing;
 mod steps;
 
+pub(super) use steps::Arithmetic;
 pub(crate) use steps::plan;
 
 use crate::plan::{

@@ -384,10 +384,7 @@ impl Builder<'_> {
             self.drifting();
         }
         self.exchange(measured.follows);
-        let width = f64::from(self.water.spline_order + 1);
-        let per_cell = self.water.nodes() as f64 / self.water.carriers.max(1) as f64;
-        // Moments and gradient of a particle; polynomials, contributions and transforms of a cell.
-        self.plan.operations_per_particle = 4.0 * width * width + 70.0 + per_cell * (8.0 * width.powi(3) + 150.0);
+        self.plan.operations_per_particle = Arithmetic::of(self.water).sum();
     }
 
     fn drifting(&mut self) {
@@ -469,5 +466,31 @@ impl Builder<'_> {
             self.plan.add_buffer(Array::PreviousMasses, 4 * nodes);
             self.plan.add_buffer(Array::Surface, 4 * nodes);
         }
+    }
+}
+
+/// Operations of a step, per particle.
+pub(in crate::families::shallow_water) struct Arithmetic {
+    /// Moments and gradient of a particle.
+    particle: f64,
+    /// Polynomials and contributions of a cell.
+    cell: f64,
+    /// Transforms, for each node.
+    pub transforms: f64,
+}
+
+impl Arithmetic {
+    pub(in crate::families::shallow_water) fn of(water: &ShallowWater) -> Self {
+        let width = f64::from(water.spline_order + 1);
+        let per_cell = water.nodes() as f64 / water.carriers.max(1) as f64;
+        Self {
+            particle: 4.0 * width * width + 70.0,
+            cell: per_cell * 8.0 * width.powi(3),
+            transforms: per_cell * 150.0,
+        }
+    }
+
+    pub(in crate::families::shallow_water) fn sum(&self) -> f64 {
+        self.particle + self.cell + self.transforms
     }
 }
