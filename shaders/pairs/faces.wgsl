@@ -3,6 +3,7 @@ var<private> visited_place: Fraction; // of the particle that is visited, for re
 var<private> shift_of_visit: u32;
 var<private> face_shift: u32;     // displaces candidates across the boundary of a row; 0 in rows without one
 var<private> face_is_below: bool;
+var<private> face_edge: u32;      // half a box from the middle of the row's layer: what is further is nearer across the boundary
 
 // Layers of rows between the boundaries, at least three, and the rows from one layer to the next.
 override SHEAR_LEVELS: u32;
@@ -15,6 +16,8 @@ fn approach_faces(row: u32) {
     shift_of_visit = shift_after(SHEAR_MOMENT);
     let layer = layer_of_row(row);
     face_is_below = layer == 0u;
+    let half_layer = 0x80000000u / SHEAR_LEVELS;
+    face_edge = select(0x80000000u - half_layer, 0x80000000u + half_layer, face_is_below);
     face_shift = select(select(0u, shift_of_visit, layer == SHEAR_LEVELS - 1u), 0u - shift_of_visit, face_is_below);
 }
 // Whether there is a boundary between two rows next to each other.
@@ -25,6 +28,6 @@ fn is_across(row: u32, other: u32) -> bool {
 // The copy of a candidate that is next to the row.
 fn copy_at_row(fraction: Fraction) -> Fraction {
     var copy = fraction;
-    copy.x += select(0u, face_shift, (fraction[SHEAR_AXIS] >= 0x80000000u) == face_is_below);
+    copy.x += select(0u, face_shift, (fraction[SHEAR_AXIS] >= face_edge) == face_is_below);
     return copy;
 }

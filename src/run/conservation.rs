@@ -119,7 +119,7 @@ mod tests {
         };
         let told = |rate: f64| {
             let model = Model::new(&scene::parse("test", &text(rate), &[]).expect("a scene"));
-            (conserved(&model, &[]), not_conserved(&model, &[]))
+            (conserved(&model, &[], false), not_conserved(&model, &[]))
         };
         let (kept, lost) = told(0.5);
         let with_boundaries =
@@ -139,7 +139,7 @@ mod tests {
         let interactions = r#"{"type": "dpd", "friction": 1}, {"type": "body-force", "force": [1, 0, 0], "profile": "opposed", "axis": "z"}"#;
         let model = model("", interactions);
         assert_eq!(
-            conserved(&model, &[]),
+            conserved(&model, &[], false),
             ["mass", "total momentum less what body forces have put in, to the last bit"]
         );
         let lost = not_conserved(&model, &[]);
