@@ -145,7 +145,8 @@ mod tests {
         let (request, summary) =
             made_up::summary(&["time.step=0.01,0.02", "integrator.type=splitting,groot-warren"], "3%", &made_up);
         let chart = chart(&summary, &request, made_up::MEASURE).unwrap();
-        let [panel] = &chart.panels[..] else { panic!("{chart:?}") };
+        assert_eq!(chart.panels.len(), 1, "{chart:?}");
+        let panel = &chart.panels[0];
         assert_eq!((panel.x.scale, panel.y.scale), (Scale::Log, Scale::Log));
         assert!(panel.y.label == "error of pressure (%)" && panel.x.label.ends_with("(s)"), "{panel:?}");
         let series = |name: &str| panel.series.iter().find(|series| series.name == name).unwrap();
@@ -164,7 +165,8 @@ mod tests {
         assert_eq!(places(series("groot-warren")), [[4.0, 2.0], [1.0, 10.0]]);
         let bars = grey.errors.as_ref().unwrap();
         assert!((bars[0] - 0.2).abs() < 1e-12 && grey.style == SeriesStyle::Markers, "{grey:?}");
-        let [target] = &panel.references[..] else { panic!("{panel:?}") };
+        assert_eq!(panel.references.len(), 1, "{panel:?}");
+        let target = &panel.references[0];
         assert!(target.label == "target" && (target.value - 3.0).abs() < 1e-12, "{target:?}");
         assert!(chart.subtitle.ends_with("which was given, bars: standard errors"), "{}", chart.subtitle);
     }

@@ -228,9 +228,24 @@ fn layers_leave_the_fluid_as_it_is() {
 #[test]
 #[ignore = "minutes"]
 fn a_million_steps_between_walls() {
+    nobody_is_behind_a_wall(r#"integrator={"type":"splitting"}"#, 500, 2000);
+}
+
+/// The same in every step of a hundred thousand, with each integrator.
+#[test]
+#[ignore = "minutes"]
+fn a_hundred_thousand_steps_between_walls_one_by_one() {
+    for integrator in INTEGRATORS {
+        nobody_is_behind_a_wall(integrator, 1, 100_000);
+    }
+}
+
+/// Looks so often, after so many steps each time.
+fn nobody_is_behind_a_wall(integrator: &str, steps: u64, looks: u64) {
     let scene = fluid(&[
         r#"space={"box":[3,4,3],"walls":{"x":{"reflection":"specular"},"z":{"lower_velocity":[0,-1,0],"upper_velocity":[0,1,0]}}}"#,
         r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"body-force","force":[0.5,0.1,-0.3]}]"#,
+        integrator,
         "time.step=0.02",
         "temperature=2",
         "output.energies.every=1000000",
@@ -239,47 +254,17 @@ fn a_million_steps_between_walls() {
     let mut run = Device::new(&scene);
     let start = run.state();
     let mut largest = [0; 3];
-    for _ in 0..2000 {
-        run.step(500);
+    for _ in 0..looks {
+        run.step(steps);
         let state = run.state();
         for axis in [0, 2] {
             largest[axis] = state.positions.iter().map(|position| position[axis]).max().unwrap().max(largest[axis]);
-            assert!(largest[axis] < ends[axis], "step {}: behind a wall", state.step);
+            assert!(largest[axis] < ends[axis], "{integrator}, step {}: behind a wall", state.step);
         }
-        assert_eq!(state.exchanged_momentum(), start.total_momentum(), "step {}", state.step);
+        assert_eq!(state.exchanged_momentum(), start.total_momentum(), "{integrator}, step {}", state.step);
     }
-    println!("| places | {ends:?} | highest | {largest:?} |");
+    println!("| {integrator} | places | {ends:?} | highest | {largest:?} |");
     assert!([0, 2].iter().all(|axis| f64::from(largest[*axis]) > 0.999 * f64::from(ends[*axis])));
-}
-
-/// The same in every step of a hundred thousand, with each integrator.
-#[test]
-#[ignore = "minutes"]
-fn a_hundred_thousand_steps_between_walls_one_by_one() {
-    for integrator in INTEGRATORS {
-        let scene = fluid(&[
-            r#"space={"box":[3,4,3],"walls":{"x":{"reflection":"specular"},"z":{"lower_velocity":[0,-1,0],"upper_velocity":[0,1,0]}}}"#,
-            r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"body-force","force":[0.5,0.1,-0.3]}]"#,
-            integrator,
-            "time.step=0.02",
-            "temperature=2",
-            "output.energies.every=1000000",
-        ]);
-        let ends = Model::new(&scene).units.ends();
-        let mut run = Device::new(&scene);
-        let start = run.state();
-        let mut largest = [0; 3];
-        for _ in 0..100_000 {
-            run.step(1);
-            let state = run.state();
-            for axis in [0, 2] {
-                largest[axis] = state.positions.iter().map(|position| position[axis]).max().unwrap().max(largest[axis]);
-                assert!(largest[axis] < ends[axis], "{integrator}, step {}: behind a wall", state.step);
-            }
-            assert_eq!(state.exchanged_momentum(), start.total_momentum(), "{integrator}, step {}", state.step);
-        }
-        println!("| {integrator} | places | {ends:?} | highest | {largest:?} |");
-    }
 }
 
 /// Over a hundred thousand steps of a small box, hot and driven apart by halves, momentum less what forces have put in is one value; in a
