@@ -26,6 +26,13 @@ pub struct Feature {
 
 fn nothing(_: &mut Value) {}
 
+/// Boundaries at rest.
+fn no_shear(scene: &mut Value) {
+    if let Some(space) = scene["space"].as_object_mut() {
+        space.remove("shear");
+    }
+}
+
 /// Pairs without friction.
 fn without_frictions(scene: &mut Value) {
     leave_out(scene, "dpd", &["pairs", "bath", "friction", "many_body"]);
@@ -759,7 +766,8 @@ pub fn features() -> Vec<Feature> {
         },
         Feature {
             name: "trajectory",
-            ground: nothing,
+            // Across boundaries that shear nothing counts how often a particle has gone round.
+            ground: no_shear,
             with: |scene| write(scene, "trajectory", json!({"every": 5})),
             without: |scene| write(scene, "trajectory", Value::Null),
             own: Some(&["kernel follow", "array paths"]),
