@@ -298,17 +298,22 @@ fn is_writing(directory: &Path) -> bool {
     names.filter_map(|name| name.into_string().ok()).any(|name| files::of_temporary(&name).is_some())
 }
 
+/// Four processes whose launcher gets a signal once there is a checkpoint: the name of their directory, and what they leave.
+fn told_under_way<'k>(run: &Run, kind: &'k str) -> (&'k str, Output) {
+    let name = kind.trim_start_matches('-');
+    let mut child = run.command(4, name).spawn().unwrap();
+    under_way(run, name, &mut child, Duration::from_millis(100));
+    signal(kind, child.id());
+    (name, ends(child, &run.directory(name)))
+}
+
 /// What a launcher leaves when it is interrupted can be resumed, also by processes.
 #[test]
 fn an_interrupted_launcher_leaves_a_checkpoint() {
     let run = Run::of(3000, &[]);
     assert!(run.command(1, "undisturbed").output().unwrap().status.success());
     for kind in ["-INT", "-TERM"] {
-        let name = kind.trim_start_matches('-');
-        let mut child = run.command(4, name).spawn().unwrap();
-        under_way(&run, name, &mut child, Duration::from_millis(200));
-        signal(kind, child.id());
-        let output = ends(child, &run.directory(name));
+        let (name, output) = told_under_way(&run, kind);
         assert!(!output.status.success(), "{}", said(&output));
         let mut processes = launcher(2);
         processes.arg(env!("CARGO_BIN_EXE_mesoscope"));
@@ -353,11 +358,7 @@ fn warnings_before_the_end_of_a_job_save_and_stop() {
     let run = Run::of(3000, &[]);
     assert!(run.command(1, "undisturbed").output().unwrap().status.success());
     for warning in ["-USR1", "-USR2"] {
-        let name = warning.trim_start_matches('-');
-        let mut child = run.command(4, name).spawn().unwrap();
-        under_way(&run, name, &mut child, Duration::from_millis(100));
-        signal(warning, child.id());
-        let output = ends(child, &run.directory(name));
+        let (name, output) = told_under_way(&run, warning);
         assert_eq!(output.status.code(), Some(130), "{}", said(&output));
         assert!(said(&output).contains("interrupted at step"), "{}", said(&output));
         run.resumes_like(name, "undisturbed");

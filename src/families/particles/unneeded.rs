@@ -8,8 +8,11 @@ pub(super) fn unneeded(particles: &Particles, scene: &Scene, model: &Model) -> V
     let Some(force) = particles.pair_force.as_ref().filter(|force| force.has_friction()) else { return Vec::new() };
     let staged = particles.relaxes_in_two_stages(model);
     let relaxed = model.largest_friction_rate(force).0 * scene.time.step;
+    if relaxed > FRICTION_LIMIT {
+        return Vec::new();
+    }
     let mut found = Vec::new();
-    if staged && relaxed <= FRICTION_LIMIT {
+    if staged {
         found.push(format!(
             "friction in two stages, 1.5 times the time of a step: a step relaxes {} of a velocity, and one stage is reliable up to {}",
             brief(relaxed),
