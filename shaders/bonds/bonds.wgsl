@@ -16,10 +16,8 @@ struct BondKind {
 }
 
 fn bond_kind(kind: u32) -> BondKind {
-    // If there is one kind alone, the compiler knows that all lanes load the same.
-    let place = select(FIRST_KIND + 2u * kind, FIRST_KIND, FIRST_BOND == FIRST_KIND + 2u);
-    let potential = bitcast<vec4<f32>>(bonds[place]);
-    let bath = bitcast<vec4<f32>>(bonds[place + 1u]);
+    let potential = bitcast<vec4<f32>>(bonds[FIRST_KIND + 2u * kind]);
+    let bath = bitcast<vec4<f32>>(bonds[FIRST_KIND + 2u * kind + 1u]);
     return BondKind(potential.x, potential.y, potential.z, potential.w != 0.0, bath.x, bath.y, bath.z, bath.w);
 }
 

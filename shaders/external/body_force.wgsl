@@ -61,11 +61,7 @@ const ACCOUNT: u32 = 8u;
 fn book_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
     let step = clock_step().x;
-    // Four variables and no array, which compilers would keep in memory.
-    var along_x: Sum64;
-    var along_y: Sum64;
-    var along_z: Sum64;
-    var work: Sum64;
+    var given: array<vec2<u32>, 4>;
     for (var slot = group * WORKGROUP + lane; slot < stored_count(); slot += GROUPS * WORKGROUP) {
         let me = stored_particle(slot);
         if (!is_own(me.position)) { continue; }
@@ -73,10 +69,10 @@ fn book_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
         let fraction = fraction_of(me.position);
         let kick = external_kick_at(fraction, species, step);
         let word = momentum_word(kick, 0);
-        along_x = sum64_add(along_x, sum64_of_i32(word.x));
-        along_y = sum64_add(along_y, sum64_of_i32(word.y));
-        along_z = sum64_add(along_z, sum64_of_i32(word.z));
-        work = sum64_add(work, sum64_of_signed(work_of_drift(me, kick, step) * (2.0 * kinetic_of(species))));
+        given[0] = sum64_add(given[0], sum64_of_i32(word.x));
+        given[1] = sum64_add(given[1], sum64_of_i32(word.y));
+        given[2] = sum64_add(given[2], sum64_of_i32(word.z));
+        given[3] = sum64_add(given[3], sum64_of_signed(work_of_drift(me, kick, step) * (2.0 * kinetic_of(species))));
     }
     let row = group * ACCOUNT;
     var kept: array<vec2<u32>, 4>;
@@ -86,10 +82,7 @@ fn book_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
         }
         kept[3] = partial_sums[row + 3u];
     }
-    reduce_quantity(group, lane, 4u, along_x);
-    reduce_quantity(group, lane, 5u, along_y);
-    reduce_quantity(group, lane, 6u, along_z);
-    reduce_quantity(group, lane, 7u, work);
+    for (var quantity = 0u; quantity < 4u; quantity++) { reduce_quantity(group, lane, 4u + quantity, given[quantity]); }
     if (lane == 0u) {
         let closes = clock_closing() == 1;
         for (var quantity = 0u; quantity < 4u; quantity++) {
