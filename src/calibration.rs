@@ -315,8 +315,11 @@ mod tests {
     fn shipped_scenes_of_families_that_were_measured_have_something_to_expect() {
         let found = |name: &str| expected(&scene::load(name, &[]).unwrap()).unwrap();
         assert_eq!((found("dpd-fluid").basis, found("shallow-water").basis), (Basis::Measured, Basis::Measured));
-        let memory = found("edpd-fluid");
-        assert_eq!((memory.time_step, memory.basis), (0.02, Basis::OtherStep));
+        for (name, step) in [("dpd-fluid-2d", 0.04), ("polymer-melt", 0.04), ("edpd-fluid", 0.01)] {
+            assert_eq!((found(name).time_step, found(name).basis), (step, Basis::Measured), "{name}");
+        }
+        let velocity = found("shallow-water").errors.into_iter().find(|error| error.measure == "velocity_distance");
+        assert!(velocity.is_some_and(|error| error.uncertainty.is_some_and(|uncertainty| uncertainty > 0.0)));
         let cells = found("voronoi-dpd");
         assert_eq!(
             (cells.time_step, &cells.basis),

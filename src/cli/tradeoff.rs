@@ -43,6 +43,10 @@ pub struct Arguments {
     #[arg(long, value_name = "PATH=VALUE,…", conflicts_with = "resume")]
     finer: Option<String>,
 
+    /// Settings of a still finer run beside those of --finer: what it changes says how far that one is off
+    #[arg(long, value_name = "PATH=VALUE,…", conflicts_with = "resume")]
+    still_finer: Option<String>,
+
     /// Measures to compare: columns of the table of energies, `diffusion.diffusion_einstein` of an analysis; may be repeated
     /// [default: temperatures, pressure and energy, or the drift of the energy, and what analyses find]
     #[arg(long, value_name = "MEASURE,…", value_delimiter = ',', conflicts_with = "resume")]
@@ -125,8 +129,12 @@ fn request(scene: &str, arguments: &Arguments) -> Result<Request, Failure> {
         .with_measures(&arguments.measure)?
         .with_references(references)?
         .with_targets(targets)?;
-    Ok(match &arguments.finer {
+    let request = match &arguments.finer {
         Some(finer) => request.with_finer(finer)?,
+        None => request,
+    };
+    Ok(match &arguments.still_finer {
+        Some(still_finer) => request.with_still_finer(still_finer)?,
         None => request,
     })
 }

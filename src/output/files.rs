@@ -29,10 +29,10 @@ pub const TRAJECTORY_GSD: &str = "trajectory.gsd";
 /// The trajectory in Extended XYZ.
 pub const TRAJECTORY_XYZ: &str = "trajectory.xyz";
 /// What the names of pictures and arrays of fields on the mesh begin with.
-pub const FIELDS: [&str; 4] = ["depth", "potential_vorticity", "vorticity", "speed"];
+pub const FIELDS: [&str; 6] = ["depth", "potential_vorticity", "vorticity", "speed", "velocity_x", "velocity_y"];
 
 /// Pictures and arrays of fields at the end of a run.
-const FIELD_FILES: [&str; 8] = [
+const FIELD_FILES: [&str; 12] = [
     "depth.png",
     "depth.npy",
     "potential_vorticity.png",
@@ -41,6 +41,10 @@ const FIELD_FILES: [&str; 8] = [
     "vorticity.npy",
     "speed.png",
     "speed.npy",
+    "velocity_x.png",
+    "velocity_x.npy",
+    "velocity_y.png",
+    "velocity_y.npy",
 ];
 
 /// Every fixed name that a run may write, in the order in which they are listed.

@@ -4,7 +4,11 @@ use super::{Channel, PATIENCE};
 use crate::engine::Swap;
 use crate::plan::Part;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::time::Duration;
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+/// How long the first rank waits for the threads of the others at its end.
+const ENDING: Duration = Duration::from_secs(10);
 
 /// One direction between two ranks.
 type Line = (Sender<Vec<u8>>, Receiver<Vec<u8>>);
@@ -24,6 +28,31 @@ pub struct Threads {
     to: Vec<Sender<Vec<u8>>>,
     from: Vec<Receiver<Vec<u8>>>,
     patience: Duration,
+    /// Of the first rank the threads of the others.
+    ranks: Vec<JoinHandle<()>>,
+}
+
+impl Threads {
+    /// Takes the threads of the other ranks, to wait for them at the end: they unload drivers, and a process that ends meanwhile crashes.
+    pub fn keep(&mut self, ranks: Vec<JoinHandle<()>>) {
+        self.ranks = ranks;
+    }
+}
+
+impl Drop for Threads {
+    fn drop(&mut self) {
+        // Who listens to this rank, or answers it, ends.
+        self.to.clear();
+        self.from.clear();
+        let begun = Instant::now();
+        while self.ranks.iter().any(|rank| !rank.is_finished()) && begun.elapsed() < ENDING {
+            thread::sleep(Duration::from_millis(1));
+        }
+        for rank in self.ranks.drain(..).filter(JoinHandle::is_finished) {
+            // A panic has told of itself.
+            let _ = rank.join();
+        }
+    }
 }
 
 /// Lines between ranks that are neighbours.
@@ -65,9 +94,9 @@ pub fn links_with(count: u32, patience: Duration) -> Vec<Links> {
     let others = count.saturating_sub(1);
     let (commands, commanded): (Vec<_>, Vec<_>) = lines(others).into_iter().unzip();
     let (answering, answers): (Vec<_>, Vec<_>) = lines(others).into_iter().unzip();
-    let first = Threads { count, to: commands, from: answers, patience };
+    let first = Threads { count, to: commands, from: answers, patience, ranks: Vec::new() };
     let rest = answering.into_iter().zip(commanded);
-    let rest = rest.map(|(to, from)| Threads { count, to: vec![to], from: vec![from], patience });
+    let rest = rest.map(|(to, from)| Threads { count, to: vec![to], from: vec![from], patience, ranks: Vec::new() });
     // The lines to rank 0, to rank 1, …: row by row from rank 0, from rank 1, ….
     let mut to: Vec<Vec<Sender<Vec<u8>>>> = (0..count).map(|_| Vec::new()).collect();
     let mut from: Vec<Vec<Receiver<Vec<u8>>>> = (0..count).map(|_| Vec::new()).collect();
@@ -134,5 +163,29 @@ impl Swap for Peers {
 impl std::fmt::Debug for Peers {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(formatter, "peers of rank {}", self.rank)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    /// What a thread does after its rank has been told to end is done when the first rank is gone.
+    #[test]
+    fn the_first_rank_ends_after_the_others() {
+        let mut links = links(2).into_iter();
+        let (Some(mut first), Some(second)) = (links.next(), links.next()) else { return };
+        let is_done = Arc::new(AtomicBool::new(false));
+        let done = Arc::clone(&is_done);
+        first.channel.keep(vec![thread::spawn(move || {
+            let Links { mut channel, .. } = second;
+            while channel.listen().is_ok() {}
+            thread::sleep(Duration::from_millis(50));
+            done.store(true, Ordering::SeqCst);
+        })]);
+        drop(first);
+        assert!(is_done.load(Ordering::SeqCst));
     }
 }

@@ -52,18 +52,20 @@ pub fn team<'a>(
     let part = |rank| Options { part: Some(Part { division, rank }), ..options };
     check_widths(model, &plan_for(scene, model, gpu, part(0)))?;
     let mut links = threads::links(division.ranks()).into_iter();
-    let Some(first) = links.next() else {
+    let Some(mut first) = links.next() else {
         return Err(EngineError::Ranks { reason: "a run needs at least one rank".to_owned() }.into());
     };
+    let mut threads = Vec::new();
     for (rank, links) in (1..).zip(links) {
         let (scene, model, choice) = (scene.clone(), model.clone(), choice.of_rank(rank as usize));
         let options = part(rank);
-        thread::spawn(move || {
+        threads.push(thread::spawn(move || {
             let threads::Links { mut channel, peers } = links;
             // Whoever is left alone ends; the first rank is told, or is gone.
             let _ = take_part((&scene, &model), &choice, options, &mut channel, Box::new(peers));
-        });
+        }));
     }
+    first.channel.keep(threads);
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, part(0)), Box::new(first.peers))?;
     Ok(Team::new(engine, introduction(gpu, scene)?, Box::new(first.channel), state, mixed)?)
 }

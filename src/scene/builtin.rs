@@ -11,9 +11,11 @@ pub struct Builtin {
 }
 
 /// What `mesoscope tradeoff` found of some of them: its summaries.
-pub(crate) const CALIBRATIONS: [&str; 4] = [
+pub(crate) const CALIBRATIONS: [&str; 6] = [
     include_str!("../../assets/calibration/dpd-fluid.json"),
+    include_str!("../../assets/calibration/dpd-fluid-2d.json"),
     include_str!("../../assets/calibration/edpd-fluid.json"),
+    include_str!("../../assets/calibration/polymer-melt.json"),
     include_str!("../../assets/calibration/shallow-water.json"),
     include_str!("../../assets/calibration/voronoi-dpd.json"),
 ];

@@ -20,6 +20,8 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
             ("potential_vorticity", ranges.potential_vorticity),
             ("vorticity", ranges.vorticity),
             ("speed", ranges.speed),
+            ("velocity_x", ranges.velocity_x),
+            ("velocity_y", ranges.velocity_y),
         ]
     }) {
         if let Some(range) = range {

@@ -41,7 +41,11 @@ pub(super) fn reference_in_words(summary: &TradeoffSummary, measure: &str) -> St
             let step = if step > 0.0 { format!(" of step {}", short(step)) } else { String::new() };
             let settings =
                 summary.arguments.finer.as_deref().map(|finer| format!(" with `{finer}`")).unwrap_or_default();
-            format!("compared with {value} of a finer run{step}{settings}, uncertain by what twice its step changes")
+            let changes = match &summary.arguments.still_finer {
+                Some(still_finer) => format!("`{still_finer}` and twice its step change"),
+                None => "twice its step changes".to_owned(),
+            };
+            format!("compared with {value} of a finer run{step}{settings}, uncertain by what {changes}")
         }
     }
 }

@@ -1,11 +1,12 @@
 //! From what was measured to errors, Pareto fronts and verdicts.
 
 use super::deviation::Deviation;
+use super::measures::{self, Measured};
+use super::pareto;
 use super::reference::{self, Reference};
 use super::request::{FINER, Request};
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
 use super::target::{Target, Verdict};
-use super::{measures, pareto};
 use crate::study::StudyError;
 
 impl TradeoffSummary {
@@ -39,12 +40,11 @@ impl TradeoffSummary {
                 return Err(StudyError::Arguments { mistakes });
             }
         }
-        let measured = |place: usize| summary.finer.get(place).map_or(&[][..], |run| run.measured.as_slice());
-        let (finer, coarser) = (measured(0), measured(1));
+        let finer: Vec<&[Measured]> = summary.finer.iter().map(|run| run.measured.as_slice()).collect();
         let reference = |measure: &String| {
             let given = arguments.references.find(measure).cloned();
             let predicted = || reference::predicted(measure, &request.base);
-            given.or_else(predicted).or_else(|| reference::finer(measure, FINER, finer, coarser))
+            given.or_else(predicted).or_else(|| reference::finer(measure, FINER, &finer))
         };
         summary.references = summary.measures.iter().filter_map(reference).collect();
         for (choice, variant) in summary.choices.iter_mut().zip(request.sweep.variants()) {

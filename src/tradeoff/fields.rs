@@ -10,22 +10,68 @@ use crate::study::StudyError;
 pub(super) const DISTANCE: &str = "_distance";
 pub(super) const FROM_EXACT: &str = "_from_exact";
 
+/// Fields whose distances are one: the components of a vector.
+const VELOCITY: [&str; 2] = ["velocity_x", "velocity_y"];
+
+/// What the distance of a field is called by.
+fn compared_as(field: &str) -> &str {
+    if VELOCITY.contains(&field) { "velocity" } else { field }
+}
+
+/// The names of the distances of fields, each once.
+pub(super) fn names(fields: impl Iterator<Item = FieldQuantity>, end: &str) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for name in fields.map(|field| format!("{}{end}", compared_as(field.stem()))) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
 /// An array and its shape.
 type Array = (Vec<usize>, Vec<f64>);
+
+/// Σ(a-b)² and Σ(b-⟨b⟩)² of a field a and another b.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Squares {
+    between: f64,
+    scale: f64,
+}
+
+/// √(Σ(a-b)²/Σ(b-⟨b⟩)²) by name, over both components of a velocity, where all of them are compared.
+fn distances_of<'f>(fields: impl Iterator<Item = (&'f str, Option<Squares>)>) -> Vec<(&'f str, f64)> {
+    let mut sums: Vec<(&str, Option<Squares>)> = Vec::new();
+    for (field, squares) in fields {
+        match sums.iter_mut().find(|(name, _)| *name == compared_as(field)) {
+            Some((_, sum)) => {
+                let add =
+                    |(a, b): (Squares, Squares)| Squares { between: a.between + b.between, scale: a.scale + b.scale };
+                *sum = sum.zip(squares).map(add);
+            }
+            None => sums.push((compared_as(field), squares)),
+        }
+    }
+    let distance = |(name, sum): (&'f str, Option<Squares>)| {
+        let sum = sum?;
+        Some((name, (sum.between / sum.scale).sqrt())).filter(|(_, distance)| distance.is_finite())
+    };
+    sums.into_iter().filter_map(distance).collect()
+}
 
 /// The distances of a run from a finer one at the same time, by name: √(Σ(a-b)²/Σ(b-⟨b⟩)²) for every field that both leave on common
 /// nodes, and √(Σ(g-g')²/n) for radial distributions on the same bins.
 pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
-    let mut found = Vec::new();
+    let mut fields = Vec::new();
     for field in run_files::FIELDS {
         let [own, other] = [run, finer].map(|place| place.file(&run_files::field(field, None, "npy")));
-        if own.exists()
-            && other.exists()
-            && let Some(distance) = on_common_nodes(&read_npy(&own)?, &read_npy(&other)?)
-        {
-            found.push(measured(field, DISTANCE, distance));
+        if own.exists() && other.exists() {
+            fields.push((field, on_common_nodes(&read_npy(&own)?, &read_npy(&other)?)));
         }
     }
+    let distances = distances_of(fields.into_iter());
+    let mut found: Vec<Measured> =
+        distances.into_iter().map(|(field, distance)| measured(field, DISTANCE, distance)).collect();
     let name = AnalysisId::RadialDistribution.name();
     let [own, other] = [run, finer].map(|place| place.file(&format!("{name}.csv")));
     if own.exists() && other.exists() {
@@ -47,9 +93,9 @@ fn measured(name: &str, end: &str, value: f64) -> Measured {
 }
 
 /// Fields that say how far a flow is from another, whatever a scene draws.
-const FLOW: [FieldQuantity; 2] = [FieldQuantity::Depth, FieldQuantity::Speed];
+const FLOW: [FieldQuantity; 3] = [FieldQuantity::Depth, FieldQuantity::VelocityX, FieldQuantity::VelocityY];
 
-/// The fields that are compared at the end of a scene: those that it draws, its depth and its speed.
+/// The fields that are compared at the end of a scene: those that it draws, its depth and its velocity.
 pub(super) fn compared(scene: &Scene, model: &Model) -> Vec<FieldQuantity> {
     if model.picture() != PictureKind::Fields {
         return Vec::new();
@@ -74,29 +120,31 @@ pub(super) fn leaving_compared(scene: Scene) -> Scene {
 }
 
 /// The names of the distances of a scene from an exact solution, if it has one.
-pub(super) fn names_from_exact(scene: &Scene, model: &Model) -> impl Iterator<Item = String> {
+pub(super) fn names_from_exact(scene: &Scene, model: &Model) -> Vec<String> {
     let is_known = |field: &FieldQuantity| model.physics().steady_field(*field, scene, model).is_some();
-    compared(scene, model).into_iter().filter(is_known).map(|field| format!("{}{FROM_EXACT}", field.stem()))
+    names(compared(scene, model).into_iter().filter(is_known), FROM_EXACT)
 }
 
 /// The distances of the fields that a run has drawn from those of the steady flow that it starts with, measured as those from a
 /// finer run.
 pub(super) fn from_exact(scene: &Scene, run: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
     let model = Model::new(scene);
-    let mut found = Vec::new();
+    let mut fields = Vec::new();
     for field in compared(scene, &model) {
         let Some(exact) = model.physics().steady_field(field, scene, &model) else { continue };
         let own = read_npy(&run.file(&run_files::field(field.stem(), None, "npy")))?;
         let exact = (own.0.clone(), exact);
-        if let Some(distance) = on_common_nodes(&own, &exact) {
-            found.push(Measured { standard_error: Some(0.0), ..measured(field.stem(), FROM_EXACT, distance) });
-        }
+        fields.push((field.stem(), on_common_nodes(&own, &exact)));
     }
-    Ok(found)
+    let from_exact = |(field, distance): (&str, f64)| Measured {
+        standard_error: Some(0.0),
+        ..measured(field, FROM_EXACT, distance)
+    };
+    Ok(distances_of(fields.into_iter()).into_iter().map(from_exact).collect())
 }
 
-/// The distance on the nodes that both meshes have; none where they are not multiples of each other.
-fn on_common_nodes(own: &Array, other: &Array) -> Option<f64> {
+/// The squares on the nodes that both meshes have; none where they are not multiples of each other.
+fn on_common_nodes(own: &Array, other: &Array) -> Option<Squares> {
     let ([own_shape, other_shape], dimensions) = ([&own.0, &other.0], own.0.len());
     if dimensions != other_shape.len() || own_shape.contains(&0) || other_shape.contains(&0) {
         return None;
@@ -108,10 +156,9 @@ fn on_common_nodes(own: &Array, other: &Array) -> Option<f64> {
     }
     let [own, other] = [own, other].map(|array| sampled(array, &common));
     let mean = other.iter().sum::<f64>() / other.len() as f64;
-    let scale: f64 = other.iter().map(|value| (value - mean).powi(2)).sum();
-    let squares: f64 = own.iter().zip(&other).map(|(a, b)| (a - b).powi(2)).sum();
-    let distance = (squares / scale).sqrt();
-    distance.is_finite().then_some(distance)
+    let scale = other.iter().map(|value| (value - mean).powi(2)).sum();
+    let between = own.iter().zip(&other).map(|(a, b)| (a - b).powi(2)).sum();
+    Some(Squares { between, scale })
 }
 
 /// The values of an array on every node of a coarser mesh, the last index fastest.
@@ -137,12 +184,25 @@ mod tests {
     fn fields_are_compared_on_the_nodes_that_both_have() {
         let coarse = (vec![2, 2], vec![0.0, 2.0, 4.0, 6.0]);
         let fine = (vec![4, 2], vec![0.0, 2.0, 9.0, 9.0, 4.0, 6.0, 9.0, 9.0]);
-        assert_eq!(on_common_nodes(&coarse, &fine), Some(0.0));
+        assert_eq!(on_common_nodes(&coarse, &fine), Some(Squares { between: 0.0, scale: 20.0 }));
         // Differences of one on values that scatter by 5 in the mean square.
         let off = (vec![2, 2], vec![1.0, 3.0, 5.0, 7.0]);
-        let distance = on_common_nodes(&off, &fine).unwrap_or(0.0);
-        assert!((distance - (1.0_f64 / 5.0).sqrt()).abs() < 1e-15);
+        assert_eq!(on_common_nodes(&off, &fine), Some(Squares { between: 4.0, scale: 20.0 }));
         assert_eq!(on_common_nodes(&(vec![3, 2], vec![0.0; 6]), &fine), None);
         assert_eq!(on_common_nodes(&(vec![2], vec![0.0; 2]), &fine), None);
+    }
+
+    #[test]
+    fn a_velocity_is_one_vector_whose_direction_counts() {
+        let squares = |between, scale| Some(Squares { between, scale });
+        let fields = [
+            ("depth", squares(4.0, 16.0)),
+            ("velocity_x", squares(0.0, 2.0)),
+            ("velocity_y", squares(32.0, 6.0)),
+            ("speed", squares(0.0, 0.0)),
+        ];
+        // A flow along y that is turned round has the same speed, and is twice its own size away.
+        assert_eq!(distances_of(fields.into_iter()), [("depth", 0.5), ("velocity", 2.0)]);
+        assert_eq!(distances_of([("velocity_x", squares(1.0, 1.0)), ("velocity_y", None)].into_iter()), []);
     }
 }

@@ -10,7 +10,7 @@
 //! how far the total energy or the circulation of a loop has drifted, how often a limit has acted, and how far fields are from those of a
 //! finer run or of an exact solution. Its reference is [given by the user](References), predicted (the temperature of the bath, an
 //! energy that does not drift, means that are known exactly), or that of a finer run, whose own error is taken from a second one with
-//! twice its time step.
+//! twice its time step and, where the user asks for it, a third that is finer still.
 //!
 //! ```
 //! use mesoscope::gpu::AdapterChoice;

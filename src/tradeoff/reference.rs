@@ -133,14 +133,15 @@ pub(super) fn of_scheme(measure: &str, scene: &Scene) -> Option<f64> {
     exact_mean(measure, scene)?.discrete
 }
 
-/// The reference that a finer run gives. Its own bias is taken to be what its time step, halved once, has changed, noise included: that is
-/// the bias of a scheme of first order, and more than that of one of a higher.
-pub(super) fn finer(measure: &str, name: &str, finer: &[Measured], coarser: &[Measured]) -> Option<Reference> {
-    let find = |list: &[Measured]| list.iter().find(|found| found.measure == measure).cloned();
-    let (fine, coarse) = (find(finer)?, find(coarser));
-    let own = fine.uncertainty();
-    let bias = coarse.map(|coarse| (fine.value - coarse.value).abs());
-    let uncertainty = own.zip(bias).map(|(own, bias)| own.hypot(bias));
+/// The reference that the first of these runs gives. Its own bias is taken to be what its time step, halved once, has changed, noise included:
+/// that is the bias of a scheme of first order, and more than that of one of a higher. What tells further runs from it counts as much.
+pub(super) fn finer(measure: &str, name: &str, runs: &[&[Measured]]) -> Option<Reference> {
+    let (first, others) = runs.split_first()?;
+    let find = |run: &[Measured]| run.iter().find(|found| found.measure == measure).cloned();
+    let fine = find(first)?;
+    let squares = others.iter().map(|other| Some((fine.value - find(other)?.value).powi(2)));
+    let bias: Option<f64> = squares.sum::<Option<f64>>().filter(|_| !others.is_empty()).map(f64::sqrt);
+    let uncertainty = fine.uncertainty().zip(bias).map(|(own, bias)| own.hypot(bias));
     let source = Source::Finer(name.to_owned());
     Some(Reference { measure: measure.to_owned(), value: fine.value, uncertainty, source })
 }
@@ -159,13 +160,21 @@ mod tests {
 
     #[test]
     fn a_finer_run_is_as_uncertain_as_its_noise_and_its_last_change() {
-        let found = finer("pressure", "finer", &measured(20.0, 0.03), &measured(20.5, 0.04)).unwrap();
-        assert!((found.uncertainty.unwrap() - 0.03_f64.hypot(0.5)).abs() < 1e-12);
-        assert_eq!(finer("pressure", "finer", &measured(20.0, 0.03), &[]).unwrap().uncertainty, None);
-        assert_eq!(finer("energy", "finer", &measured(20.0, 0.03), &[]), None);
+        let (fine, coarse, still) = (measured(20.0, 0.03), measured(20.5, 0.04), measured(20.2, 0.1));
+        let of = |runs: &[&[Measured]]| finer("pressure", "finer", runs).unwrap();
+        assert!((of(&[&fine, &coarse]).uncertainty.unwrap() - 0.03_f64.hypot(0.5)).abs() < 1e-12);
+        // A still finer run adds what it changes.
+        let found = of(&[&fine, &coarse, &still]);
+        assert_eq!(found.value, 20.0);
+        assert!((found.uncertainty.unwrap() - 0.03_f64.hypot(0.5).hypot(0.2)).abs() < 1e-12);
+        for lacks in [&[&fine[..]][..], &[&fine, &[]], &[&fine, &coarse, &[]]] {
+            assert_eq!(of(lacks).uncertainty, None);
+        }
+        assert_eq!(finer("energy", "finer", &[&fine, &coarse]), None);
+        assert_eq!(finer("pressure", "finer", &[]), None);
         let few: Vec<Measured> =
             measured(20.0, 0.03).into_iter().map(|found| Measured { from_few_samples: true, ..found }).collect();
-        let found = finer("pressure", "finer", &few, &measured(20.0, 0.04)).unwrap();
+        let found = of(&[&few, &measured(20.0, 0.04)]);
         assert!((found.uncertainty.unwrap() - 0.09).abs() < 1e-12, "{found:?}");
     }
 

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 /// Names of the runs that give references.
 pub(super) const FINER: &str = "finer";
 pub(super) const COARSER: &str = "finer-twice-the-step";
+pub(super) const STILL_FINER: &str = "still-finer";
 
 /// A scene, what of it to vary, for how long to run it, and what to compare it with.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +40,9 @@ pub(super) struct Arguments {
     pub also: Vec<String>,
     /// Settings of the run that references are taken from.
     pub finer: Option<String>,
+    /// Further settings of a run that says how far that one is off.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub still_finer: Option<String>,
     /// How long to run.
     pub length: Length,
     /// References of the user.
@@ -74,6 +78,7 @@ impl Request {
             vary: vary.to_vec(),
             also: also.to_vec(),
             finer: None,
+            still_finer: None,
             length: Length::default(),
             references: References::default(),
             targets: Vec::new(),
@@ -99,9 +104,9 @@ impl Request {
         }
         let files = arguments.state_files.clone();
         let sweep = Sweep::of_text(scene, text, (set, None), vary, also, files, StepCheck::Allow)?;
-        if sweep.variants().iter().any(|variant| [FINER, COARSER].contains(&variant.name.as_str())) {
+        if sweep.variants().iter().any(|variant| [FINER, COARSER, STILL_FINER].contains(&variant.name.as_str())) {
             return Err(StudyError::mistake(format!(
-                "`{FINER}` is the name of the run that references are taken from"
+                "`{FINER}` and `{STILL_FINER}` are names of runs that references are taken from"
             )));
         }
         arguments.state_files = sweep.files.clone();
@@ -166,37 +171,56 @@ impl Request {
     /// # Errors
     /// [`StudyError::Arguments`] if they are not settings, [`StudyError::Variants`] if they make no scene.
     pub fn with_finer(mut self, argument: &str) -> Result<Self, StudyError> {
-        let mistake = |message: String| StudyError::mistake(format!("`--finer {argument}`: {message}"));
-        for setting in settings(argument).map_err(mistake)? {
-            if LENGTHS.contains(&setting.key.as_str()) {
-                return Err(mistake(format!("`{}` follows from the choices", setting.key)));
-            }
-            if setting.key == "time.step" && setting.value.as_f64().is_none() {
-                return Err(mistake(format!("time.step: found {}; accepted: a number", setting.value)));
-            }
-        }
+        check_finer("--finer", argument)?;
         self.arguments.finer = Some(argument.to_owned());
-        let [finer, _] = self.finer_scenes()?;
-        self.arguments.state_files.note(&finer);
+        self.with_files_of_finer()
+    }
+
+    /// The same, where a run with these settings beside those of the finer one says how far that one is off in them: what they change is
+    /// added to the uncertainty of its references.
+    ///
+    /// # Errors
+    /// Those of [`Request::with_finer`].
+    pub fn with_still_finer(mut self, argument: &str) -> Result<Self, StudyError> {
+        check_finer("--still-finer", argument)?;
+        self.arguments.still_finer = Some(argument.to_owned());
+        self.with_files_of_finer()
+    }
+
+    fn with_files_of_finer(mut self) -> Result<Self, StudyError> {
+        for (_, scene) in self.finer_scenes()? {
+            self.arguments.state_files.note(&scene);
+        }
         Ok(self)
     }
 
-    /// The scenes of the run that references are taken from, and of the one with twice its step that says how good they are.
-    pub(super) fn finer_scenes(&self) -> Result<[Scene; 2], StudyError> {
+    /// The names of the runs that references are taken from.
+    pub(super) fn finer_names(&self) -> Vec<&'static str> {
+        let still_finer = self.arguments.still_finer.as_ref().map(|_| STILL_FINER);
+        [FINER, COARSER].into_iter().chain(still_finer).collect()
+    }
+
+    /// The run that references are taken from, and those that say how good they are: one with twice its step, and one that is finer
+    /// still where that is asked for.
+    pub(super) fn finer_scenes(&self) -> Result<Vec<(&'static str, Scene)>, StudyError> {
         let smallest =
             self.sweep.variants().iter().map(|variant| variant.scene.time.step).fold(self.base.time.step, f64::min);
-        let asked = self.arguments.finer.as_deref().map(settings).transpose().unwrap_or_default().unwrap_or_default();
-        let set: Vec<String> = self.arguments.set.iter().cloned().chain(asked.iter().map(Setting::argument)).collect();
-        let sets_step = asked.iter().any(|setting| setting.key == "time.step");
-        let scene = |name: &str, step: f64| {
-            let set: Vec<String> = set.iter().cloned().chain([format!("time.step={step}")]).collect();
-            self.arguments.scene(&set).map_err(|source| StudyError::of_variant(name, source))
+        let asked = |argument: &Option<String>| -> Vec<Setting> {
+            argument.as_deref().and_then(|argument| settings(argument).ok()).unwrap_or_default()
         };
-        let own = asked.iter().find(|_| sets_step).and_then(|_| {
-            asked.iter().find(|setting| setting.key == "time.step").and_then(|setting| setting.value.as_f64())
-        });
-        let step = own.unwrap_or(0.5 * smallest);
-        Ok([scene(FINER, step)?, scene(COARSER, 2.0 * step)?])
+        let [finer, still_finer] = [&self.arguments.finer, &self.arguments.still_finer].map(asked);
+        let step_of = |asked: &[Setting]| asked.iter().rev().find(|one| one.key == "time.step")?.value.as_f64();
+        let step = step_of(&finer).unwrap_or(0.5 * smallest);
+        let scene = |name: &'static str| {
+            let further = if name == STILL_FINER { &still_finer[..] } else { &[] };
+            let step = if name == COARSER { 2.0 * step } else { step_of(further).unwrap_or(step) };
+            let asked = finer.iter().chain(further).map(Setting::argument);
+            let set: Vec<String> =
+                self.arguments.set.iter().cloned().chain(asked).chain([format!("time.step={step}")]).collect();
+            let scene = self.arguments.scene(&set).map_err(|source| StudyError::of_variant(name, source))?;
+            Ok((name, scene))
+        };
+        self.finer_names().into_iter().map(scene).collect()
     }
 
     /// Whether a choice is to reach something.
@@ -235,12 +259,12 @@ impl Request {
     /// Looks for names of measures that no run has.
     fn check_names<'a>(&self, option: &str, wanted: impl Iterator<Item = &'a str>) -> Result<(), StudyError> {
         let columns = measures::names(&self.base);
-        let fields = fields::compared(&self.base, &Model::new(&self.base));
+        let fields = fields::compared(&self.base, &Model::new(&self.base)).into_iter();
         let asked = run::asked_analyses(&self.base, &Model::new(&self.base));
         let curve = AnalysisId::RadialDistribution.name();
         let curve = asked.iter().any(|asked| asked.id.name() == curve).then_some(curve);
-        let compared = fields.iter().map(|field| field.stem()).chain(curve);
-        let distances = compared.map(|of| format!("{of}{}", fields::DISTANCE));
+        let curve = curve.map(|curve| format!("{curve}{}", fields::DISTANCE));
+        let distances = fields::names(fields, fields::DISTANCE).into_iter().chain(curve);
         let found = asked
             .iter()
             .flat_map(|asked| asked.found.iter().map(move |number| format!("{}.{number}", asked.id.name())));
@@ -256,6 +280,20 @@ impl Request {
         }
         if mistakes.is_empty() { Ok(()) } else { Err(StudyError::Arguments { mistakes }) }
     }
+}
+
+/// Refuses what is no setting of a finer run.
+fn check_finer(option: &str, argument: &str) -> Result<(), StudyError> {
+    let mistake = |message: String| StudyError::mistake(format!("`{option} {argument}`: {message}"));
+    for setting in settings(argument).map_err(mistake)? {
+        if LENGTHS.contains(&setting.key.as_str()) {
+            return Err(mistake(format!("`{}` follows from the choices", setting.key)));
+        }
+        if setting.key == "time.step" && setting.value.as_f64().is_none() {
+            return Err(mistake(format!("time.step: found {}; accepted: a number", setting.value)));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -300,10 +338,23 @@ mod tests {
     #[test]
     fn references_come_from_half_the_smallest_step_unless_the_user_says_otherwise() {
         let request = request(&["time.step=0.02,0.04"]).unwrap();
-        let steps = |request: &Request| request.finer_scenes().unwrap().map(|scene| scene.time.step);
+        let steps = |request: &Request| -> Vec<f64> {
+            request.finer_scenes().unwrap().into_iter().map(|(_, scene)| scene.time.step).collect()
+        };
         assert_eq!(steps(&request), [0.01, 0.02]);
         let asked = request.clone().with_finer("time.step=0.005,integrator.type=groot-warren").unwrap();
         assert_eq!(steps(&asked), [0.005, 0.01]);
-        assert!(request.with_finer("integrator.type=none").is_err());
+        assert!(request.clone().with_finer("integrator.type=none").is_err());
+        // The still finer run has the settings of the finer one, its own, and the step of either.
+        let still = asked.clone().with_still_finer("integrator.lambda=0.65").unwrap();
+        assert_eq!(steps(&still), [0.005, 0.01, 0.005]);
+        let scenes = still.finer_scenes().unwrap();
+        assert_eq!(scenes.iter().map(|(name, _)| *name).collect::<Vec<_>>(), still.finer_names());
+        let same_but_for = |scene: &Scene| Scene { integrator: scenes[0].1.integrator.clone(), ..scene.clone() };
+        assert_ne!(scenes[2].1, scenes[0].1);
+        assert_eq!(same_but_for(&scenes[2].1), scenes[0].1);
+        assert_eq!(steps(&asked.clone().with_still_finer("time.step=0.0025").unwrap()), [0.005, 0.01, 0.0025]);
+        let text = asked.with_still_finer("time.steps=7").unwrap_err().to_string();
+        assert!(text.contains("`--still-finer time.steps=7`: `time.steps` follows from the choices"), "{text}");
     }
 }

@@ -2,8 +2,7 @@
 
 use super::cost::{self, Timed};
 use super::length::{self, Extension, Worst};
-use super::measures;
-use super::request::{COARSER, FINER};
+use super::measures::{self, Measured};
 use super::stretch::Stretch;
 use super::summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary, Wanted};
 use super::target::Verdict;
@@ -157,9 +156,9 @@ impl StudyRun<TradeoffSummary> {
     /// All runs: the choices, then those that references are taken from where some measure needs them.
     fn runs(&self, stretch: &Stretch) -> Result<Vec<(String, Scene)>, StudyError> {
         let mut runs = Vec::new();
-        let [finer, coarser] = self.request.finer_scenes()?;
+        let finer = self.request.finer_scenes()?;
         let choices = self.request.sweep.variants().iter().map(|variant| (variant.name.as_str(), &variant.scene));
-        for (name, scene) in choices.chain([(FINER, &finer), (COARSER, &coarser)]) {
+        for (name, scene) in choices.chain(finer.iter().map(|(name, scene)| (*name, scene))) {
             runs.push((name.to_owned(), fields::leaving_compared(stretch.applied(name, scene)?)));
         }
         Ok(runs)
@@ -313,35 +312,46 @@ impl StudyRun<TradeoffSummary> {
         if index < choices { &mut self.summary.choices[index] } else { &mut self.summary.finer[index - choices] }
     }
 
-    /// Adds the distances of fields and curves from those of the finer run; how far the run with twice its step is from it says how
-    /// certain they are.
+    /// Adds the distances of fields and curves from those of the finer run; how far the run with twice its step is from it, and one that is
+    /// finer still, says how certain they are.
     fn compare_fields(&mut self, runs: &[(String, Scene)]) -> Result<(), StudyError> {
         if self.summary.finer.iter().any(|run| run.state != ChoiceState::Finished) {
             return Ok(());
         }
         let place = |name: &str| RunDirectory::open(self.directory().join(name));
-        // Either may be the run of a choice.
-        let name = |index: usize, own| self.summary.finer.get(index).map_or(own, |run| run.name.as_str());
-        let finer = place(name(0, FINER))?;
-        let limits = fields::distances(&place(name(1, COARSER))?, &finer)?;
+        // All of these may be runs of choices.
+        let Some((reference, others)) = self.summary.finer.split_first() else { return Ok(()) };
+        let finer = place(&reference.name)?;
+        // Fields at another time differ for that alone: rows of tables end at different times where steps do not fit.
+        let is_at_once = |run: &Choice| {
+            let times = [run, reference].map(|run| run.steps as f64 * run.time_step);
+            (times[0] - times[1]).abs() < 1e-6 * reference.time_step
+        };
+        let limits = others
+            .iter()
+            .filter(|run| is_at_once(run))
+            .map(|run| fields::distances(&place(&run.name)?, &finer))
+            .collect::<Result<Vec<_>, _>>()?;
+        let limit = |measure: &str| {
+            let of_run = |found: &Vec<Measured>| Some(found.iter().find(|limit| limit.measure == measure)?.value);
+            let squares: Option<Vec<f64>> = limits.iter().map(of_run).map(|value| Some(value?.powi(2))).collect();
+            squares.filter(|squares| squares.len() == others.len()).map(|squares| squares.iter().sum::<f64>().sqrt())
+        };
         let mut found = Vec::new();
         for (index, (name, _)) in runs.iter().enumerate().take(self.summary.choices.len()) {
-            // Fields at another time differ for that alone: rows of tables end at different times where steps do not fit.
-            let times =
-                [&self.summary.choices[index], &self.summary.finer[0]].map(|run| run.steps as f64 * run.time_step);
-            let at_once = (times[0] - times[1]).abs() < 1e-6 * self.summary.finer[0].time_step;
-            if self.summary.choices[index].state == ChoiceState::Finished && at_once {
-                found.push((index, fields::distances(&place(name)?, &finer)?));
+            let choice = &self.summary.choices[index];
+            if choice.state == ChoiceState::Finished && is_at_once(choice) {
+                let mut distances = fields::distances(&place(name)?, &finer)?;
+                for distance in &mut distances {
+                    distance.standard_error = limit(&distance.measure);
+                }
+                found.push((index, distances));
             }
         }
         for (index, distances) in found {
             let measured = &mut self.summary.choices[index].measured;
             measured.retain(|known| !known.measure.ends_with(fields::DISTANCE));
-            measured.extend(distances.into_iter().map(|mut distance| {
-                let limit = limits.iter().find(|limit| limit.measure == distance.measure);
-                distance.standard_error = limit.map(|limit| limit.value);
-                distance
-            }));
+            measured.extend(distances);
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use super::cost::Cost;
 use super::deviation::Deviation;
 use super::measures::Measured;
 use super::reference::Reference;
-use super::request::{Arguments, COARSER, FINER, Request};
+use super::request::{Arguments, Request};
 use super::run::Phase;
 use super::stretch::Stretch;
 use super::target::Verdict;
@@ -317,7 +317,7 @@ impl Record for TradeoffSummary {
             references: Vec::new(),
             physical_keys: request.physical_keys().into_iter().map(str::to_owned).collect(),
             choices: variants.iter().map(choice).collect(),
-            finer: [FINER, COARSER].map(reference).to_vec(),
+            finer: request.finer_names().into_iter().map(reference).collect(),
             chosen: None,
         }
     }
@@ -335,8 +335,8 @@ impl Record for TradeoffSummary {
             .chain(targets.iter().map(|target| target.measure.as_str()));
         let same_id = !self.is_of_this_version() || self.tradeoff_id == Self::id_of(request);
         let names = self.choices.iter().map(|choice| choice.name.as_str());
-        let same_runs =
-            names.eq(request.sweep.variants().iter().map(|variant| variant.name.as_str())) && self.finer.len() == 2;
+        let same_runs = names.eq(request.sweep.variants().iter().map(|variant| variant.name.as_str()))
+            && self.finer.len() == request.finer_names().len();
         let same_measures = self.measures.is_empty() || asked.all(|name| self.measures.iter().any(|own| own == name));
         let misfits = [
             (same_id, ASKS_ELSE),

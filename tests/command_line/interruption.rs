@@ -7,7 +7,9 @@ use std::time::{Duration, Instant};
 
 use mesoscope::output::{Summary, checkpoint, files, read_table};
 use mesoscope::scene::AnalysisId;
+use mesoscope::stability::{self, StabilitySummary};
 use mesoscope::sweep::{SweepSummary, VariantState};
+use mesoscope::tradeoff::{ChoiceState, TradeoffSummary};
 use serde_json::json;
 
 use crate::support::program::{Place, assert_same, bytes, command, fails, listing, succeeds, text};
@@ -130,6 +132,67 @@ fn an_interrupted_sweep_goes_on_where_it_was() {
     succeeds(&["run", &place.scene(), "--set", "seed=1", "--out", &place.argument("alone"), "--quiet"]);
     let [alone, swept] = ["alone", "out/seed=1"].map(|run| bytes(&place.path(run).join(files::ENERGIES)));
     assert!(alone == swept);
+}
+
+/// A tradeoff that a signal stops keeps what has run, and comes to the table of one that nothing stopped.
+#[test]
+fn a_signal_stops_a_tradeoff_and_it_goes_on() {
+    let place = place().with("/time/steps", json!(3000)).with("/output/trajectory", json!(null));
+    let scene = place.scene();
+    for signal in ["-INT", "-TERM", "-USR1"] {
+        let (out, table) = (place.argument(signal), place.path(signal).join("step=0.02").join(files::ENERGIES));
+        let vary = ["--vary", "time.step=0.02,0.03", "--measure", "pressure", "--jobs", "1", "--out", &out];
+        let arguments = [&["tradeoff", &scene][..], &vary].concat();
+        let (code, said) = interrupted(&arguments, signal, &table);
+        assert_eq!(code, Some(130), "{said}");
+        let told = format!("`mesoscope tradeoff --resume {out}` goes on\n");
+        assert!(said.ends_with(&told) && said.contains("interrupted") && !said.contains("error"), "{said}");
+        let waiting = TradeoffSummary::load(&place.path(signal)).unwrap().choices;
+        assert!(waiting.iter().any(|choice| choice.state == ChoiceState::Waiting), "{waiting:?}");
+        succeeds(&["tradeoff", "--resume", &out, "--quiet"]);
+    }
+    let whole = place.argument("whole");
+    let vary = ["--vary", "time.step=0.02,0.03", "--measure", "pressure", "--out", &whole, "--quiet"];
+    succeeds(&[&["tradeoff", &scene][..], &vary].concat());
+    let measured = |name: &str| {
+        let choices = TradeoffSummary::load(&place.path(name)).unwrap().choices;
+        choices.into_iter().map(|choice| (choice.steps, choice.measured)).collect::<Vec<_>>()
+    };
+    for signal in ["-INT", "-TERM", "-USR1"] {
+        assert_eq!(measured(signal), measured("whole"), "{signal}");
+    }
+}
+
+/// So does a map of stability: what a signal cuts short is made again, the rest is kept.
+#[test]
+fn a_signal_stops_a_map_and_it_goes_on() {
+    let place = place().with("/time/steps", json!(4000)).with("/output/trajectory", json!(null));
+    let place = place.with("/output/radial_distribution", json!(null));
+    let scene = place.scene();
+    let tables: Vec<Vec<u8>> = ["-INT", "-TERM", "whole"]
+        .into_iter()
+        .map(|signal| {
+            let (out, directory) = (place.argument(signal), place.path(signal));
+            let vary = ["--vary", "time.step=0.005..0.02/3", "--bisections", "0", "--jobs", "1", "--out", &out];
+            let arguments = [&["stability", &scene][..], &vary].concat();
+            if signal == "whole" {
+                succeeds(&arguments);
+                return bytes(&directory.join(stability::files::TABLE));
+            }
+            let mut child = command(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+            let cells = || StabilitySummary::load(&directory).map_or(0, |map| map.rows[0].cells.len());
+            wait_for(&mut child, || cells() > 0);
+            send(signal, &child, 1);
+            let (code, said) = ended(child);
+            assert_eq!(code, Some(130), "{said}");
+            let told = format!("`mesoscope stability --resume {out}` goes on\n");
+            assert!(said.ends_with(&told) && said.contains("interrupted") && !said.contains("error"), "{said}");
+            assert!((1..3).contains(&cells()), "{}", cells());
+            succeeds(&["stability", "--resume", &out, "--quiet"]);
+            bytes(&directory.join(stability::files::TABLE))
+        })
+        .collect();
+    assert!(tables[0] == tables[2] && tables[1] == tables[2]);
 }
 
 /// Two signals within moments are one request, as those of `timeout` and of batch systems; a terminal that is closed asks

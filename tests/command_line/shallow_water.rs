@@ -88,7 +88,8 @@ fn a_large_mesh_is_planned_for_the_adapter_that_is_there() {
 fn a_run_leaves_everything_the_scene_asks_for() {
     let place = place().with(
         "/output/fields",
-        json!({"every": 15, "quantities": ["depth", "potential-vorticity", "vorticity", "speed"]}),
+        json!({"every": 15,
+            "quantities": ["depth", "potential-vorticity", "vorticity", "speed", "velocity-x", "velocity-y"]}),
     );
     let said = place.run("out", &[]);
     let out = place.path("out");
@@ -98,7 +99,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
         ["checkpoint.bin", "circulation.csv", "circulation.png", "energies.csv", "energies.png", "run.json"]
             .map(str::to_owned)
             .to_vec();
-    for stem in ["depth", "potential_vorticity", "vorticity", "speed"] {
+    for stem in ["depth", "potential_vorticity", "vorticity", "speed", "velocity_x", "velocity_y"] {
         for extension in ["png", "npy"] {
             expected.push(format!("{stem}.{extension}"));
             // Steps 0, 15 and 30; the end has no number of its own.
@@ -123,6 +124,11 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     // The hill of a tenth at (3, 3), near node (8, 8).
     let highest = (0..256).max_by(|a, b| first[*a].total_cmp(&first[*b])).unwrap();
     assert_eq!((highest / 16, highest % 16), (8, 8));
+    let [speed, along_x, along_y] =
+        ["speed", "velocity_x", "velocity_y"].map(|stem| array(&out.join(format!("{stem}.npy"))).1);
+    for node in 0..256 {
+        assert!((speed[node] - along_x[node].hypot(along_y[node])).abs() <= 1e-6 * speed[node], "node {node}");
+    }
     let (_, vorticity) = array(&out.join("potential_vorticity-000001.npy"));
     // Far from the hill it is f₀ at a depth of nearly 1.
     assert!((vorticity[0] / TAU - 1.0).abs() < 0.1, "{}", vorticity[0]);

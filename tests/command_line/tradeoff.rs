@@ -200,9 +200,9 @@ fn flows_are_compared_with_a_finer_run() {
     let summary = TradeoffSummary::load(&place.path("out")).unwrap();
     // The wave is in balance with the rotation, so that its exact solution is known too: that is a matter of the nodes.
     // Its speed is compared though the scene does not draw it.
-    let measures = ["energy_drift", "depth_from_exact", "speed_from_exact", "depth_distance", "speed_distance"];
+    let measures = ["energy_drift", "depth_from_exact", "velocity_from_exact", "depth_distance", "velocity_distance"];
     assert_eq!(summary.measures, measures);
-    for measure in ["energy_drift", "depth_distance", "speed_distance"] {
+    for measure in ["energy_drift", "depth_distance", "velocity_distance"] {
         let errors: Vec<f64> = summary.choices.iter().map(|choice| choice.error(measure).unwrap().size()).collect();
         assert!(errors[0] < errors[1] && errors[1] < errors[2], "{measure}: {errors:?}");
     }
@@ -217,6 +217,78 @@ fn flows_are_compared_with_a_finer_run() {
     let distances: Vec<f64> =
         summary.choices.iter().map(|choice| choice.error("depth_distance").unwrap().size()).collect();
     assert!(distances[0] == 0.0 && distances[1] > 0.0, "{distances:?}");
+}
+
+/// What a still finer run changes counts: of water with few particles a node, those that are missing, which the step does not know of.
+#[test]
+fn a_still_finer_run_says_how_far_the_finer_one_is_off() {
+    let place = Place::of(json!({
+        "title": "small sea",
+        "space": {"box": [TAU, TAU]},
+        "time": {"step": 0.02, "steps": 40},
+        "temperature": 0,
+        "integrator": {"type": "gyro"},
+        "particles": [{"species": "water", "count": 1024, "velocities": {"type": "rest"}}],
+        "interactions": [{"type": "shallow-water", "mesh": [16, 16], "wave_speed": TAU,
+            "rotation": TAU, "smoothing": {"length": 0.8},
+            "surface": [{"type": "wave", "periods": [1, 2], "amplitude": 0.2}]}],
+        "output": {"energies": {"every": 2}, "plot": {"width": 640, "height": 480}},
+    }));
+    let finer = ["--vary", "particles.0.count=256,1024", "--finer", "particles.0.count=2304", "--quiet"];
+    let uncertainties = |summary: &TradeoffSummary| {
+        ["depth_distance", "velocity_distance"]
+            .map(|measure| summary.choices[0].error(measure).unwrap().uncertainty.unwrap())
+    };
+    succeeds(&borrowed(&arguments(&place, &finer)));
+    let by_step = uncertainties(&TradeoffSummary::load(&place.path("out")).unwrap());
+    let still = ["--still-finer", "particles.0.count=9216", "--force"];
+    succeeds(&borrowed(&arguments(&place, &[&finer[..], &still].concat())));
+    let summary = TradeoffSummary::load(&place.path("out")).unwrap();
+    let by_particles = uncertainties(&summary);
+    // Random places of 9 particles a node: the noise of their number outweighs any error of the step by far.
+    assert!((0..2).all(|field| by_particles[field] > 3.0 * by_step[field]), "{by_step:?} {by_particles:?}");
+    let names: Vec<&str> = summary.finer.iter().map(|run| run.name.as_str()).collect();
+    assert_eq!(names, ["finer", "finer-twice-the-step", "still-finer"]);
+    let page = fs::read_to_string(place.path("out").join(files::PAGE)).unwrap();
+    let said = "with `particles.0.count=2304`, uncertain by what `particles.0.count=9216` and twice its step change";
+    assert!(page.contains(said) || !page.contains("of a finer run of"), "{page}");
+    succeeds(&["tradeoff", "--resume", &place.argument("out"), "--quiet"]);
+    let wrong = ["--vary", "time.step=0.01,0.02", "--still-finer", "time.equilibration=3", "--force"];
+    let told = ["`--still-finer time.equilibration=3`", "follows from the choices"];
+    fails(&borrowed(&arguments(&place, &wrong)), 2, &told);
+}
+
+/// What analyses find has errors and references like any mean: diffusion, viscosity, and the distance of a radial distribution.
+#[test]
+fn analyses_are_measures_too() {
+    let place = place()
+        .with("/time/steps", json!(2000))
+        .with("/output/diffusion", json!({"every": 5, "window": 20}))
+        .with("/output/viscosity", json!({"every": 2, "window": 40}))
+        .with("/output/radial_distribution", json!({"every": 20, "range": 1.5, "bins": 30}));
+    let asked = "radial_distribution_distance,diffusion.diffusion_einstein,viscosity.shear_viscosity";
+    succeeds(&borrowed(&arguments(&place, &["--vary", "time.step=0.02,0.04", "--measure", asked, "--quiet"])));
+    let summary = TradeoffSummary::load(&place.path("out")).unwrap();
+    assert_eq!(summary.measures.join(","), asked);
+    for choice in &summary.choices {
+        for measure in &summary.measures {
+            let found = choice.error(measure).unwrap();
+            assert!(
+                found.error.is_finite() && found.uncertainty.is_some_and(|error| error > 0.0),
+                "{measure}: {found:?}"
+            );
+        }
+        // Self-diffusion of the standard fluid is .29; waves have no room in a box of four cutoffs.
+        let diffusion = choice.value("diffusion.diffusion_einstein").unwrap();
+        assert!((0.15..0.45).contains(&diffusion.value), "{diffusion:?}");
+        // Thirty bins of some 10⁴ pairs each are known to a few per cent.
+        let distance = choice.value("radial_distribution_distance").unwrap().value;
+        assert!(distance > 0.0 && distance < 0.2, "{distance}");
+    }
+    let names = listing(&place.path("out"));
+    for measure in &summary.measures {
+        assert!(names.contains(&files::plot(measure)), "{measure}: {names:?}");
+    }
 }
 
 /// One that is interrupted after its first run, and then goes on, measures what one measures that is not.
@@ -433,11 +505,11 @@ fn flows_are_compared_with_what_is_exact() {
     let further = ["--vary", "time.step=0.02", "--also", "interactions.0.mesh=[32,32]", "--quiet"];
     succeeds(&borrowed(&arguments(&place, &further)));
     let summary = TradeoffSummary::load(&place.path("out")).unwrap();
-    for measure in ["circulation_drift", "depth_from_exact", "speed_from_exact"] {
+    for measure in ["circulation_drift", "depth_from_exact", "velocity_from_exact"] {
         assert!(summary.measures.iter().any(|known| known == measure), "{measure}: {:?}", summary.measures);
     }
     let error = |place: usize, measure: &str| summary.choices[place].error(measure).unwrap().size();
-    for measure in ["depth_from_exact", "speed_from_exact"] {
+    for measure in ["depth_from_exact", "velocity_from_exact"] {
         let [coarse, fine] = [0, 1].map(|place| error(place, measure));
         // Of second order; the adjustment to the balance that there is on the nodes leaves waves whose phase is any.
         assert!(coarse > 2.0 * fine && fine > 0.0, "{measure}: {coarse} {fine}");

@@ -119,6 +119,36 @@ fn sizes_of_chains_are_printed_and_plotted_and_missing_letters_named() {
     assert_eq!(picture(&place.path("out/chain_sizes.png")).width(), 400);
 }
 
+/// A rod knows no copy of the box that is displaced: a bond across boundaries that shear is left out, and one beside them is drawn.
+#[test]
+fn bonds_across_boundaries_that_shear_are_left_out() {
+    for (across, upper) in [(true, 5.8), (false, 0.6)] {
+        // The copy above is displaced by 2, so that the ends are .4 apart in both.
+        let x = if across { 5.0 } else { 1.0 };
+        let place = Place::of(json!({
+            "title": "a bond",
+            "space": {"box": [6, 6], "shear": {"rate": 0.001, "gradient": "y", "displacement": 2}},
+            "time": {"step": 0.01, "steps": 1},
+            "temperature": 0,
+            "particles": [{"species": "A", "chain": {"beads": 2, "spacing": 0.4},
+                "placement": {"type": "listed", "positions": [[x, 0.2], [1, upper]]}, "velocities": {"type": "rest"}}],
+            "interactions": [
+                {"type": "dpd", "repulsion": 0, "friction": 0},
+                {"type": "bonds", "potential": {"type": "harmonic", "stiffness": 1, "length": 0.4}},
+            ],
+            "output": {"energies": {"every": 1}, "plot": {"width": 400},
+                "snapshot": {"width": 300, "height": 300, "radius": 0.1}},
+        }));
+        place.run("with", &["--quiet"]);
+        place.run("without", &["--quiet", "--set", "output.snapshot.bonds=false"]);
+        let [with, without] = ["with", "without"].map(|run| picture(&place.path(&format!("{run}/snapshot.png"))));
+        assert_eq!(with == without, across);
+        // It pulls all the same: at its length at rest it has no energy, and as long as the box it would have some.
+        let energy = place.table("with", "energies.csv").column("potential_energy").unwrap();
+        assert!(energy.iter().all(|energy| energy.abs() < 1e-3), "{energy:?}");
+    }
+}
+
 /// Pixels inside a picture that have a colour of the chart.
 fn pixels(place: &Place, name: &str, colour: [u8; 3]) -> usize {
     let near = |pixel: &&image::Rgba<u8>| (0..3).all(|channel| pixel[channel].abs_diff(colour[channel]) <= 24);

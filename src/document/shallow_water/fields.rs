@@ -40,6 +40,12 @@ pub struct FieldRanges {
     /// The range of the speed of the flow.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<[f64; 2]>,
+    /// The range of the velocity along x.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub velocity_x: Option<[f64; 2]>,
+    /// The range of the velocity along y.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub velocity_y: Option<[f64; 2]>,
 }
 
 impl FieldRanges {
@@ -58,6 +64,8 @@ impl FieldRanges {
             FieldQuantity::PotentialVorticity => self.potential_vorticity,
             FieldQuantity::Vorticity => self.vorticity,
             FieldQuantity::Speed => self.speed,
+            FieldQuantity::VelocityX => self.velocity_x,
+            FieldQuantity::VelocityY => self.velocity_y,
         }
     }
 }
@@ -74,6 +82,10 @@ pub enum FieldQuantity {
     Vorticity,
     /// The speed of the flow.
     Speed,
+    /// The velocity along x.
+    VelocityX,
+    /// The velocity along y.
+    VelocityY,
 }
 
 impl FieldQuantity {
@@ -85,6 +97,8 @@ impl FieldQuantity {
             Self::PotentialVorticity => "potential_vorticity",
             Self::Vorticity => "vorticity",
             Self::Speed => "speed",
+            Self::VelocityX => "velocity_x",
+            Self::VelocityY => "velocity_y",
         }
     }
 }

@@ -32,6 +32,14 @@ fn field(quantity: FieldQuantity, flow: &MeshFlow, depth: &[f64], model: &Model,
         ),
         FieldQuantity::Vorticity => ("vorticity", "Vorticity ζ (1/time units)", Some(0.0), flow.vorticity()),
         FieldQuantity::Speed => ("speed", "Speed (length units/time units)", None, flow.speed()),
+        FieldQuantity::VelocityX => {
+            let [along_x, _] = flow.velocity();
+            ("velocity along x", "Velocity u along x (length units/time units)", Some(0.0), along_x)
+        }
+        FieldQuantity::VelocityY => {
+            let [_, along_y] = flow.velocity();
+            ("velocity along y", "Velocity v along y (length units/time units)", Some(0.0), along_y)
+        }
     };
     // Of an array the first index is that of x.
     let nodes = water.mesh.map(|nodes| nodes as usize);

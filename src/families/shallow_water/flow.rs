@@ -76,6 +76,12 @@ impl MeshFlow {
         self.nodes.iter().map(|[_, u, v]| u.hypot(*v)).collect()
     }
 
+    /// The components of the velocity, along x and along y.
+    #[must_use]
+    pub fn velocity(&self) -> [Vec<f64>; 2] {
+        [1, 2].map(|component| self.nodes.iter().map(|node| node[component]).collect())
+    }
+
     /// The vorticity ζ = ∂v/∂x - ∂u/∂y.
     #[must_use]
     pub fn vorticity(&self) -> Vec<f64> {
@@ -136,6 +142,7 @@ mod tests {
         }
         let flow = MeshFlow::new(&model, &water, &state);
         let (speed, vorticity) = (flow.speed(), flow.vorticity());
+        let [along_x, along_y] = flow.velocity();
         let potential = flow.potential_vorticity(&vec![2.0; 960]);
         assert_eq!(flow.masses().len(), 960);
         for node in 0..960 {
@@ -146,6 +153,10 @@ mod tests {
             let (exact, tolerance) = (-2.0 * TAU / 3.0 * x.sin() - TAU / 5.0 * y.cos(), 0.03 * TAU);
             assert!((vorticity[node] - exact).abs() < tolerance, "node {node}: {} {exact}", vorticity[node]);
             assert!((speed[node] - y.sin().hypot(2.0 * x.cos())).abs() < 0.05, "node {node}");
+            assert!(
+                (along_x[node] - y.sin()).abs() < 0.05 && (along_y[node] - 2.0 * x.cos()).abs() < 0.05,
+                "node {node}"
+            );
             assert!((potential[node] - 0.5 * (vorticity[node] + 0.5)).abs() < 1e-12);
         }
     }

@@ -24,12 +24,12 @@ pub(super) fn field(water: &ShallowWater, scene: &Scene, model: &Model, quantity
     let value = |point: [f64; 2]| {
         let depth = surface.smoothed(point);
         let vorticity = factor * laplacian(&surface, point);
+        let [slope_x, slope_y] = surface.slope(point);
         match quantity {
             FieldQuantity::Depth => depth,
-            FieldQuantity::Speed => {
-                let [x, y] = surface.slope(point);
-                factor.abs() * x.hypot(y)
-            }
+            FieldQuantity::Speed => factor.abs() * slope_x.hypot(slope_y),
+            FieldQuantity::VelocityX => -factor * slope_y,
+            FieldQuantity::VelocityY => factor * slope_x,
             FieldQuantity::Vorticity => vorticity,
             FieldQuantity::PotentialVorticity => (vorticity + water.rotation) / depth,
         }
@@ -129,6 +129,7 @@ mod tests {
         let [depth, speed, vorticity, potential] =
             [FieldQuantity::Depth, FieldQuantity::Speed, FieldQuantity::Vorticity, FieldQuantity::PotentialVorticity]
                 .map(of);
+        let [along_x, along_y] = [FieldQuantity::VelocityX, FieldQuantity::VelocityY].map(of);
         let factor = water.wave_speed.powi(2) / water.rotation;
         let scale = 0.1 * factor.abs();
         for k in 0..8 {
@@ -138,6 +139,9 @@ mod tests {
                 let node = 16 * k as usize + l;
                 assert!((depth[node] - 1.0 - 0.1 * cosine).abs() < 1e-12);
                 assert!((speed[node] - scale * sine.abs()).abs() < 1e-8 * scale);
+                // V = c₀²/f₀ (-∂H/∂y, ∂H/∂x).
+                assert!(along_x[node].abs() < 1e-8 * scale);
+                assert!((along_y[node] + 0.1 * factor * sine).abs() < 1e-8 * scale);
                 assert!((vorticity[node] + 0.1 * factor * cosine).abs() < 1e-8 * scale);
                 let exact = (water.rotation - 0.1 * factor * cosine) / (1.0 + 0.1 * cosine);
                 assert!((potential[node] - exact).abs() < 1e-8 * scale);

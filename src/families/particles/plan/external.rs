@@ -10,8 +10,10 @@ use crate::shaders::{Array, Choices, Constant, Entry, external};
 pub(super) const SUMS: u64 = 4;
 /// Sums in a row of the account, see `shaders/external/body_force.wgsl`.
 const ACCOUNT: u64 = 8;
-/// Rows of the account: enough workgroups to read particles as fast as memory can, few enough to add up.
+/// Rows of the account: enough workgroups to read particles as fast as memory can, few enough to add up. Where there are fewer particles a lane
+/// reads as many as this, for adding up the lanes of a workgroup takes longer.
 const ROWS: u64 = 256;
+const PARTICLES_OF_LANE: u64 = 8;
 
 /// The profile of the body forces, if there are any.
 pub(super) fn profile(model: &Model) -> Option<external::Profile> {
@@ -29,7 +31,12 @@ pub(crate) fn sums(model: &Model) -> u64 {
 
 /// Rows of the account of workgroups of a size; none without body forces.
 pub(super) fn rows(model: &Model, workgroup: u64) -> u64 {
-    if model.particles().body_forces.is_some() { model.particle_count().div_ceil(workgroup).clamp(1, ROWS) } else { 0 }
+    let particles = model.particle_count();
+    model
+        .particles()
+        .body_forces
+        .as_ref()
+        .map_or(0, |_| particles.div_ceil(PARTICLES_OF_LANE * workgroup).clamp(1, ROWS))
 }
 
 /// The constants of the impulses; without a table of species those of the only one.
