@@ -412,6 +412,7 @@ impl<'a> Engine<'a> {
             while done < now && self.room_for_samples() {
                 self.record_sample(&mut recording)?;
                 let reported = self.phase == Phase::Sorted { reported: true };
+                self.look_ahead(self.step + 1, false);
                 let kernels = if reported { &self.plan.finish_report } else { &self.plan.advance };
                 record(kernels, &self.stages, &mut self.exchange, self.step, &mut recording)?;
                 self.phase = Phase::Advanced;
@@ -681,10 +682,23 @@ impl<'a> Engine<'a> {
 
     fn record_report(&mut self, recording: &mut Recording<'_>) -> Result<(), EngineError> {
         if self.phase == (Phase::Sorted { reported: false }) {
+            self.look_ahead(self.step, true);
             record(&self.plan.report, &self.stages, &mut self.exchange, self.step, recording)?;
             self.phase = Phase::Sorted { reported: true };
         }
         Ok(())
+    }
+
+    /// Lets the exchange that is recorded next bring what samples of a step need that look further than forces reach: the one within the
+    /// report, where they are taken after it, or the one before the step.
+    fn look_ahead(&mut self, step: u64, in_report: bool) {
+        let Some(exchange) = &mut self.exchange else { return };
+        let due = |sampler: &usize| {
+            let sampler = self.plan.samplers.get(*sampler);
+            sampler.is_some_and(|sampler| sampler.needs_report == in_report && sampler.due(step))
+        };
+        let wider = self.plan.part.as_ref().and_then(|part| part.wider.as_ref());
+        exchange.widen(wider.is_some_and(|wider| wider.samplers.iter().any(due)));
     }
 
     fn room_for_samples(&self) -> bool {
