@@ -11,6 +11,9 @@ use std::ops::Range;
 /// Places of particles that have gone are closed when they are more than this part of those that are taken.
 pub(crate) const FREE_SHARE: u64 = 8;
 
+/// Particles of a message between ranks, which is therefore some 32 MB long.
+const PORTION: u64 = 1 << 20;
+
 /// Parts of the box on each axis, all alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Division {
@@ -233,6 +236,8 @@ pub struct PlannedPart {
     pub slots: u64,
     /// Particles that it can send to a peer in a step.
     pub room: u64,
+    /// Particles of all ranks in a message that passes on a state: so many numbers after each other.
+    pub portion: u64,
     /// The kernel after which particles are exchanged, as an index into [`super::Plan::kernels`].
     pub exchange: usize,
     /// How a particle lies in its array.
@@ -313,6 +318,12 @@ impl PlannedPart {
         4 * self.sum.as_ref().map_or(0, own) * self.others().len() as u64
     }
 
+    /// The numbers of the particles of each message that passes on a state.
+    pub(crate) fn portions(&self) -> impl Iterator<Item = Range<u64>> {
+        let (all, portion) = (self.shared, self.portion.max(1));
+        (0..all.div_ceil(portion).max(1)).map(move |place| place * portion..((place + 1) * portion).min(all))
+    }
+
     /// Whether it knows particles of others, at some steps at least.
     #[must_use]
     pub fn has_halo(&self) -> bool {
@@ -378,6 +389,7 @@ impl Part {
             wider,
             slots,
             room,
+            portion: PORTION,
             exchange: 0,
             particle: ParticleWords { count: PARTICLE_WORDS as usize, axes: 3, number: 3 },
             shared: particles,
@@ -405,6 +417,7 @@ impl Part {
             // Its own, as many free places as are left before they are closed, and what arrives in a step.
             slots: expected(own.share()) + expected(own.share()) / FREE_SHARE + room,
             room,
+            portion: PORTION,
             exchange: 0,
             particle,
             shared: particles,

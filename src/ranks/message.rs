@@ -7,16 +7,20 @@ use serde::{Deserialize, Serialize};
 /// What the first rank tells the others to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Command {
-    /// Begin at a step, with the particles that follow.
+    /// Take the particles that follow, and wait for more.
+    Take,
+    /// Begin at a step, with the particles that were taken and those that follow.
     Upload { step: u64 },
     /// Advance, in submissions of so many steps.
     Advance { steps: u64, batch: u64 },
     /// Take the samples of the step.
     Finish,
-    /// Give the particles to go on from.
+    /// Give the particles to go on from; of all those with the smallest numbers, and what else belongs to the state.
     State,
-    /// Give the particles of a report.
+    /// The same of a report.
     Report,
+    /// Give those with the next numbers.
+    Next,
     /// Nothing more is to be done.
     End,
 }

@@ -47,6 +47,7 @@ impl Builder<'_> {
         let mut planned = part.plan(&self.model.units, halo, reach, self.particles, self.options.list_growth);
         // No step changes where tethers end.
         planned.whole.extend(self.model.particles().tether.is_some().then_some(Array::Tethers));
+        planned.portion = self.options.particles_in_message.unwrap_or(planned.portion);
         self.slots = planned.slots;
         self.plan.part = Some(planned);
     }
