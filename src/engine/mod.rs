@@ -6,6 +6,7 @@ mod exchange;
 mod pipeline;
 mod readback;
 mod recording;
+mod shown;
 mod stepper;
 mod texels;
 mod timing;
@@ -13,6 +14,8 @@ mod timing;
 pub use error::EngineError;
 pub use exchange::{Swap, Traffic};
 pub(crate) use readback::read as read_back;
+pub(crate) use shown::Sampling;
+pub use shown::Shown;
 pub use stepper::{RankReport, Stepper};
 pub use timing::{StageClock, StageTime};
 

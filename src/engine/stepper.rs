@@ -1,6 +1,6 @@
 //! What advances a state step by step: an engine, or several that share a run.
 
-use super::{Engine, EngineError, Sample, Traffic};
+use super::{Engine, EngineError, Sample, Shown, Traffic};
 use crate::plan::Plan;
 use crate::shaders::Array;
 use crate::state::State;
@@ -28,6 +28,11 @@ pub trait Stepper {
     fn take_samples(&mut self) -> Vec<Sample>;
     fn state(&mut self) -> Result<State, EngineError>;
     fn reported(&mut self) -> Result<State, EngineError>;
+
+    /// The particles of a report that a picture shows: about so many, if there are more.
+    fn shown(&mut self, most: u64) -> Result<Shown, EngineError> {
+        Ok(Shown::of(self.reported()?, most))
+    }
 
     /// Each rank, of several.
     fn ranks(&self) -> &[RankReport] {

@@ -2,8 +2,8 @@
 
 use super::Channel;
 use super::message::{Answer, Command, Contents, Introduction, Problem, read, written};
-use crate::engine::{Engine, EngineError};
-use crate::plan::PlannedPart;
+use crate::engine::{Engine, EngineError, Sampling};
+use crate::plan::{ParticleWords, PlannedPart};
 use std::collections::VecDeque;
 
 /// Particles that pass from rank to rank in several messages.
@@ -55,6 +55,16 @@ impl Portions {
     }
 }
 
+/// A state of whose particles only some are left.
+fn sampled(part: Option<&PlannedPart>, sampling: Sampling, mut contents: Contents) -> Contents {
+    if let (Some(part), Some(particles)) = (part, contents.first_mut()) {
+        let ParticleWords { count, number, .. } = part.particle;
+        let shown = particles.chunks_exact(count).filter(|particle| sampling.holds(particle[number]));
+        *particles = shown.flatten().copied().collect();
+    }
+    contents
+}
+
 /// Does what a command says; what it gives, and the arrays that go with it.
 pub(super) fn execute(
     engine: &mut Engine<'_>,
@@ -78,6 +88,10 @@ pub(super) fn execute(
         }),
         Command::State => engine.own_state().map(|own| portions.divide(engine.plan().part.as_ref(), own)),
         Command::Report => engine.own_reported().map(|own| portions.divide(engine.plan().part.as_ref(), own)),
+        Command::Show { sample } => engine.own_reported().map(|own| {
+            let part = engine.plan().part.as_ref();
+            portions.divide(part, sampled(part, Sampling::of_word(sample), own))
+        }),
         Command::Next => Ok(vec![portions.next()]),
         Command::End => Ok(Vec::new()),
     };

@@ -19,6 +19,8 @@ pub(super) enum Command {
     State,
     /// The same of a report.
     Report,
+    /// The same of a sample of them, of which this word tells.
+    Show { sample: u32 },
     /// Give those with the next numbers.
     Next,
     /// Nothing more is to be done.

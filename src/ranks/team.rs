@@ -3,7 +3,7 @@
 use super::Channel;
 use super::member::{Portions, execute};
 use super::message::{Answer, Command, Contents, Introduction, Problem, join, read, written};
-use crate::engine::{Engine, EngineError, RankReport, Sample, Stepper, Traffic};
+use crate::engine::{Engine, EngineError, RankReport, Sample, Sampling, Shown, Stepper, Traffic};
 use crate::plan::{PARTICLE_WORDS, Places, Plan, Sampler};
 use crate::shaders::Array;
 use crate::state::State;
@@ -101,17 +101,22 @@ impl<'a> Team<'a> {
         self.tell(Command::Upload { step: state.step }, &contents).map(|_| ())
     }
 
+    /// Number of the particles that the ranks share out.
+    fn shared(&self) -> u64 {
+        self.engine.plan().part.as_ref().map_or(0, |part| part.shared)
+    }
+
     /// The numbers of the particles of each message that passes on a state.
     fn portions(&self) -> Result<Vec<Range<u64>>, EngineError> {
         let none = || EngineError::State { reason: "the plan is of no part".to_owned() };
         self.engine.plan().part.as_ref().map(|part| part.portions().collect()).ok_or_else(none)
     }
 
-    /// Gathers the particles that all ranks share out, in several messages; `begin` sees what else belongs to the state, before `take` gets
-    /// any.
+    /// Gathers so many particles of those that all ranks share out, in several messages; `begin` sees what else belongs to the state, before
+    /// `take` gets any.
     fn gather<T>(
         &mut self,
-        command: Command,
+        (command, count): (Command, u64),
         begin: impl FnOnce(&Self, &Contents) -> Result<T, EngineError>,
         mut take: impl FnMut(&mut T, &[u32]) -> Result<(), EngineError>,
     ) -> Result<T, EngineError> {
@@ -128,7 +133,7 @@ impl<'a> Team<'a> {
             }
         }
         let part = self.engine.plan().part.as_ref();
-        if part.is_some_and(|part| part.shared * part.particle.count as u64 == words) {
+        if part.is_some_and(|part| count * part.particle.count as u64 == words) {
             return Ok(gathered);
         }
         Err(EngineError::Ranks { reason: LOST.to_owned() })
@@ -181,7 +186,7 @@ impl<'a> Team<'a> {
             return Ok(());
         }
         let begin = |team: &Self, _: &Contents| Ok(vec![u32::MAX; WORDS * team.engine.plan().particles as usize]);
-        let gathered = self.gather(Command::Report, begin, |gathered, particles| {
+        let gathered = self.gather((Command::Report, self.shared()), begin, |gathered, particles| {
             for particle in particles.chunks_exact(WORDS) {
                 if let Some(place) = gathered.chunks_exact_mut(WORDS).nth(particle[3] as usize) {
                     place.copy_from_slice(particle);
@@ -256,11 +261,41 @@ impl<'a> Team<'a> {
         let place = |(state, places): &mut (State, Places), particles: &[u32]| -> Result<(), EngineError> {
             layout.place(particles, places, state).map_err(problem)
         };
-        let (mut state, _) = self.gather(command, begin, place)?;
+        let (mut state, _) = self.gather((command, self.shared()), begin, place)?;
         if state.species.is_empty() {
             state.species.clone_from(&self.species);
         }
         Ok(state)
+    }
+
+    /// A sample of the particles of a report.
+    fn sample(&mut self, sampling: Sampling) -> Result<Shown, EngineError> {
+        let plan = self.engine.plan();
+        let numbers = sampling.numbers(plan.particles);
+        let layout = plan.reported.as_ref().map_or(&plan.layout, |(_, layout)| layout).clone();
+        let words = plan.part.as_ref().map(|part| part.particle);
+        let problem = |reason: String| EngineError::Ranks { reason };
+        let count = numbers.len();
+        let begin = |team: &Self, contents: &Contents| {
+            let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
+            let state = layout.begin(team.engine.step(), &contents, count).map_err(problem)?;
+            Ok((state, Places::of(count)))
+        };
+        let place = |(state, places): &mut (State, Places), particles: &[u32]| -> Result<(), EngineError> {
+            let Some(words) = words else { return Ok(()) };
+            let mut particles = particles.to_vec();
+            for particle in particles.chunks_exact_mut(words.count) {
+                let place = numbers.binary_search(&particle[words.number]);
+                particle[words.number] = place.map_err(|_| problem(LOST.to_owned()))? as u32;
+            }
+            layout.place(&particles, places, state).map_err(problem)
+        };
+        let (state, _) = self.gather((Command::Show { sample: sampling.word() }, count as u64), begin, place)?;
+        let State { step, positions, momenta, mut species, .. } = state;
+        if species.is_empty() {
+            species = numbers.iter().filter_map(|number| self.species.get(*number as usize).copied()).collect();
+        }
+        Ok(Shown { state: State { step, positions, momenta, species, ..State::default() }, numbers: Some(numbers) })
     }
 }
 
@@ -326,6 +361,13 @@ impl Stepper for Team<'_> {
 
     fn state(&mut self) -> Result<State, EngineError> {
         self.joined(Command::State, false)
+    }
+
+    fn shown(&mut self, most: u64) -> Result<Shown, EngineError> {
+        match Sampling::new(self.shared(), most) {
+            Some(sampling) if self.shared() == self.plan().particles => self.sample(sampling),
+            _ => Ok(Shown::of(self.reported()?, most)),
+        }
     }
 
     fn reported(&mut self) -> Result<State, EngineError> {

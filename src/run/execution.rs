@@ -5,13 +5,13 @@ use super::conservation::{conserved, not_conserved, warning_of_mixed_ranks};
 use super::energies::{self, EnergyRecorder};
 use super::kept_sums::{KeptSums, Sharing};
 use super::pace::Pace;
-use super::pictures::{Pictures, mesh_depth};
+use super::pictures::{Pictures, mesh_depth, most_shown};
 use super::schedule::Schedule;
 use super::sections::Sections;
 use super::tally::Carried;
 use super::task::Task;
 use super::{Event, Progress, RunError};
-use crate::engine::{EngineError, Sample, Stepper};
+use crate::engine::{EngineError, Sample, Shown, Stepper};
 use crate::families::{KeptQuantity, Model, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
@@ -178,27 +178,31 @@ impl<'a> Run<'a> {
         self.energies.flush()?;
         let number = self.schedule.snapshot(step);
         let frame = self.schedule.frame(step);
-        if number.is_some() || frame || self.analyses.take_state(step) || last {
-            let state = engine.reported()?;
-            self.analyses.add_state(&state, self.model);
+        let taken = self.analyses.take_state(step);
+        if number.is_some() || frame || taken || last {
+            let most = most_shown(self.scene, self.model);
+            let all = if frame || taken { Shown::all(engine.reported()?) } else { engine.shown(most)? };
+            let state = &all.state;
+            self.analyses.add_state(state, self.model);
             if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
-                trajectory.append(&state)?;
+                trajectory.append(state)?;
                 trajectory.flush()?;
                 engine.keep_alive();
             }
             if self.model.picture() == PictureKind::Fields {
                 let depth = mesh_depth(engine, self.model)?;
                 for number in number.map(Some).into_iter().chain(last.then_some(None)) {
-                    self.pictures.fields(number, &state, &depth, self.model)?;
+                    self.pictures.fields(number, state, &depth, self.model)?;
                     engine.keep_alive();
                 }
-            } else {
+            } else if number.is_some() || last {
+                let shown = if all.numbers.is_some() { all } else { Shown::of(all.state, most) };
                 if let Some(number) = number {
-                    self.pictures.snapshot(&files::snapshot(number), &state, self.model)?;
+                    self.pictures.snapshot(&files::snapshot(number), &shown, self.model)?;
                     engine.keep_alive();
                 }
                 if last {
-                    self.pictures.snapshot(files::SNAPSHOT, &state, self.model)?;
+                    self.pictures.snapshot(files::SNAPSHOT, &shown, self.model)?;
                 }
             }
         }
