@@ -12,6 +12,8 @@ pub struct RankReport {
     pub host: String,
     /// The adapter and its driver.
     pub adapter: String,
+    /// Adapters that the ranks on its machine get by turns.
+    pub adapters: u32,
     /// A checksum of what it computes from a state that all ranks know: ranks that round alike have the same.
     pub arithmetic: u32,
     /// What it has exchanged.

@@ -34,6 +34,46 @@ pub(crate) fn remedy(ranks: &[RankReport]) -> String {
     )
 }
 
+/// That so many ranks on a machine have to share its adapters, if they have.
+///
+/// ```
+/// use mesoscope::ranks::sharing;
+///
+/// assert_eq!(sharing(4, 4, "node7"), None);
+/// let told = sharing(2, 1, "node7");
+/// assert_eq!(told.as_deref(), Some("2 ranks share 1 adapter of node7: they take turns on it"));
+/// assert_eq!(sharing(8, 4, "this machine").as_deref(), Some("8 ranks share 4 adapters of this machine"));
+/// ```
+#[must_use]
+pub fn sharing(ranks: u32, adapters: u32, machine: &str) -> Option<String> {
+    let turns = if adapters == 1 { ": they take turns on it" } else { "" };
+    let those = if adapters == 1 { "adapter" } else { "adapters" };
+    (ranks > adapters).then(|| format!("{ranks} ranks share {adapters} {those} of {machine}{turns}"))
+}
+
+/// The same of each machine that ranks are on.
+///
+/// ```
+/// use mesoscope::engine::RankReport;
+/// use mesoscope::ranks::sharing_anywhere;
+///
+/// let ranks: Vec<RankReport> = [("a", 2), ("b", 1), ("a", 2), ("b", 1), ("c", 1), ("a", 2)]
+///     .map(|(host, adapters)| RankReport { host: host.to_owned(), adapters, ..RankReport::default() })
+///     .to_vec();
+/// let expected = ["3 ranks share 2 adapters of a", "2 ranks share 1 adapter of b: they take turns on it"];
+/// assert_eq!(sharing_anywhere(&ranks), expected);
+/// ```
+#[must_use]
+pub fn sharing_anywhere(ranks: &[RankReport]) -> Vec<String> {
+    let first_there = |(place, rank): &(usize, &RankReport)| ranks[..*place].iter().all(|other| other.host != rank.host);
+    let machines = ranks.iter().enumerate().filter(first_there);
+    let told = |(_, machine): (usize, &RankReport)| {
+        let there = ranks.iter().filter(|rank| rank.host == machine.host).count();
+        sharing(there as u32, machine.adapters, &machine.host)
+    };
+    machines.filter_map(told).collect()
+}
+
 /// Several ranks that advance one state.
 pub struct Team<'a> {
     engine: Engine<'a>,
@@ -146,9 +186,9 @@ impl<'a> Team<'a> {
     }
 
     fn introduce(&mut self, rank: usize, introduction: Introduction) {
-        let Introduction { host, adapter, arithmetic } = introduction;
+        let Introduction { host, adapter, adapters, arithmetic } = introduction;
         if let Some(known) = self.ranks.get_mut(rank) {
-            *known = RankReport { host, adapter, arithmetic, traffic: known.traffic };
+            *known = RankReport { host, adapter, adapters, arithmetic, traffic: known.traffic };
         }
     }
 

@@ -19,6 +19,7 @@ use crate::output::summary::{AdapterSummary, RanksSummary};
 use crate::output::{Checkpoint, Extent, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files};
 use crate::ranks::{computes_alike, remedy};
 use crate::scene::Scene;
+use crate::state::State;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -122,12 +123,15 @@ impl<'a> Run<'a> {
     pub(super) fn advance_to_end(
         &mut self,
         engine: &mut dyn Stepper,
+        start: &mut Checkpoint,
         pace: &mut Pace,
         observer: &mut dyn FnMut(Event<'_>),
     ) -> Result<(), RunError> {
         let begun = pace.done();
         let first = engine.step();
         self.visit(engine, pace)?;
+        // What a run goes back to is on the disk from now on, and need not be in memory.
+        start.state = State::default();
         while engine.step() < self.scene.time.steps {
             let event = self.schedule.next(engine.step());
             pace.begin();

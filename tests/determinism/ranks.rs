@@ -1,6 +1,6 @@
 //! Several ranks: the same bytes as one.
 
-use mesoscope::engine::Stepper as _;
+use mesoscope::engine::{Shown, Stepper as _};
 use mesoscope::gpu::Requirements;
 use mesoscope::plan::{Division, Options};
 use mesoscope::ranks::Team;
@@ -61,7 +61,8 @@ pub fn team(scene: &Scene, division: Division, options: Options, state: &State) 
 
 fn divided(scene: &Scene, parts: [u32; 3], batch: u64) -> Bytes {
     let (_, state) = start(scene);
-    let mut team = team(scene, Division { parts }, Options::default(), &state);
+    let options = Options { particles_in_message: (batch == 1).then_some(100), ..Options::default() };
+    let mut team = team(scene, Division { parts }, options, &state);
     team.advance(STEPS, batch).unwrap();
     assert!(team.traffic().iter().all(|traffic| traffic.exchanges >= STEPS && traffic.copies > 0));
     harvest(team, Vec::new())
@@ -156,6 +157,28 @@ fn ranks_know_more_at_the_steps_at_which_distances_are_counted() {
         // Some 1 800 h copies in all, of positions that are random at first: 2.4 % in a single exchange.
         let ratio = sent / shared(&counting(1)).0;
         assert!((ratio / (rarely / always) - 1.0).abs() < 0.05, "{integrator}: {ratio}");
+    }
+}
+
+/// A picture of a sample shows the same particles on any number of ranks, in whatever messages they pass.
+#[test]
+fn any_number_of_ranks_shows_the_same_sample() {
+    for integrator in [GROOT_WARREN, SPLITTING] {
+        let scene = scene(&[integrator, "space.box=[5,5,16]", MIXTURE, MIXTURE_FORCE]);
+        let (_, state) = start(&scene);
+        let mut alone = crate::support::engine(&scene, &state, Options::default());
+        alone.advance(STEPS, 8).unwrap();
+        let shown = alone.shown(300).unwrap();
+        let species = |kind: u32| shown.state.species.iter().filter(|species| **species == kind).count();
+        // 300 of 1 200, one in three of the second kind, within five standard deviations.
+        assert!(shown.state.len().abs_diff(300) < 75 && species(1).abs_diff(100) < 45, "{}", shown.state.len());
+        for (parts, particles_in_message) in [([1, 1, 2], None), ([1, 1, 3], Some(100))] {
+            let options = Options { particles_in_message, ..Options::default() };
+            let mut team = team(&scene, Division { parts }, options, &state);
+            team.advance(STEPS, 8).unwrap();
+            assert!(team.shown(300).unwrap() == shown, "{integrator} in {parts:?}");
+            assert_eq!(team.shown(1200).unwrap(), Shown::all(alone.reported().unwrap()));
+        }
     }
 }
 
