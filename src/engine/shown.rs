@@ -46,7 +46,7 @@ impl Sampling {
     }
 }
 
-/// A number without the order of its neighbours, which may be one of places: the finish of MurmurHash3, a bijection.
+/// A number without the order of its neighbours, which may be one of places: the finish of `MurmurHash3`, a bijection.
 fn scrambled(number: u32) -> u32 {
     let mut word = number;
     word = (word ^ (word >> 16)).wrapping_mul(0x85eb_ca6b);

@@ -79,7 +79,9 @@ pub(super) fn execute(
         Command::Upload { step } => {
             let taken = portions.take(engine, contents);
             let particles = std::mem::take(&mut portions.taken);
-            taken.and_then(|()| engine.upload_part(step, &particles, contents.get(1..).unwrap_or_default())).map(nothing)
+            taken
+                .and_then(|()| engine.upload_part(step, &particles, contents.get(1..).unwrap_or_default()))
+                .map(nothing)
         }
         Command::Advance { steps, batch } => engine.advance(steps, batch).map(nothing),
         Command::Finish => engine.finish().map(|finished| {

@@ -65,7 +65,8 @@ pub fn sharing(ranks: u32, adapters: u32, machine: &str) -> Option<String> {
 /// ```
 #[must_use]
 pub fn sharing_anywhere(ranks: &[RankReport]) -> Vec<String> {
-    let first_there = |(place, rank): &(usize, &RankReport)| ranks[..*place].iter().all(|other| other.host != rank.host);
+    let first_there =
+        |(place, rank): &(usize, &RankReport)| ranks[..*place].iter().all(|other| other.host != rank.host);
     let machines = ranks.iter().enumerate().filter(first_there);
     let told = |(_, machine): (usize, &RankReport)| {
         let there = ranks.iter().filter(|rank| rank.host == machine.host).count();
@@ -298,7 +299,7 @@ impl<'a> Team<'a> {
             }
             Ok((state, Places::of(count)))
         };
-        let place = |(state, places): &mut (State, Places), particles: &[u32]| -> Result<(), EngineError> {
+        let place = |(state, places): &mut (State, Places), particles: &[u32]| {
             layout.place(particles, places, state).map_err(problem)
         };
         let (mut state, _) = self.gather((command, self.shared()), begin, place)?;

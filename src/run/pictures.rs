@@ -88,7 +88,8 @@ pub(super) fn most_shown(scene: &Scene, model: &Model) -> u64 {
     if model.picture() != PictureKind::Particles {
         return u64::MAX;
     }
-    let [width, height] = snapshot_size(&scene.output.snapshot, model.units.dimension as u32, model.edges_with_layers());
+    let [width, height] =
+        snapshot_size(&scene.output.snapshot, model.units.dimension as u32, model.edges_with_layers());
     LEAST.max((8.0 * width * height) as u64)
 }
 

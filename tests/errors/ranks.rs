@@ -139,7 +139,10 @@ fn with_results() -> (TempDir, PathBuf) {
     let summary = ended.unwrap().summary;
     let shared = summary.ranks.unwrap();
     let host = &shared.ranks[0].host;
-    assert!(shared.alike && warnings == Vec::from_iter(sharing(2, adapters_by_turns(&adapter()), host)), "{warnings:?}");
+    assert!(
+        shared.alike && warnings == Vec::from_iter(sharing(2, adapters_by_turns(&adapter()), host)),
+        "{warnings:?}"
+    );
     assert!(!summary.warnings.iter().any(|warning| warning.contains("ranks")), "{:?}", summary.warnings);
     assert!(shared.slowest_over_mean >= 1.0 && shared.slowest_over_mean <= 2.0, "{shared:?}");
     for rank in &shared.ranks {
@@ -232,12 +235,8 @@ fn team(arithmetic: u32, mixed: bool, panics: bool) -> Result<Team<'static>, Eng
         let plan = run::plan(&start(&scene).0, 0, &scene.output, hardware(), options);
         Engine::of_part(gpu(), plan, Box::new(peers)).unwrap()
     };
-    let introduction = |arithmetic| Introduction {
-        host: "here".to_owned(),
-        adapter: "some".to_owned(),
-        adapters: 1,
-        arithmetic,
-    };
+    let introduction =
+        |arithmetic| Introduction { host: "here".to_owned(), adapter: "some".to_owned(), adapters: 1, arithmetic };
     let mut links = threads::links(2).into_iter();
     let (first, second) = (links.next().unwrap(), links.next().unwrap());
     let first_engine = engine(0, first.peers);

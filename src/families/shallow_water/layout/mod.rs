@@ -48,7 +48,11 @@ fn empty(step: u64, count: usize) -> State {
 }
 
 /// Puts particles, as they are stored, into a state.
-fn put<'a>(particles: impl IntoIterator<Item = &'a [u32]>, places: &mut Places, state: &mut State) -> Result<(), String> {
+fn put<'a>(
+    particles: impl IntoIterator<Item = &'a [u32]>,
+    places: &mut Places,
+    state: &mut State,
+) -> Result<(), String> {
     for particle in particles {
         let id = places.take(particle[5])?;
         state.positions[id] = [particle[0], particle[1], 0];
