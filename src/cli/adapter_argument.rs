@@ -22,11 +22,6 @@ impl AdapterArgument {
         }
     }
 
-    /// Whether a certain adapter is asked for.
-    pub fn is_named(&self) -> bool {
-        self.adapter.is_some()
-    }
-
     /// What was asked for.
     pub fn choice(&self) -> AdapterChoice {
         AdapterChoice::parse(self.adapter.as_deref())

@@ -1,13 +1,13 @@
 //! The argument that says how many ranks share a run.
 
 use mesoscope::families::Model;
-use mesoscope::gpu::{AdapterDescription, list_adapters};
+use mesoscope::gpu::adapters_by_turns;
 use mesoscope::plan::Division;
-use mesoscope::ranks::Processes;
+use mesoscope::ranks::{Processes, sharing};
 use mesoscope::run::{self, Ranks};
 use mesoscope::scene::Scene;
 
-use super::{AdapterArgument, Failure, launcher, line};
+use super::{AdapterArgument, Failure, line};
 
 /// How many ranks.
 #[derive(Debug, clap::Args)]
@@ -53,7 +53,7 @@ impl RanksArgument {
         let copies = processes.map(Processes::count);
         let ranks = match &self.ranks {
             None if copies.is_none() => return Ok(None),
-            None | Some(Asked::Auto) => Ranks::Count(copies.unwrap_or_else(|| adapter.alike())),
+            None | Some(Asked::Auto) => Ranks::Count(copies.unwrap_or_else(|| adapters_by_turns(&adapter.choice()))),
             Some(Asked::Count(count)) => Ranks::Count(*count),
             Some(Asked::Along(along)) => {
                 let dimension = scene.space.lengths.len();
@@ -76,10 +76,10 @@ impl RanksArgument {
                 division.ranks()
             )));
         }
-        // Of processes only those of this machine are known.
-        let here = if copies.is_some() { launcher::local_copies() as u32 } else { division.ranks() };
-        if division.ranks() > 1
-            && let Some(warning) = crowding(here, adapter.alike())
+        // Processes tell where they are once they share the run.
+        if copies.is_none()
+            && division.ranks() > 1
+            && let Some(warning) = sharing(division.ranks(), adapters_by_turns(&adapter.choice()), "this machine")
         {
             line(&format!("warning: {warning}"));
         }
@@ -87,41 +87,9 @@ impl RanksArgument {
     }
 }
 
-/// That ranks on this machine have to share adapters, if they have.
-fn crowding(ranks: u32, adapters: u32) -> Option<String> {
-    let those =
-        if adapters == 1 { "adapter of this machine: they take turns on it" } else { "adapters of this machine" };
-    (ranks > adapters).then(|| format!("{ranks} ranks share {adapters} {those}"))
-}
-
-impl AdapterArgument {
-    /// Number of adapters that ranks get by turns: those that are as good as the best, or the one that was named.
-    fn alike(&self) -> u32 {
-        if self.is_named() {
-            return 1;
-        }
-        let adapters = list_adapters();
-        let best = adapters.first();
-        let alike = |other: &&AdapterDescription| {
-            best.is_some_and(|best| best.kind == other.kind && best.backend == other.backend)
-        };
-        (adapters.iter().filter(alike).count() as u32).max(1)
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Asked, asked, crowding};
-
-    #[test]
-    fn ranks_that_share_adapters_are_told() {
-        assert_eq!((crowding(4, 4), crowding(1, 2)), (None, None));
-        assert!(
-            crowding(2, 1)
-                .is_some_and(|told| told.starts_with("2 ranks share 1 adapter of") && told.ends_with("on it"))
-        );
-        assert!(crowding(8, 4).is_some_and(|told| told.starts_with("8 ranks share 4 adapters of")));
-    }
+    use super::{Asked, asked};
 
     #[test]
     fn ranks_are_a_number_or_one_for_each_axis() {

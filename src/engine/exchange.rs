@@ -57,6 +57,11 @@ pub(super) struct Exchange<'a> {
     summed: Option<wgpu::Buffer>,
     /// Particles for each peer that are read back before their number is known.
     guesses: Vec<u64>,
+    /// The same of exchanges with the other halo.
+    other_guesses: Vec<u64>,
+    /// Whether ranks are sent what they need for samples that look further.
+    is_wide: bool,
+    domains: Option<wgpu::Buffer>,
     /// Places of particles in use: the sorted ones and what has arrived.
     pub stored: u64,
     /// Particles that are the rank's own, where it knows of no others.
@@ -85,7 +90,10 @@ impl<'a> Exchange<'a> {
             outgoing: of(Array::Outgoing),
             outgoing_counts: of(Array::OutgoingCounts),
             summed,
+            other_guesses: guesses.clone(),
             guesses,
+            is_wide: false,
+            domains: buffers.get(&Array::Domains).cloned(),
             stored: 0,
             own: 0,
             crowded: None,
@@ -112,6 +120,16 @@ impl<'a> Exchange<'a> {
         }
     }
 
+    /// Whether the next exchanges bring what samples need that look further than forces reach.
+    pub(super) fn widen(&mut self, wide: bool) {
+        let (Some(wider), Some(buffer)) = (&self.part.wider, &self.domains) else { return };
+        if std::mem::replace(&mut self.is_wide, wide) != wide {
+            std::mem::swap(&mut self.guesses, &mut self.other_guesses);
+            let domains = if wide { &wider.domains } else { &self.part.domains };
+            self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(domains));
+        }
+    }
+
     /// Whether so many places are free that particles should be put in order.
     pub(super) fn has_gaps(&self) -> bool {
         FREE_SHARE * self.stored.saturating_sub(self.own) > self.own
@@ -132,9 +150,10 @@ impl<'a> Exchange<'a> {
         self.part.domains.get(1).is_some_and(Domain::is_whole)
     }
 
-    /// Of particles as they are stored those that the rank needs.
+    /// Of particles as they are stored those that the rank needs, whatever is sampled first.
     pub(super) fn needed(&self, particles: &[u32]) -> Vec<u32> {
-        let [_, needed, ..] = self.part.domains[..] else { return Vec::new() };
+        let domains = self.part.wider.as_ref().map_or(&self.part.domains, |wider| &wider.domains);
+        let [_, needed, ..] = domains[..] else { return Vec::new() };
         within(&needed, self.part.particle, particles)
     }
 
@@ -244,7 +263,7 @@ impl<'a> Exchange<'a> {
             stored += fits;
             self.own += fits;
             // Without a halo a particle is nobody else's.
-            self.traffic.copies += if self.part.halo > 0.0 { fits } else { 0 };
+            self.traffic.copies += if self.part.has_halo() { fits } else { 0 };
         }
         self.store_count(stored);
         self.traffic.exchanging += computed.elapsed();

@@ -6,6 +6,7 @@ mod exchange;
 mod pipeline;
 mod readback;
 mod recording;
+mod shown;
 mod stepper;
 mod texels;
 mod timing;
@@ -13,11 +14,14 @@ mod timing;
 pub use error::EngineError;
 pub use exchange::{Swap, Traffic};
 pub(crate) use readback::read as read_back;
+pub(crate) use shown::Sampling;
+pub use shown::Shown;
 pub use stepper::{RankReport, Stepper};
 pub use timing::{StageClock, StageTime};
 
 use std::collections::{HashMap, VecDeque};
 use std::mem::offset_of;
+use std::ops::Range;
 
 use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
@@ -294,13 +298,23 @@ impl<'a> Engine<'a> {
         })
     }
 
-    /// The same in order of the ids, with where particles were last if they are followed: what [`Self::upload_part`] takes.
-    pub(crate) fn pack_for_parts(&self, state: &State) -> Result<Vec<Vec<u32>>, EngineError> {
-        let mut contents = self.pack(state, &(0..state.len()).collect::<Vec<_>>())?;
+    /// The same of some particles, in order of their ids.
+    pub(crate) fn pack_some(&self, state: &State, ids: Range<u64>) -> Result<Vec<Vec<u32>>, EngineError> {
+        self.pack(state, &(ids.start as usize..ids.end as usize).collect::<Vec<_>>())
+    }
+
+    /// The same with where all particles were last if they are followed: what [`Self::upload_part`] takes.
+    pub(crate) fn pack_for_parts(&self, state: &State, ids: Range<u64>) -> Result<Vec<Vec<u32>>, EngineError> {
+        let mut contents = self.pack_some(state, ids)?;
         if self.plan.paths.are_followed() {
             contents.push(pack_paths(state)?);
         }
         Ok(contents)
+    }
+
+    /// Of particles as they are stored those that this rank has to know.
+    pub(crate) fn needed(&self, particles: &[u32]) -> Result<Vec<u32>, EngineError> {
+        Ok(self.part()?.needed(particles))
     }
 
     /// Leaves the other ranks, which learn of it where they wait for this one.
@@ -310,17 +324,16 @@ impl<'a> Engine<'a> {
         }
     }
 
-    /// Replaces the state of one of several ranks, as [`Self::upload`] does, by its own of all particles and those that it has to know,
-    /// which are given as they are stored; with the sums of the state, which only the first rank keeps.
+    /// Replaces the state of one of several ranks, as [`Self::upload`] does, by its own particles and those that it has to know,
+    /// which are given as they are stored; with the other arrays of the state, of whose sums only the first rank keeps any.
     ///
     /// # Errors
     /// [`EngineError::Crowded`] if they are more than the part can store.
-    pub fn upload_part(&mut self, step: u64, contents: &[Vec<u32>]) -> Result<(), EngineError> {
+    pub fn upload_part(&mut self, step: u64, particles: &[u32], others: &[Vec<u32>]) -> Result<(), EngineError> {
         let Some(exchange) = &mut self.exchange else {
             return Err(EngineError::State { reason: "the plan is of no part".to_owned() });
         };
-        let needed = exchange.needed(contents.first().map_or(&[], Vec::as_slice));
-        let bytes: &[u8] = bytemuck::cast_slice(&needed);
+        let bytes: &[u8] = bytemuck::cast_slice(particles);
         let buffer = &self.buffers[&Array::Particles];
         if bytes.len() as u64 > buffer.size() {
             return Err(EngineError::Crowded { step });
@@ -330,7 +343,7 @@ impl<'a> Engine<'a> {
         let first = exchange.is_first();
         let arrays = self.plan.layout.buffers().into_iter().skip(1);
         let followed = self.plan.paths.are_followed().then_some(Paths::BUFFER);
-        for (array, words) in arrays.chain(followed).zip(contents.iter().skip(1)) {
+        for (array, words) in arrays.chain(followed).zip(others) {
             let mut words = words.clone();
             match array {
                 _ if first || exchange.has_whole(array) => {}
@@ -339,7 +352,7 @@ impl<'a> Engine<'a> {
             }
             self.gpu.queue.write_buffer(&self.buffers[&array], 0, bytemuck::cast_slice(&words));
         }
-        exchange.begin(needed.len() as u64);
+        exchange.begin(particles.len() as u64);
         self.begin(step);
         Ok(())
     }
@@ -412,6 +425,7 @@ impl<'a> Engine<'a> {
             while done < now && self.room_for_samples() {
                 self.record_sample(&mut recording)?;
                 let reported = self.phase == Phase::Sorted { reported: true };
+                self.look_ahead(self.step + 1, false);
                 let kernels = if reported { &self.plan.finish_report } else { &self.plan.advance };
                 record(kernels, &self.stages, &mut self.exchange, self.step, &mut recording)?;
                 self.phase = Phase::Advanced;
@@ -681,10 +695,23 @@ impl<'a> Engine<'a> {
 
     fn record_report(&mut self, recording: &mut Recording<'_>) -> Result<(), EngineError> {
         if self.phase == (Phase::Sorted { reported: false }) {
+            self.look_ahead(self.step, true);
             record(&self.plan.report, &self.stages, &mut self.exchange, self.step, recording)?;
             self.phase = Phase::Sorted { reported: true };
         }
         Ok(())
+    }
+
+    /// Lets the exchange that is recorded next bring what samples of a step need that look further than forces reach: the one within the
+    /// report, where they are taken after it, or the one before the step.
+    fn look_ahead(&mut self, step: u64, in_report: bool) {
+        let Some(exchange) = &mut self.exchange else { return };
+        let due = |sampler: &usize| {
+            let sampler = self.plan.samplers.get(*sampler);
+            sampler.is_some_and(|sampler| sampler.needs_report == in_report && sampler.due(step))
+        };
+        let wider = self.plan.part.as_ref().and_then(|part| part.wider.as_ref());
+        exchange.widen(wider.is_some_and(|wider| wider.samplers.iter().any(due)));
     }
 
     fn room_for_samples(&self) -> bool {

@@ -1,6 +1,6 @@
 //! What advances a state step by step: an engine, or several that share a run.
 
-use super::{Engine, EngineError, Sample, Traffic};
+use super::{Engine, EngineError, Sample, Shown, Traffic};
 use crate::plan::Plan;
 use crate::shaders::Array;
 use crate::state::State;
@@ -12,6 +12,8 @@ pub struct RankReport {
     pub host: String,
     /// The adapter and its driver.
     pub adapter: String,
+    /// Adapters that the ranks on its machine get by turns.
+    pub adapters: u32,
     /// A checksum of what it computes from a state that all ranks know: ranks that round alike have the same.
     pub arithmetic: u32,
     /// What it has exchanged.
@@ -28,6 +30,11 @@ pub trait Stepper {
     fn take_samples(&mut self) -> Vec<Sample>;
     fn state(&mut self) -> Result<State, EngineError>;
     fn reported(&mut self) -> Result<State, EngineError>;
+
+    /// The particles of a report that a picture shows: about so many, if there are more.
+    fn shown(&mut self, most: u64) -> Result<Shown, EngineError> {
+        Ok(Shown::of(self.reported()?, most))
+    }
 
     /// Each rank, of several.
     fn ranks(&self) -> &[RankReport] {

@@ -146,6 +146,30 @@ fn share<K: PartialEq>(kinds: &[K], number: usize) -> Option<usize> {
     alike.get(number.checked_rem(alike.len())?).copied()
 }
 
+/// What makes adapters alike, in their order.
+fn kinds(adapters: &[wgpu::Adapter]) -> Vec<(u32, wgpu::Backend)> {
+    adapters.iter().map(wgpu::Adapter::get_info).map(|info| (rank(&info), info.backend)).collect()
+}
+
+/// Number of adapters that the ranks on this machine get by turns: those that are as good as the best, or the one that is chosen.
+///
+/// ```
+/// use mesoscope::gpu::{AdapterChoice, adapters_by_turns};
+///
+/// assert_eq!(adapters_by_turns(&AdapterChoice::Software), 1);
+/// assert!(adapters_by_turns(&AdapterChoice::Best) >= 1);
+/// ```
+#[must_use]
+pub fn adapters_by_turns(choice: &AdapterChoice) -> u32 {
+    match choice {
+        AdapterChoice::Best | AdapterChoice::Share(_) => {
+            let kinds = kinds(&adapters());
+            (kinds.iter().filter(|kind| Some(*kind) == kinds.first()).count() as u32).max(1)
+        }
+        AdapterChoice::Software | AdapterChoice::Named(_) => 1,
+    }
+}
+
 pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> {
     let adapters = adapters();
     if adapters.is_empty() {
@@ -154,11 +178,7 @@ pub(super) fn choose(choice: &AdapterChoice) -> Result<wgpu::Adapter, GpuError> 
     let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
     let position = match choice {
         AdapterChoice::Best => Some(0),
-        AdapterChoice::Share(number) => {
-            let kinds: Vec<_> =
-                adapters.iter().map(wgpu::Adapter::get_info).map(|info| (rank(&info), info.backend)).collect();
-            share(&kinds, *number)
-        }
+        AdapterChoice::Share(number) => share(&kinds(&adapters), *number),
         AdapterChoice::Software => {
             adapters.iter().position(|adapter| adapter.get_info().device_type == wgpu::DeviceType::Cpu)
         }

@@ -7,7 +7,7 @@ mod environment;
 mod error;
 mod shader;
 
-pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, list_adapters};
+pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, adapters_by_turns, list_adapters};
 pub use compiled::Rewriting;
 pub(crate) use device::compute_pass;
 pub use device::{Gpu, Requirements};

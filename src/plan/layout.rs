@@ -26,6 +26,24 @@ pub trait StateLayout: Compared + Debug + Send + Sync {
     /// What is wrong with the contents.
     fn unpack(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String>;
 
+    /// The same, of particles that several ranks share out, which [`Self::place`] puts in: the first of the contents is empty.
+    ///
+    /// # Errors
+    /// What is wrong with the contents.
+    fn begin(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
+        let _ = (step, contents, count);
+        Err("a state of this kind lies on one device".to_owned())
+    }
+
+    /// Puts some particles, as they are stored, into a state that was begun.
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    fn place(&self, particles: &[u32], places: &mut Places, state: &mut State) -> Result<(), String> {
+        let _ = (particles, places, state);
+        Err("a state of this kind lies on one device".to_owned())
+    }
+
     /// The arrays that a state of so many particles has, and how long they are; it has no others.
     fn arrays(&self, count: usize) -> Vec<(StateArray, Length)>;
 
@@ -133,10 +151,12 @@ impl PartialEq for Layout {
 }
 
 /// The places of particles that are read back, by their ids: each comes once.
-pub(crate) struct Places(Vec<bool>);
+#[derive(Debug)]
+pub struct Places(Vec<bool>);
 
 impl Places {
     /// Of so many particles.
+    #[must_use]
     pub fn of(count: usize) -> Self {
         Self(vec![false; count])
     }

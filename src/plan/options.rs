@@ -55,6 +55,8 @@ pub struct Options {
     pub pairs_in_dispatch: Option<u64>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
     pub many_level_scan: bool,
+    /// Particles of a message between ranks that passes on a state; a million if `None`.
+    pub particles_in_message: Option<u64>,
     /// The part of one of several ranks; all of the box if `None`.
     pub part: Option<Part>,
 }

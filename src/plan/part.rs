@@ -11,6 +11,9 @@ use std::ops::Range;
 /// Places of particles that have gone are closed when they are more than this part of those that are taken.
 pub(crate) const FREE_SHARE: u64 = 8;
 
+/// Particles of a message between ranks, which is therefore some 32 MB long.
+const PORTION: u64 = 1 << 20;
+
 /// Parts of the box on each axis, all alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Division {
@@ -227,10 +230,14 @@ pub struct PlannedPart {
     pub halo: f64,
     /// Width that it has for all but bonds, which may reach as far as they like: a part has to be wider.
     pub close: f64,
+    /// What is known besides at steps at which something looks further.
+    pub wider: Option<Wider>,
     /// Particles that it can store.
     pub slots: u64,
     /// Particles that it can send to a peer in a step.
     pub room: u64,
+    /// Particles of all ranks in a message that passes on a state: so many numbers after each other.
+    pub portion: u64,
     /// The kernel after which particles are exchanged, as an index into [`super::Plan::kernels`].
     pub exchange: usize,
     /// How a particle lies in its array.
@@ -243,6 +250,15 @@ pub struct PlannedPart {
     pub everywhere: Option<Array>,
     /// What is added over all ranks within a step.
     pub sum: Option<SharedSum>,
+}
+
+/// What ranks know of each other at some steps only: where samples of pairs look further than forces reach.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wider {
+    /// As [`PlannedPart::domains`], with a wider halo.
+    pub domains: Vec<Domain>,
+    /// The samplers that need it, as indices into [`super::Plan::samplers`].
+    pub samplers: Vec<usize>,
 }
 
 /// How a particle that passes from rank to rank lies in its array.
@@ -302,6 +318,18 @@ impl PlannedPart {
         4 * self.sum.as_ref().map_or(0, own) * self.others().len() as u64
     }
 
+    /// The numbers of the particles of each message that passes on a state.
+    pub(crate) fn portions(&self) -> impl Iterator<Item = Range<u64>> {
+        let (all, portion) = (self.shared, self.portion.max(1));
+        (0..all.div_ceil(portion).max(1)).map(move |place| place * portion..((place + 1) * portion).min(all))
+    }
+
+    /// Whether it knows particles of others, at some steps at least.
+    #[must_use]
+    pub fn has_halo(&self) -> bool {
+        self.halo > 0.0 || self.wider.is_some()
+    }
+
     /// All other ranks.
     #[must_use]
     pub fn others(&self) -> Vec<u32> {
@@ -325,6 +353,8 @@ pub(crate) struct Halo {
     pub width: f64,
     /// As far around the domain as bonds have to be complete, if there are any.
     pub bonded: Option<f64>,
+    /// For samples of pairs, at the steps at which they are taken.
+    pub sampled: f64,
 }
 
 impl Part {
@@ -332,13 +362,19 @@ impl Part {
     /// expected in one place.
     pub(crate) fn plan(self, units: &Units, halo: Halo, reach: f64, particles: u64, growth: u32) -> PlannedPart {
         let Self { division, rank } = self;
-        let Halo { close, width: halo, bonded } = halo;
+        let Halo { close, width: halo, bonded, sampled } = halo;
         let own = division.domain(rank);
-        let peers = division.peers(rank, units, halo + reach);
-        let needed = own.with_halo(units, halo);
-        let of_peers = peers.iter().map(|peer| division.domain(*peer).with_halo(units, halo));
+        let widest = halo.max(sampled);
+        let peers = division.peers(rank, units, widest + reach);
         let of_bonds = bonded.map(|bonded| own.with_halo(units, bonded));
+        let domains = |halo: f64| -> Vec<Domain> {
+            let needed = std::iter::once(&rank).chain(&peers).map(|rank| division.domain(*rank).with_halo(units, halo));
+            std::iter::once(own).chain(needed).chain(of_bonds).collect()
+        };
+        let wider = (sampled > halo).then(|| Wider { domains: domains(sampled), samplers: Vec::new() });
+        let domains = domains(halo);
         let expected = |share: f64| expected(share, particles, growth);
+        let needed = own.with_halo(units, widest);
         let ghosts = needed.share() - own.share();
         // Those of this step, and what arrives for the next before the copies are forgotten.
         let slots = expected(needed.share()) + expected(ghosts);
@@ -346,12 +382,14 @@ impl Part {
         let room = expected(ghosts.min(own.share()));
         PlannedPart {
             part: self,
-            domains: [own, needed].into_iter().chain(of_peers).chain(of_bonds).collect(),
+            domains,
             peers,
             halo,
             close,
+            wider,
             slots,
             room,
+            portion: PORTION,
             exchange: 0,
             particle: ParticleWords { count: PARTICLE_WORDS as usize, axes: 3, number: 3 },
             shared: particles,
@@ -375,9 +413,11 @@ impl Part {
             peers,
             halo: 0.0,
             close: 0.0,
+            wider: None,
             // Its own, as many free places as are left before they are closed, and what arrives in a step.
             slots: expected(own.share()) + expected(own.share()) / FREE_SHARE + room,
             room,
+            portion: PORTION,
             exchange: 0,
             particle,
             shared: particles,

@@ -7,16 +7,22 @@ use serde::{Deserialize, Serialize};
 /// What the first rank tells the others to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Command {
-    /// Begin at a step, with the particles that follow.
+    /// Take the particles that follow, and wait for more.
+    Take,
+    /// Begin at a step, with the particles that were taken and those that follow.
     Upload { step: u64 },
     /// Advance, in submissions of so many steps.
     Advance { steps: u64, batch: u64 },
     /// Take the samples of the step.
     Finish,
-    /// Give the particles to go on from.
+    /// Give the particles to go on from; of all those with the smallest numbers, and what else belongs to the state.
     State,
-    /// Give the particles of a report.
+    /// The same of a report.
     Report,
+    /// The same of a sample of them, of which this word tells.
+    Show { sample: u32 },
+    /// Give those with the next numbers.
+    Next,
     /// Nothing more is to be done.
     End,
 }
@@ -28,6 +34,8 @@ pub struct Introduction {
     pub host: String,
     /// The adapter and its driver.
     pub adapter: String,
+    /// Adapters that the ranks on its machine get by turns.
+    pub adapters: u32,
     /// A checksum of what it computes from a state that all ranks know: ranks that round alike have the same.
     pub arithmetic: u32,
 }

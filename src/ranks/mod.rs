@@ -16,7 +16,7 @@ pub mod threads;
 pub use member::{decline, serve};
 pub use message::Introduction;
 pub(crate) use team::remedy;
-pub use team::{Team, computes_alike};
+pub use team::{Team, computes_alike, sharing, sharing_anywhere};
 
 use crate::engine::Swap;
 use std::time::Duration;

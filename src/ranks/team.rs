@@ -1,13 +1,14 @@
 //! All ranks of a run, as the first of them sees them: one engine.
 
 use super::Channel;
-use super::member::execute;
+use super::member::{Portions, execute};
 use super::message::{Answer, Command, Contents, Introduction, Problem, join, read, written};
-use crate::engine::{Engine, EngineError, RankReport, Sample, Stepper, Traffic};
-use crate::plan::{PARTICLE_WORDS, Plan, Sampler};
+use crate::engine::{Engine, EngineError, RankReport, Sample, Sampling, Shown, Stepper, Traffic};
+use crate::plan::{PARTICLE_WORDS, Places, Plan, Sampler};
 use crate::shaders::Array;
 use crate::state::State;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::time::Duration;
 
 /// Words of a particle.
@@ -33,6 +34,47 @@ pub(crate) fn remedy(ranks: &[RankReport]) -> String {
     )
 }
 
+/// That so many ranks on a machine have to share its adapters, if they have.
+///
+/// ```
+/// use mesoscope::ranks::sharing;
+///
+/// assert_eq!(sharing(4, 4, "node7"), None);
+/// let told = sharing(2, 1, "node7");
+/// assert_eq!(told.as_deref(), Some("2 ranks share 1 adapter of node7: they take turns on it"));
+/// assert_eq!(sharing(8, 4, "this machine").as_deref(), Some("8 ranks share 4 adapters of this machine"));
+/// ```
+#[must_use]
+pub fn sharing(ranks: u32, adapters: u32, machine: &str) -> Option<String> {
+    let turns = if adapters == 1 { ": they take turns on it" } else { "" };
+    let those = if adapters == 1 { "adapter" } else { "adapters" };
+    (ranks > adapters).then(|| format!("{ranks} ranks share {adapters} {those} of {machine}{turns}"))
+}
+
+/// The same of each machine that ranks are on.
+///
+/// ```
+/// use mesoscope::engine::RankReport;
+/// use mesoscope::ranks::sharing_anywhere;
+///
+/// let ranks: Vec<RankReport> = [("a", 2), ("b", 1), ("a", 2), ("b", 1), ("c", 1), ("a", 2)]
+///     .map(|(host, adapters)| RankReport { host: host.to_owned(), adapters, ..RankReport::default() })
+///     .to_vec();
+/// let expected = ["3 ranks share 2 adapters of a", "2 ranks share 1 adapter of b: they take turns on it"];
+/// assert_eq!(sharing_anywhere(&ranks), expected);
+/// ```
+#[must_use]
+pub fn sharing_anywhere(ranks: &[RankReport]) -> Vec<String> {
+    let first_there =
+        |(place, rank): &(usize, &RankReport)| ranks[..*place].iter().all(|other| other.host != rank.host);
+    let machines = ranks.iter().enumerate().filter(first_there);
+    let told = |(_, machine): (usize, &RankReport)| {
+        let there = ranks.iter().filter(|rank| rank.host == machine.host).count();
+        sharing(there as u32, machine.adapters, &machine.host)
+    };
+    machines.filter_map(told).collect()
+}
+
 /// Several ranks that advance one state.
 pub struct Team<'a> {
     engine: Engine<'a>,
@@ -44,6 +86,8 @@ pub struct Team<'a> {
     species: Vec<u32>,
     /// The step whose particles have been gathered and measured.
     measured: Option<u64>,
+    /// Particles of the first rank that pass in several messages.
+    portions: Portions,
 }
 
 impl<'a> Team<'a> {
@@ -67,6 +111,7 @@ impl<'a> Team<'a> {
             ranks: vec![RankReport::default(); count],
             species: Vec::new(),
             measured: None,
+            portions: Portions::default(),
         };
         team.introduce(0, introduction);
         team.upload(state)?;
@@ -82,12 +127,57 @@ impl<'a> Team<'a> {
     /// # Errors
     /// [`EngineError`] if it does not fit, or of the first rank that has one.
     pub fn upload(&mut self, state: &State) -> Result<(), EngineError> {
-        let contents = self.engine.pack_for_parts(state)?;
         self.species.clone_from(&state.species);
         self.incomplete.clear();
         self.collected.clear();
         self.measured = None;
+        let mut portions: Vec<Range<u64>> = self.portions()?;
+        let last = portions.pop().map_or(0, |portion| portion.start);
+        for portion in portions {
+            let mut particles = self.engine.pack_some(state, portion)?;
+            particles.truncate(1);
+            self.tell(Command::Take, &particles)?;
+        }
+        let contents = self.engine.pack_for_parts(state, last..state.len() as u64)?;
         self.tell(Command::Upload { step: state.step }, &contents).map(|_| ())
+    }
+
+    /// Number of the particles that the ranks share out.
+    fn shared(&self) -> u64 {
+        self.engine.plan().part.as_ref().map_or(0, |part| part.shared)
+    }
+
+    /// The numbers of the particles of each message that passes on a state.
+    fn portions(&self) -> Result<Vec<Range<u64>>, EngineError> {
+        let none = || EngineError::State { reason: "the plan is of no part".to_owned() };
+        self.engine.plan().part.as_ref().map(|part| part.portions().collect()).ok_or_else(none)
+    }
+
+    /// Gathers so many particles of those that all ranks share out, in several messages; `begin` sees what else belongs to the state, before
+    /// `take` gets any.
+    fn gather<T>(
+        &mut self,
+        (command, count): (Command, u64),
+        begin: impl FnOnce(&Self, &Contents) -> Result<T, EngineError>,
+        mut take: impl FnMut(&mut T, &[u32]) -> Result<(), EngineError>,
+    ) -> Result<T, EngineError> {
+        let messages = self.portions()?.len();
+        let mut given = self.tell(command, &[])?;
+        let mut particles = given.first_mut().map(std::mem::take).unwrap_or_default();
+        let mut gathered = begin(self, &given)?;
+        let mut words = 0;
+        for message in 1..=messages {
+            words += particles.len() as u64;
+            take(&mut gathered, &particles)?;
+            if message < messages {
+                particles = self.tell(Command::Next, &[])?.into_iter().next().unwrap_or_default();
+            }
+        }
+        let part = self.engine.plan().part.as_ref();
+        if part.is_some_and(|part| count * part.particle.count as u64 == words) {
+            return Ok(gathered);
+        }
+        Err(EngineError::Ranks { reason: LOST.to_owned() })
     }
 
     /// What each rank has exchanged, in their order.
@@ -97,9 +187,9 @@ impl<'a> Team<'a> {
     }
 
     fn introduce(&mut self, rank: usize, introduction: Introduction) {
-        let Introduction { host, adapter, arithmetic } = introduction;
+        let Introduction { host, adapter, adapters, arithmetic } = introduction;
         if let Some(known) = self.ranks.get_mut(rank) {
-            *known = RankReport { host, adapter, arithmetic, traffic: known.traffic };
+            *known = RankReport { host, adapter, adapters, arithmetic, traffic: known.traffic };
         }
     }
 
@@ -107,7 +197,7 @@ impl<'a> Team<'a> {
     fn tell(&mut self, command: Command, contents: &[Vec<u32>]) -> Result<Contents, EngineError> {
         let lost = |reason| EngineError::Ranks { reason };
         self.channel.tell(&written(&command, contents).map_err(lost)?).map_err(lost)?;
-        let (own, mut given) = execute(&mut self.engine, command, contents);
+        let (own, mut given) = execute(&mut self.engine, &mut self.portions, command, contents);
         let mut problems: Vec<(u32, Problem)> = own.problem.clone().map(|problem| (0, problem)).into_iter().collect();
         if !problems.is_empty() {
             self.engine.leave();
@@ -136,13 +226,15 @@ impl<'a> Team<'a> {
         if !due || self.measured == Some(step) {
             return Ok(());
         }
-        let contents = self.tell(Command::Report, &[])?;
-        let mut gathered = vec![u32::MAX; WORDS * self.engine.plan().particles as usize];
-        for particle in contents.first().map_or(&[][..], Vec::as_slice).chunks_exact(WORDS) {
-            if let Some(place) = gathered.chunks_exact_mut(WORDS).nth(particle[3] as usize) {
-                place.copy_from_slice(particle);
+        let begin = |team: &Self, _: &Contents| Ok(vec![u32::MAX; WORDS * team.engine.plan().particles as usize]);
+        let gathered = self.gather((Command::Report, self.shared()), begin, |gathered, particles| {
+            for particle in particles.chunks_exact(WORDS) {
+                if let Some(place) = gathered.chunks_exact_mut(WORDS).nth(particle[3] as usize) {
+                    place.copy_from_slice(particle);
+                }
             }
-        }
+            Ok(())
+        })?;
         if (0..).zip(gathered.chunks_exact(WORDS)).any(|(id, particle): (u32, _)| particle[3] != id) {
             return Err(EngineError::Ranks { reason: LOST.to_owned() });
         }
@@ -187,30 +279,64 @@ impl<'a> Team<'a> {
     }
 
     /// A state of the particles of all ranks.
-    fn joined(&self, contents: &Contents, reported: bool) -> Result<State, EngineError> {
+    fn joined(&mut self, command: Command, reported: bool) -> Result<State, EngineError> {
         let plan = self.engine.plan();
-        let count = plan.particles as usize;
-        let problem = |reason: String| EngineError::Ranks { reason };
-        let shared = plan.part.as_ref().map_or(0, |part| part.shared * part.particle.count as u64);
         let layout = match &plan.reported {
-            Some((_, layout)) if reported => layout,
-            _ => &plan.layout,
+            Some((_, layout)) if reported => layout.clone(),
+            _ => plan.layout.clone(),
         };
-        if contents.first().map_or(0, Vec::len) as u64 != shared {
-            return Err(problem(LOST.to_owned()));
-        }
-        let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
-        let mut state = layout.unpack(self.engine.step(), &contents, count).map_err(problem)?;
-        if plan.paths.are_followed() {
-            let counted = contents.last().copied().unwrap_or_default();
-            // The high words are of the sign only.
-            let image = |words: &[u32]| [0, 2, 4].map(|axis| words[axis].cast_signed());
-            state.images = counted.chunks_exact(6).map(image).collect();
-        }
+        let problem = |reason: String| EngineError::Ranks { reason };
+        let begin = |team: &Self, contents: &Contents| {
+            let plan = team.engine.plan();
+            let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
+            let count = plan.particles as usize;
+            let mut state = layout.begin(team.engine.step(), &contents, count).map_err(problem)?;
+            if plan.paths.are_followed() {
+                let counted = contents.last().copied().unwrap_or_default();
+                // The high words are of the sign only.
+                let image = |words: &[u32]| [0, 2, 4].map(|axis| words[axis].cast_signed());
+                state.images = counted.chunks_exact(6).map(image).collect();
+            }
+            Ok((state, Places::of(count)))
+        };
+        let place = |(state, places): &mut (State, Places), particles: &[u32]| {
+            layout.place(particles, places, state).map_err(problem)
+        };
+        let (mut state, _) = self.gather((command, self.shared()), begin, place)?;
         if state.species.is_empty() {
             state.species.clone_from(&self.species);
         }
         Ok(state)
+    }
+
+    /// A sample of the particles of a report.
+    fn sample(&mut self, sampling: Sampling) -> Result<Shown, EngineError> {
+        let plan = self.engine.plan();
+        let numbers = sampling.numbers(plan.particles);
+        let layout = plan.reported.as_ref().map_or(&plan.layout, |(_, layout)| layout).clone();
+        let words = plan.part.as_ref().map(|part| part.particle);
+        let problem = |reason: String| EngineError::Ranks { reason };
+        let count = numbers.len();
+        let begin = |team: &Self, contents: &Contents| {
+            let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
+            let state = layout.begin(team.engine.step(), &contents, count).map_err(problem)?;
+            Ok((state, Places::of(count)))
+        };
+        let place = |(state, places): &mut (State, Places), particles: &[u32]| -> Result<(), EngineError> {
+            let Some(words) = words else { return Ok(()) };
+            let mut particles = particles.to_vec();
+            for particle in particles.chunks_exact_mut(words.count) {
+                let place = numbers.binary_search(&particle[words.number]);
+                particle[words.number] = place.map_err(|_| problem(LOST.to_owned()))? as u32;
+            }
+            layout.place(&particles, places, state).map_err(problem)
+        };
+        let (state, _) = self.gather((Command::Show { sample: sampling.word() }, count as u64), begin, place)?;
+        let State { step, positions, momenta, mut species, .. } = state;
+        if species.is_empty() {
+            species = numbers.iter().filter_map(|number| self.species.get(*number as usize).copied()).collect();
+        }
+        Ok(Shown { state: State { step, positions, momenta, species, ..State::default() }, numbers: Some(numbers) })
     }
 }
 
@@ -275,13 +401,18 @@ impl Stepper for Team<'_> {
     }
 
     fn state(&mut self) -> Result<State, EngineError> {
-        let contents = self.tell(Command::State, &[])?;
-        self.joined(&contents, false)
+        self.joined(Command::State, false)
+    }
+
+    fn shown(&mut self, most: u64) -> Result<Shown, EngineError> {
+        match Sampling::new(self.shared(), most) {
+            Some(sampling) if self.shared() == self.plan().particles => self.sample(sampling),
+            _ => Ok(Shown::of(self.reported()?, most)),
+        }
     }
 
     fn reported(&mut self) -> Result<State, EngineError> {
-        let contents = self.tell(Command::Report, &[])?;
-        let mut state = self.joined(&contents, true)?;
+        let mut state = self.joined(Command::Report, true)?;
         state.predicted.clear();
         Ok(state)
     }

@@ -178,7 +178,7 @@ pub struct Share {
     pub halo: f64,
     /// Its own particles, if they are spread evenly.
     pub own: f64,
-    /// Copies of particles of other ranks.
+    /// Copies of particles of other ranks, on average over steps.
     pub copies: f64,
     /// The ranks that it exchanges particles with.
     pub peers: usize,
@@ -236,9 +236,14 @@ impl Share {
 #[must_use]
 pub fn share_of(scene: &Scene, model: &Model, division: Division) -> Share {
     let (units, planned) = (&model.units, first_part(scene, model, division));
-    let Some(PlannedPart { halo, close, domains, peers, shared, .. }) = &planned else { return Share::default() };
-    let [own, needed] = [0, 1].map(|place| domains.get(place).map_or(0.0, Domain::share) * *shared as f64);
-    let copies = if *halo > 0.0 { needed - own } else { 0.0 };
+    let Some(part) = &planned else { return Share::default() };
+    let PlannedPart { halo, close, domains, wider, peers, shared, .. } = part;
+    let particles = |domain: Option<&Domain>| domain.map_or(0.0, Domain::share) * *shared as f64;
+    let (own, needed) = (particles(domains.first()), particles(domains.get(1)));
+    // Now and then more of them.
+    let sampled = wider.as_ref().map_or(0.0, |wider| particles(wider.domains.get(1)) - needed);
+    let every = scene.output.radial_distribution.as_ref().map_or(1, |asked| asked.every.max(1));
+    let copies = if part.has_halo() { needed - own + sampled / every as f64 } else { 0.0 };
     let summed = planned.as_ref().map_or(0, PlannedPart::summed_bytes);
     Share {
         lengths: std::array::from_fn(|axis| units.lengths[axis] / f64::from(division.parts[axis])),

@@ -5,13 +5,13 @@ use super::conservation::{conserved, not_conserved, warning_of_mixed_ranks};
 use super::energies::{self, EnergyRecorder};
 use super::kept_sums::{KeptSums, Sharing};
 use super::pace::Pace;
-use super::pictures::{Pictures, mesh_depth};
+use super::pictures::{Pictures, mesh_depth, most_shown};
 use super::schedule::Schedule;
 use super::sections::Sections;
 use super::tally::Carried;
 use super::task::Task;
 use super::{Event, Progress, RunError};
-use crate::engine::{EngineError, Sample, Stepper};
+use crate::engine::{EngineError, Sample, Shown, Stepper};
 use crate::families::{KeptQuantity, Model, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
@@ -19,6 +19,7 @@ use crate::output::summary::{AdapterSummary, RanksSummary};
 use crate::output::{Checkpoint, Extent, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files};
 use crate::ranks::{computes_alike, remedy};
 use crate::scene::Scene;
+use crate::state::State;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -122,12 +123,15 @@ impl<'a> Run<'a> {
     pub(super) fn advance_to_end(
         &mut self,
         engine: &mut dyn Stepper,
+        start: &mut Checkpoint,
         pace: &mut Pace,
         observer: &mut dyn FnMut(Event<'_>),
     ) -> Result<(), RunError> {
         let begun = pace.done();
         let first = engine.step();
         self.visit(engine, pace)?;
+        // What a run goes back to is on the disk from now on, and need not be in memory.
+        start.state = State::default();
         while engine.step() < self.scene.time.steps {
             let event = self.schedule.next(engine.step());
             pace.begin();
@@ -178,27 +182,31 @@ impl<'a> Run<'a> {
         self.energies.flush()?;
         let number = self.schedule.snapshot(step);
         let frame = self.schedule.frame(step);
-        if number.is_some() || frame || self.analyses.take_state(step) || last {
-            let state = engine.reported()?;
-            self.analyses.add_state(&state, self.model);
+        let taken = self.analyses.take_state(step);
+        if number.is_some() || frame || taken || last {
+            let most = most_shown(self.scene, self.model);
+            let all = if frame || taken { Shown::all(engine.reported()?) } else { engine.shown(most)? };
+            let state = &all.state;
+            self.analyses.add_state(state, self.model);
             if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
-                trajectory.append(&state)?;
+                trajectory.append(state)?;
                 trajectory.flush()?;
                 engine.keep_alive();
             }
             if self.model.picture() == PictureKind::Fields {
                 let depth = mesh_depth(engine, self.model)?;
                 for number in number.map(Some).into_iter().chain(last.then_some(None)) {
-                    self.pictures.fields(number, &state, &depth, self.model)?;
+                    self.pictures.fields(number, state, &depth, self.model)?;
                     engine.keep_alive();
                 }
-            } else {
+            } else if number.is_some() || last {
+                let shown = if all.numbers.is_some() { all } else { Shown::of(all.state, most) };
                 if let Some(number) = number {
-                    self.pictures.snapshot(&files::snapshot(number), &state, self.model)?;
+                    self.pictures.snapshot(&files::snapshot(number), &shown, self.model)?;
                     engine.keep_alive();
                 }
                 if last {
-                    self.pictures.snapshot(files::SNAPSHOT, &state, self.model)?;
+                    self.pictures.snapshot(files::SNAPSHOT, &shown, self.model)?;
                 }
             }
         }

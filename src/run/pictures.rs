@@ -4,7 +4,7 @@ use super::RunError;
 use super::adapter::{open_adapter, plan_for};
 use super::analyses::{self, mean};
 use super::colour_ranges::{self, ColourRanges};
-use crate::engine::{Engine, Stepper};
+use crate::engine::{Engine, Shown, Stepper};
 use crate::families::pictures::{CellValues, EnergyChart, MeshPictures, ValueScale};
 use crate::families::{Model, PictureKind};
 use crate::gpu::{AdapterChoice, Gpu};
@@ -16,6 +16,7 @@ use crate::plan::Options;
 use crate::plot::{
     Averages, CellPicture, Chart, ColorMap, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter,
     ShownValues, averages_note, energetic_cells_chart, energies_chart, mesh_energies_chart, missing_glyphs,
+    snapshot_size,
 };
 use crate::scene::{self, AnalysisId, AnalysisTable, Scene, Snapshot, SnapshotColor};
 use crate::shaders::Array;
@@ -60,13 +61,14 @@ pub fn redraw(
     }
     let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default().with_room(model.particle_count()));
     let mut engine = Engine::new(&gpu, plan, &checkpoint.state)?;
-    let state = engine.reported()?;
     if model.picture() == PictureKind::Fields {
+        let state = engine.reported()?;
         let depth = mesh_depth(&mut engine, &model)?;
         let names = pictures.fields(None, &state, &depth, &model)?;
         written.extend(files::all().filter(|name| names.iter().any(|written| written == name)));
     } else {
-        pictures.snapshot(files::SNAPSHOT, &state, &model)?;
+        let shown = engine.shown(most_shown(&scene, &model))?;
+        pictures.snapshot(files::SNAPSHOT, &shown, &model)?;
         if model.units.dimension > 1 {
             written.push(files::SNAPSHOT);
         }
@@ -78,6 +80,17 @@ pub fn redraw(
 pub(super) fn mesh_depth(engine: &mut dyn Stepper, model: &Model) -> Result<Vec<f64>, RunError> {
     let words = engine.words(Array::Depths)?;
     Ok(words.iter().take(model.physics().nodes() as usize).map(|word| 1.0 + f64::from(f32::from_bits(*word))).collect())
+}
+
+/// Particles that a picture shows; of more a sample. A particle covers a pixel and a half at least, so that it is as full as with all.
+pub(super) fn most_shown(scene: &Scene, model: &Model) -> u64 {
+    const LEAST: u64 = 1 << 22;
+    if model.picture() != PictureKind::Particles {
+        return u64::MAX;
+    }
+    let [width, height] =
+        snapshot_size(&scene.output.snapshot, model.units.dimension as u32, model.edges_with_layers());
+    LEAST.max((8.0 * width * height) as u64)
 }
 
 /// Draws into the directory of a run; pipelines are made with the first picture.
@@ -199,8 +212,8 @@ impl<'a> Pictures<'a> {
         Ok(true)
     }
 
-    pub(super) fn snapshot(&mut self, name: &str, state: &State, model: &Model) -> Result<(), RunError> {
-        let units = model.units;
+    pub(super) fn snapshot(&mut self, name: &str, shown: &Shown, model: &Model) -> Result<(), RunError> {
+        let (units, state) = (model.units, &shown.state);
         if model.picture() == PictureKind::Cells {
             return self.cells(name, state, model);
         }
@@ -222,7 +235,11 @@ impl<'a> Pictures<'a> {
         };
         let speeds: Option<Vec<f64>> = by_speed.then(|| state.momenta.iter().zip(&state.species).map(speed).collect());
         let names: Vec<String> = model.species.iter().map(|species| species.name.clone()).collect();
-        let subtitle = at_time(state, model);
+        let mut subtitle = at_time(state, model);
+        if shown.numbers.is_some() {
+            let [some, all] = [state.len() as u64, model.particle_count()].map(grouped);
+            subtitle = format!("{subtitle}; {some} of {all} particles");
+        }
         let asked = &self.scene.output.snapshot;
         let range = speeds.as_ref().map(|speeds| {
             let begin = || colour_ranges::of_speeds(speeds, model.temperature, lightest(model));
@@ -235,7 +252,9 @@ impl<'a> Pictures<'a> {
                     let [a, b] = ends.map(|end| state.positions[end as usize]);
                     model.particles().shear.is_some_and(|shear| crossings(a, b)[shear.gradient] != 0)
                 };
-                bonds.iter().map(|bond| bond.ends).filter(|ends| !across(*ends)).collect()
+                let place = |end: u32| shown.place(end).map(|place| place as u32);
+                let ends = bonds.iter().filter_map(|bond| Some([place(bond.ends[0])?, place(bond.ends[1])?]));
+                ends.filter(|ends| !across(*ends)).collect()
             }
             _ => Vec::new(),
         };

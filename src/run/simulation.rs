@@ -17,7 +17,7 @@ use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::{RankSummary, RanksSummary};
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
 use crate::plan::{Division, Hardware, Options, Part, Plan};
-use crate::ranks::{Processes, computes_alike};
+use crate::ranks::{Processes, computes_alike, sharing_anywhere};
 use crate::scene::{self, Scene, Warning};
 use std::path::PathBuf;
 
@@ -246,11 +246,15 @@ impl Simulation {
                 }
                 if !std::mem::replace(&mut begun, true) {
                     observer(Event::Started { adapter: gpu.description(), first_step, last_step });
+                    // Of ranks on this machine alone it is known before.
+                    for warning in processes.iter().flat_map(|_| sharing_anywhere(engine.ranks())) {
+                        observer(Event::Warned { warning: &warning });
+                    }
                     if !computes_alike(engine.ranks()) {
                         observer(Event::Warned { warning: &warning_of_mixed_ranks(&task.model) });
                     }
                 }
-                attempt(&task, &gpu, engine.as_mut(), &start, &mut pace, observer)
+                attempt(&task, &gpu, engine.as_mut(), &mut start, &mut pace, observer)
             });
             match ended {
                 Err(RunError::Engine(error)) => {
@@ -291,7 +295,7 @@ fn open<'a>(
     let (scene, mixed) = ((&task.scene, &task.model), task.mixed);
     Ok(match (options.part, processes) {
         (Some(Part { division, .. }), Some(processes)) => {
-            Box::new(team::team_of_processes(scene, gpu, (division, mixed), options, &start.state, processes)?)
+            Box::new(team::team_of_processes(scene, gpu, choice, (division, mixed), options, &start.state, processes)?)
         }
         (Some(Part { division, .. }), None) => {
             Box::new(team::team(scene, gpu, choice, (division, mixed), options, &start.state)?)
@@ -305,13 +309,13 @@ fn attempt(
     task: &Task,
     gpu: &Gpu,
     engine: &mut (dyn Stepper + '_),
-    start: &Checkpoint,
+    start: &mut Checkpoint,
     pace: &mut Pace,
     observer: &mut dyn FnMut(Event<'_>),
 ) -> Result<Outcome, RunError> {
     let mut run = Run::open(task, gpu, engine, start)?;
     run.notices = &task.notices;
-    match run.advance_to_end(engine, pace, observer) {
+    match run.advance_to_end(engine, start, pace, observer) {
         Err(RunError::Engine(source @ (EngineError::Unstable(_) | EngineError::GaveUp { .. }))) => {
             run.energies.flush()?;
             let (checkpoint, checkpoint_step) = (task.directory.file(files::CHECKPOINT), run.saved_step);
@@ -340,7 +344,7 @@ fn attempt(
 /// The ranks that have shared a run, if there are several.
 fn ranks(engine: &dyn Stepper) -> Option<RanksSummary> {
     let part = engine.plan().part.as_ref()?;
-    let of_rank = |RankReport { host, adapter, arithmetic, traffic }: &RankReport| {
+    let of_rank = |RankReport { host, adapter, arithmetic, traffic, .. }: &RankReport| {
         let steps = traffic.exchanges.max(1) as f64;
         RankSummary {
             host: host.clone(),

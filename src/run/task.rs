@@ -25,7 +25,7 @@ impl Task {
     /// The last checkpoint on disk; the start itself if nothing was saved since.
     pub(super) fn last_checkpoint(&self, start: Checkpoint) -> Result<Checkpoint, RunError> {
         let path = self.directory.file(files::CHECKPOINT);
-        if path.exists() { Ok(checkpoint::load(&path)?) } else { Ok(start) }
+        if path.exists() || start.state.positions.is_empty() { Ok(checkpoint::load(&path)?) } else { Ok(start) }
     }
 
     /// Stops if the run is asked to, with a checkpoint of this step on disk.

@@ -5,7 +5,7 @@ use super::adapter::{open_adapter, plan_for};
 use super::division::fits;
 use crate::engine::{Engine, EngineError, Swap};
 use crate::families::{Model, initial_state};
-use crate::gpu::{AdapterChoice, Gpu};
+use crate::gpu::{AdapterChoice, Gpu, adapters_by_turns};
 use crate::plan::{Division, Options, Part, Plan};
 use crate::ranks::{Channel, Introduction, Processes, Team, decline, serve, threads};
 use crate::scene::{self, Scene};
@@ -67,7 +67,7 @@ pub fn team<'a>(
     }
     first.channel.keep(threads);
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, part(0)), Box::new(first.peers))?;
-    Ok(Team::new(engine, introduction(gpu, scene)?, Box::new(first.channel), state, mixed)?)
+    Ok(Team::new(engine, introduction(gpu, scene, choice)?, Box::new(first.channel), state, mixed)?)
 }
 
 /// Refuses parts that are too thin for what their ranks have to know of each other.
@@ -91,7 +91,7 @@ fn take_part<'a>(
         Err(error) => return decline(channel, error.to_string()),
     };
     match Engine::of_part(&gpu, plan, peers) {
-        Ok(mut engine) => match introduction(&gpu, scene) {
+        Ok(mut engine) => match introduction(&gpu, scene, choice) {
             Ok(introduction) => serve(&mut engine, introduction, channel),
             Err(error) => decline(channel, error.to_string()),
         },
@@ -115,7 +115,7 @@ fn small_scene(scene: &Scene) -> Result<Scene, RunError> {
 }
 
 /// This rank, with what its adapter makes of a small scene.
-fn introduction(gpu: &Gpu, scene: &Scene) -> Result<Introduction, RunError> {
+fn introduction(gpu: &Gpu, scene: &Scene, choice: &AdapterChoice) -> Result<Introduction, RunError> {
     let small = small_scene(scene)?;
     let model = Model::new(&small);
     let state = initial_state(&small, &model);
@@ -129,7 +129,7 @@ fn introduction(gpu: &Gpu, scene: &Scene) -> Result<Introduction, RunError> {
     let host = std::fs::read_to_string("/proc/sys/kernel/hostname").map(|name| name.trim().to_owned());
     let host = host.or_else(|_| std::env::var("COMPUTERNAME")).unwrap_or_else(|_| "this machine".to_owned());
     let adapter = format!("{} ({})", adapter.name, adapter.driver);
-    Ok(Introduction { host, adapter, arithmetic: checksum.finalize() })
+    Ok(Introduction { host, adapter, adapters: adapters_by_turns(choice), arithmetic: checksum.finalize() })
 }
 
 /// What the first process tells the others before they become ranks.
@@ -164,6 +164,7 @@ fn call(processes: &dyn Processes, call: &Call) -> Result<(), RunError> {
 pub(super) fn team_of_processes<'a>(
     (scene, model): (&Scene, &Model),
     gpu: &'a Gpu,
+    choice: &AdapterChoice,
     (division, mixed): (Division, bool),
     options: Options,
     state: &State,
@@ -175,7 +176,7 @@ pub(super) fn team_of_processes<'a>(
     call(processes, &Call::Share { version, scene: scene_told, division: division.parts, repeated, lengthened })?;
     let options = Options { part: Some(Part { division, rank: 0 }), ..options };
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, options), processes.peers())?;
-    Ok(Team::new(engine, introduction(gpu, scene)?, processes.channel(), state, mixed)?)
+    Ok(Team::new(engine, introduction(gpu, scene, choice)?, processes.channel(), state, mixed)?)
 }
 
 /// Lets all other processes end.

@@ -1,7 +1,6 @@
 //! Several ranks: the same bytes as one.
 
-use mesoscope::engine::Stepper as _;
-use mesoscope::gpu::Requirements;
+use mesoscope::engine::{Shown, Stepper as _};
 use mesoscope::plan::{Division, Options};
 use mesoscope::ranks::Team;
 use mesoscope::run;
@@ -61,7 +60,8 @@ pub fn team(scene: &Scene, division: Division, options: Options, state: &State) 
 
 fn divided(scene: &Scene, parts: [u32; 3], batch: u64) -> Bytes {
     let (_, state) = start(scene);
-    let mut team = team(scene, Division { parts }, Options::default(), &state);
+    let options = Options { particles_in_message: (batch == 1).then_some(100), ..Options::default() };
+    let mut team = team(scene, Division { parts }, options, &state);
     team.advance(STEPS, batch).unwrap();
     assert!(team.traffic().iter().all(|traffic| traffic.exchanges >= STEPS && traffic.copies > 0));
     harvest(team, Vec::new())
@@ -70,16 +70,18 @@ fn divided(scene: &Scene, parts: [u32; 3], batch: u64) -> Bytes {
 /// Whether the adapter of the tests takes the plan of a scene: with walls or shear, plans for any GPU need more buffers.
 pub fn fits(scene: &Scene) -> bool {
     let plan = run::plan(&start(scene).0, 0, &scene.output, hardware(), Options::default());
-    plan.storage_buffers <= Requirements::default().storage_buffers
+    plan.storage_buffers <= gpu().device().limits().max_storage_buffers_per_shader_stage
 }
 
 #[test]
 fn any_number_of_ranks_gives_the_bytes_of_one() {
+    let mut compared = 0;
     for (changes, divisions) in cases() {
         let scene = scene(&changes);
         if !fits(&scene) {
             continue;
         }
+        compared += 1;
         let alone = bytes::run(&scene, Options::default(), STEPS, 8);
         let followed = changes.contains(&FOLLOWED);
         assert_eq!(followed, alone.state.images.iter().flatten().filter(|image| **image != 0).count() > 9);
@@ -88,6 +90,8 @@ fn any_number_of_ranks_gives_the_bytes_of_one() {
             assert!(same(&alone, &divided(&scene, parts, batch)), "{changes:?} in {parts:?}");
         }
     }
+    // Those without walls and shear at least.
+    assert!(compared >= 10, "{compared} scenes");
 }
 
 /// That what was saved by ranks of one division goes on with the bytes of one rank, by ranks of another and alone.
@@ -128,6 +132,56 @@ fn pairs_are_counted_once() {
         let alone = bytes::run(&scene, Options::default(), STEPS, 8);
         assert!(alone.samples.iter().any(|sample| sample.sampler == 1 && sample.sums.iter().sum::<i64>() > 1000));
         assert!(same(&alone, &divided(&scene, [1, 1, 3], 8)), "{integrator}");
+    }
+}
+
+/// Ranks tell each other of what lies within the range of distances only where these are counted, and however far beyond the next part it
+/// is.
+#[test]
+fn ranks_know_more_at_the_steps_at_which_distances_are_counted() {
+    let shared = |scene: &Scene| {
+        let (_, state) = start(scene);
+        let mut team = team(scene, Division { parts: [1, 1, 6] }, Options::default(), &state);
+        team.advance(STEPS, 8).unwrap();
+        let sent = team.traffic().iter().map(|traffic| traffic.bytes).sum::<u64>();
+        (sent as f64, harvest(team, Vec::new()))
+    };
+    // Exchanges with a halo of one cutoff or two and with one of the range, 3.5: one a step of the first integrator; of the second also one
+    // in each report, of which energies ask for one every three steps.
+    for (integrator, rarely, always) in
+        [(GROOT_WARREN, 27.0 + 3.0 * 3.5, 30.0 * 3.5), (SPLITTING, 39.0 * 2.0 + 3.0 * 3.5, 30.0 * 2.0 + 30.0 * 3.5)]
+    {
+        let counting = |every: u64| {
+            let radial = format!(r#"output.radial_distribution={{"every":{every},"range":3.5,"bins":35}}"#);
+            scene(&[integrator, "space.box=[7,7,20]", &radial])
+        };
+        let (sent, found) = shared(&counting(10));
+        assert!(same(&bytes::run(&counting(10), Options::default(), STEPS, 8), &found), "{integrator}");
+        // Some 1 800 h copies in all, of positions that are random at first: 2.4 % in a single exchange.
+        let ratio = sent / shared(&counting(1)).0;
+        assert!((ratio / (rarely / always) - 1.0).abs() < 0.05, "{integrator}: {ratio}");
+    }
+}
+
+/// A picture of a sample shows the same particles on any number of ranks, in whatever messages they pass.
+#[test]
+fn any_number_of_ranks_shows_the_same_sample() {
+    for integrator in [GROOT_WARREN, SPLITTING] {
+        let scene = scene(&[integrator, "space.box=[5,5,16]", MIXTURE, MIXTURE_FORCE]);
+        let (_, state) = start(&scene);
+        let mut alone = crate::support::engine(&scene, &state, Options::default());
+        alone.advance(STEPS, 8).unwrap();
+        let shown = alone.shown(300).unwrap();
+        let species = |kind: u32| shown.state.species.iter().filter(|species| **species == kind).count();
+        // 300 of 1 200, one in three of the second kind, within five standard deviations.
+        assert!(shown.state.len().abs_diff(300) < 75 && species(1).abs_diff(100) < 45, "{}", shown.state.len());
+        for (parts, particles_in_message) in [([1, 1, 2], None), ([1, 1, 3], Some(100))] {
+            let options = Options { particles_in_message, ..Options::default() };
+            let mut team = team(&scene, Division { parts }, options, &state);
+            team.advance(STEPS, 8).unwrap();
+            assert!(team.shown(300).unwrap() == shown, "{integrator} in {parts:?}");
+            assert_eq!(team.shown(1200).unwrap(), Shown::all(alone.reported().unwrap()));
+        }
     }
 }
 

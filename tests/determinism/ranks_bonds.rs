@@ -82,7 +82,8 @@ fn cases() -> Vec<(Scene, Vec<[u32; 3]>)> {
 /// What ranks give, with bonds that are expected to be longer as long as some are too long.
 fn divided(scene: &Scene, parts: [u32; 3], batch: u64) -> (Bytes, u32) {
     let (_, state) = start(scene);
-    let mut options = Options::default();
+    // States pass in several messages.
+    let mut options = Options { particles_in_message: Some(100), ..Options::default() };
     loop {
         let attempt = || -> Result<Bytes, EngineError> {
             let mut team = team(scene, Division { parts }, options, &state);

@@ -5,10 +5,11 @@ use std::path::PathBuf;
 use std::thread;
 
 use mesoscope::engine::{Engine, EngineError, Stepper as _, Swap};
+use mesoscope::gpu::adapters_by_turns;
 use mesoscope::output::{Summary, files};
 use mesoscope::plan::{Division, Options, Part};
 use mesoscope::ranks::threads::{self, Links, Peers, Threads};
-use mesoscope::ranks::{Channel, Introduction, Processes, Team, computes_alike, serve};
+use mesoscope::ranks::{Channel, Introduction, Processes, Team, computes_alike, serve, sharing};
 use mesoscope::run::{self, Event, Outcome, RunError, Simulation};
 use mesoscope::scene::Scene;
 use tempfile::TempDir;
@@ -121,6 +122,11 @@ fn unlike(answer: &str) -> String {
     format!("{before}\"arithmetic\":7{}", &after[digits..])
 }
 
+/// Says the same, and that it is on another machine with another number of adapters.
+fn elsewhere(answer: &str) -> String {
+    unlike(answer).replacen("\"host\":\"", "\"host\":\"not-", 1).replacen("\"adapters\":", "\"adapters\":1", 1)
+}
+
 fn newer(call: &str) -> String {
     call.replacen(concat!("\"version\":\"", env!("CARGO_PKG_VERSION")), "\"version\":\"99", 1)
 }
@@ -132,7 +138,11 @@ fn with_results() -> (TempDir, PathBuf) {
     let (ended, warnings) = share(Simulation::start(scene(), &directory, false), [same, same]);
     let summary = ended.unwrap().summary;
     let shared = summary.ranks.unwrap();
-    assert!(shared.alike && warnings.is_empty());
+    let host = &shared.ranks[0].host;
+    assert!(
+        shared.alike && warnings == Vec::from_iter(sharing(2, adapters_by_turns(&adapter()), host)),
+        "{warnings:?}"
+    );
     assert!(!summary.warnings.iter().any(|warning| warning.contains("ranks")), "{:?}", summary.warnings);
     assert!(shared.slowest_over_mean >= 1.0 && shared.slowest_over_mean <= 2.0, "{shared:?}");
     for rank in &shared.ranks {
@@ -191,7 +201,8 @@ fn mixed_ranks_are_told_of_and_claim_nothing() {
     let place = tempfile::tempdir().unwrap();
     let directory = place.path().join("out");
     let simulation = Simulation::start(scene(), &directory, false).mixed(true);
-    let (ended, warnings) = share(simulation, [stiffer, unlike]);
+    // Of adapters nothing is told: each rank has a machine to itself.
+    let (ended, warnings) = share(simulation, [stiffer, elsewhere]);
     let summary = ended.unwrap().summary;
     assert!(matches!(&warnings[..], [warning] if warning.contains("conserved to rounding only")), "{warnings:?}");
     assert!(!summary.ranks.as_ref().unwrap().alike);
@@ -224,7 +235,8 @@ fn team(arithmetic: u32, mixed: bool, panics: bool) -> Result<Team<'static>, Eng
         let plan = run::plan(&start(&scene).0, 0, &scene.output, hardware(), options);
         Engine::of_part(gpu(), plan, Box::new(peers)).unwrap()
     };
-    let introduction = |arithmetic| Introduction { host: "here".to_owned(), adapter: "some".to_owned(), arithmetic };
+    let introduction =
+        |arithmetic| Introduction { host: "here".to_owned(), adapter: "some".to_owned(), adapters: 1, arithmetic };
     let mut links = threads::links(2).into_iter();
     let (first, second) = (links.next().unwrap(), links.next().unwrap());
     let first_engine = engine(0, first.peers);

@@ -67,6 +67,9 @@ impl PairHistogram<'_> {
             kernels.push(count);
         }
         kernels.push(plan.add_kernel(record_histogram(bins).renamed(vec![(Array::Samples, Array::HistogramSamples)])));
+        if let Some(wider) = plan.part.as_mut().and_then(|part| part.wider.as_mut()) {
+            wider.samplers.push(plan.samplers.len());
+        }
         plan.add_buffer(Array::Histogram, 8 * bins);
         plan.add_buffer(Array::HistogramSamples, 8 * (1 + CAPACITY * (1 + bins)));
         plan.samplers.push(Sampler {

@@ -1,7 +1,7 @@
 //! How particles lie in buffers whose couplings add their impulses up.
 
 use super::{ListLayout, ParticleLayout, WORDS};
-use crate::plan::{Length, Misfit, StateLayout, content};
+use crate::plan::{Length, Misfit, Places, StateLayout, content};
 use crate::shaders::Array;
 use crate::state::{Hold, State, StateArray};
 
@@ -32,6 +32,11 @@ impl CoupledLayout {
     /// Whether pairs remember.
     fn pairs_remember(&self) -> bool {
         self.list.is_some_and(|list| list.memory)
+    }
+
+    /// Contents of what particles alone do not have.
+    fn rest<'a>(&self, contents: &[&'a [u32]]) -> impl Iterator<Item = &'a [u32]> {
+        contents.iter().copied().skip(self.particles.buffer_count())
     }
 }
 
@@ -80,7 +85,7 @@ impl StateLayout for CoupledLayout {
         let mut state = self.particles.unpack(step, contents, count)?;
         let particles = content(contents, 0).chunks_exact(WORDS);
         let numbers: Vec<u32> = particles.take(count).map(|particle| particle[3]).collect();
-        let mut rest = contents.iter().copied().skip(self.particles.buffer_count());
+        let mut rest = self.rest(contents);
         let mut next = || rest.next().unwrap_or_default();
         if let Some(list) = self.list {
             let (anchors, neighbours) = (next(), next());
@@ -104,9 +109,22 @@ impl StateLayout for CoupledLayout {
             state.holds = holds.map(|words| bytemuck::pod_read_unaligned(bytemuck::cast_slice(words))).collect();
         }
         if self.tethers {
-            state.tethers = next().chunks_exact(4).take(count).map(|r| [r[0], r[1], r[2]]).collect();
+            state.tethers = ends_of_tethers(next(), count);
         }
         Ok(state)
+    }
+
+    // Nothing else that is remembered is shared out.
+    fn begin(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
+        let mut state = self.particles.begin(step, contents, count)?;
+        if self.tethers {
+            state.tethers = ends_of_tethers(self.rest(contents).next().unwrap_or_default(), count);
+        }
+        Ok(state)
+    }
+
+    fn place(&self, particles: &[u32], places: &mut Places, state: &mut State) -> Result<(), String> {
+        self.particles.place(particles, places, state)
     }
 
     fn arrays(&self, count: usize) -> Vec<(StateArray, Length)> {
@@ -135,6 +153,10 @@ impl StateLayout for CoupledLayout {
             state.pair_baths.iter().any(|pair| pair.first >= pair.second || !exists(pair.second) || pair.spared > 1);
         (wrong || !in_order).then(|| "its pairs are not those of its particles".to_owned())
     }
+}
+
+fn ends_of_tethers(words: &[u32], count: usize) -> Vec<[u32; 3]> {
+    words.chunks_exact(4).take(count).map(|r| [r[0], r[1], r[2]]).collect()
 }
 
 /// Words of something that every particle has, in order of their numbers.

@@ -100,6 +100,13 @@ impl StateLayout for ParticleLayout {
     }
 
     fn unpack(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
+        let mut state = self.begin(step, contents, count)?;
+        let particles = content(contents, 0);
+        self.place(&particles[..particles.len().min(WORDS * count)], &mut Places::of(count), &mut state)?;
+        Ok(state)
+    }
+
+    fn begin(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
         let mut state = State {
             step,
             positions: vec![[0; 3]; count],
@@ -108,8 +115,18 @@ impl StateLayout for ParticleLayout {
             predicted: vec![[0; 3]; if self.predicted { count } else { 0 }],
             ..State::default()
         };
-        let mut places = Places::of(count);
-        for particle in content(contents, 0).chunks_exact(WORDS).take(count) {
+        if self.account > 0 {
+            state.account = vec![total_account(content(contents, 1))];
+        }
+        if self.walls > 0 {
+            let words = content(contents, 1 + usize::from(self.account > 0));
+            state.set_words(StateArray::Walls, words.get(..StateArray::Walls.width() * self.walls).unwrap_or(words))?;
+        }
+        Ok(state)
+    }
+
+    fn place(&self, particles: &[u32], places: &mut Places, state: &mut State) -> Result<(), String> {
+        for particle in particles.chunks_exact(WORDS) {
             let id = places.take(particle[3])?;
             state.positions[id] = [particle[0], particle[1], if self.dimension == 3 { particle[2] } else { 0 }];
             state.momenta[id] = [particle[4] as i32, particle[5] as i32, particle[6] as i32];
@@ -119,14 +136,7 @@ impl StateLayout for ParticleLayout {
                 state.predicted[id] = prediction::shifted(state.momenta[id], shift);
             }
         }
-        if self.account > 0 {
-            state.account = vec![total_account(content(contents, 1))];
-        }
-        if self.walls > 0 {
-            let words = content(contents, 1 + usize::from(self.account > 0));
-            state.set_words(StateArray::Walls, words.get(..StateArray::Walls.width() * self.walls).unwrap_or(words))?;
-        }
-        Ok(state)
+        Ok(())
     }
 
     fn arrays(&self, count: usize) -> Vec<(StateArray, Length)> {

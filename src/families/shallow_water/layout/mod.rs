@@ -31,6 +31,37 @@ pub struct WaterLayout {
     pub bins: Option<Bins>,
 }
 
+impl WaterLayout {
+    /// Keeps what baths remember on the nodes, in the arrays from one on.
+    fn keep_nodes(&self, contents: &[&[u32]], first: usize, state: &mut State) {
+        if self.bath_nodes > 0 {
+            state.node_masses = content(contents, first).iter().copied().take(self.bath_nodes).collect();
+            state.node_bath = content(contents, first + 1).iter().copied().take(self.bath_nodes).collect();
+        }
+    }
+}
+
+/// A state of so many particles that are not there yet.
+fn empty(step: u64, count: usize) -> State {
+    let (positions, momenta) = (vec![[0; 3]; count], vec![[0; 3]; count]);
+    State { step, positions, momenta, masses: vec![0; count], ..State::default() }
+}
+
+/// Puts particles, as they are stored, into a state.
+fn put<'a>(
+    particles: impl IntoIterator<Item = &'a [u32]>,
+    places: &mut Places,
+    state: &mut State,
+) -> Result<(), String> {
+    for particle in particles {
+        let id = places.take(particle[5])?;
+        state.positions[id] = [particle[0], particle[1], 0];
+        state.momenta[id] = [particle[2] as i32, particle[3] as i32, 0];
+        state.masses[id] = particle[4];
+    }
+    Ok(())
+}
+
 impl StateLayout for WaterLayout {
     fn buffers(&self) -> Vec<Array> {
         let mut names = match (self.bins.is_some(), self.texels) {
@@ -89,15 +120,9 @@ impl StateLayout for WaterLayout {
         Ok(contents)
     }
 
-    fn unpack(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
-        let mut state = State {
-            step,
-            positions: vec![[0; 3]; count],
-            momenta: vec![[0; 3]; count],
-            masses: vec![0; count],
-            ..State::default()
-        };
-        let contents = |index: usize| content(contents, index);
+    fn unpack(&self, step: u64, all: &[&[u32]], count: usize) -> Result<State, String> {
+        let mut state = empty(step, count);
+        let contents = |index: usize| content(all, index);
         let joined = if self.texels { together(contents(0), contents(1)) } else { Vec::new() };
         let (water, water_arrays) = if self.texels { (joined.as_slice(), 2) } else { (contents(0), 1) };
         let arrays = water_arrays + if self.bins.is_some() { 2 } else { 0 };
@@ -111,19 +136,24 @@ impl StateLayout for WaterLayout {
         if particles.len() != count {
             return Err(format!("{} of {count} particles came back", particles.len()));
         }
-        let mut places = Places::of(count);
-        for particle in particles {
-            let id = places.take(particle[5])?;
-            state.positions[id] = [particle[0], particle[1], 0];
-            state.momenta[id] = [particle[2] as i32, particle[3] as i32, 0];
-            state.masses[id] = particle[4];
-        }
-        if self.bath_nodes > 0 {
-            let first = arrays + usize::from(self.tracers > 0);
-            state.node_masses = contents(first).iter().copied().take(self.bath_nodes).collect();
-            state.node_bath = contents(first + 1).iter().copied().take(self.bath_nodes).collect();
-        }
+        put(particles, &mut Places::of(count), &mut state)?;
+        self.keep_nodes(all, arrays + usize::from(self.tracers > 0), &mut state);
         Ok(state)
+    }
+
+    fn begin(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
+        if self.texels || self.bins.is_some() {
+            return Err("water that several ranks share out lies in one array".to_owned());
+        }
+        let mut state = empty(step, count);
+        let drifting = if self.tracers > 0 { content(contents, 1) } else { &[] };
+        put(drifting.chunks_exact(WATER).take(self.tracers), &mut Places::of(count), &mut state)?;
+        self.keep_nodes(contents, 1 + usize::from(self.tracers > 0), &mut state);
+        Ok(state)
+    }
+
+    fn place(&self, particles: &[u32], places: &mut Places, state: &mut State) -> Result<(), String> {
+        put(particles.chunks_exact(WATER), places, state)
     }
 
     fn arrays(&self, count: usize) -> Vec<(StateArray, Length)> {

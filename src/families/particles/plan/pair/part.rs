@@ -13,7 +13,8 @@ const LONGEST: f64 = 1e30;
 impl Builder<'_> {
     /// How far around a domain particles have to be known for those within it to be advanced: a cutoff for each pass over pairs that
     /// depends on the one before, and the length of a bond for each round of friction along bonds; then once more a cutoff, or as far as bonds
-    /// and angles reach. Where distances are counted their range; and where particles are followed as far as one goes in a step.
+    /// and angles reach. Where particles are followed as far as one goes in a step; and where distances are counted their range, at
+    /// the steps at which they are.
     fn halo(&self) -> Halo {
         let densities = u32::from(self.force.many_body.is_some());
         let relaxations = match (self.splits() && self.relaxes_pairs(), self.relaxes_in_two_stages()) {
@@ -24,13 +25,14 @@ impl Builder<'_> {
         let relaxed = f64::from(relaxations) * self.force.cutoff;
         let pairs = f64::from(u32::from(self.traversal != Traversal::Alone) + densities) * self.force.cutoff;
         let followed = if self.measured.follows { self.model.physics().reach(self.model) } else { 0.0 };
-        let close = (relaxed + pairs).max(self.measured.range).max(followed);
+        let close = (relaxed + pairs).max(followed);
+        let sampled = self.measured.range;
         if !self.is_bonded() {
-            return Halo { close, width: close, bonded: None };
+            return Halo { close, width: close, bonded: None, sampled };
         }
         let bonded = relaxed + f64::from(bonded::rounds(self.model)) * self.bond_reach();
         let links = f64::from(bonded::links(self.model)) * self.bond_reach();
-        Halo { close, width: close.max(bonded + pairs.max(links)), bonded: Some(bonded) }
+        Halo { close, width: close.max(bonded + pairs.max(links)), bonded: Some(bonded), sampled }
     }
 
     /// How long bonds may become before the run goes back for a wider halo.
@@ -45,6 +47,7 @@ impl Builder<'_> {
         let mut planned = part.plan(&self.model.units, halo, reach, self.particles, self.options.list_growth);
         // No step changes where tethers end.
         planned.whole.extend(self.model.particles().tether.is_some().then_some(Array::Tethers));
+        planned.portion = self.options.particles_in_message.unwrap_or(planned.portion);
         self.slots = planned.slots;
         self.plan.part = Some(planned);
     }
