@@ -27,7 +27,7 @@ pub(crate) use kernel::{deviate, folded, words};
 pub use layout::{Layout, Length, Misfit, StateLayout};
 pub(crate) use layout::{Places, content};
 pub use options::{Hardware, Options, Storage, Traversal};
-pub use part::{Division, Domain, Part, ParticleWords, PlannedPart, Rows, SharedSum, Stretch};
+pub use part::{Cells, Division, Domain, Part, ParticleWords, Passage, PlannedPart, Rows, SharedSum, Stretch};
 pub(crate) use part::{FREE_SHARE, Halo};
 pub use paths::Paths;
 pub(crate) use physics::{Measured, Need, Ordered, PhysicsPlan, Reported};
