@@ -68,7 +68,11 @@ pub const ARRAYS: &[Array] = &[
         "the part of the box of this rank, the same with its halo, those of its peers, and that of its bonds",
     ),
     table("stored_number", "u32", "particles stored: its own, and copies of those of other ranks"),
-    array("owned_slots", "array<u32>", "whether a particle is this rank's own in the step, by slot"),
+    array(
+        "owned_slots",
+        "array<u32>",
+        "whether a particle is this rank's own in the step, and in an inner cell, by slot",
+    ),
     array("outgoing", "array<Particle>", "particles that other ranks need, a stretch a peer"),
     array("outgoing_counts", "array<u32>", "their number for each peer, then the number of sorted particles"),
     // Pairs.

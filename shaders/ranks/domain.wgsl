@@ -17,6 +17,8 @@ const OF_PEERS: u32 = 2u;
 fn bonded_domain() -> u32 { return OF_PEERS + PEERS; }
 // The number of a particle that is forgotten.
 const NOBODY: u32 = 0xffffffffu;
+// The mark of a particle in an inner cell.
+const INNER: u32 = 2u;
 // The slot of a particle that is not known.
 const NOWHERE: u32 = 0xffffffffu;
 
@@ -25,6 +27,12 @@ fn lies_in(domain: u32, position: vec4<u32>) -> bool {
     return all(((position - domains[domain].low) < width) | (width == vec4<u32>(0u)));
 }
 
+// Slot ranks/inner: whether particles that no other rank has to know of are told apart, by the mark of a sorted particle. The plan of pairs
+// chooses `marked` where the device goes on with these while the others are on their way.
+// Default: they are not.
+fn mark_of(row: u32, index: u32, own: bool) -> u32 { return select(0u, 1u, own); }
+fn is_inner(slot: u32) -> bool { return false; }
+
 // Ends a step or half of a drift: sends on what other ranks need, forgets what this one does not need, and empties the cells, in which
 // particles are counted again once those of others have arrived. One invocation a stored particle or a cell; reads `owned_slots` and
 // `domains`, updates `particles`, `outgoing_counts` and `counts`, writes `outgoing`; where there are bonds, updates `slots`.
@@ -32,7 +40,7 @@ fn lies_in(domain: u32, position: vec4<u32>) -> bool {
 fn send_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (slot < CELLS) { counts[slot] = 0u; }
-    if (slot >= sorted_count()) { return; }
+    if (slot >= sorted_count() || is_inner(slot)) { return; }
     let particle = stored_particle(slot);
     if (owned_slots[slot] != 0u) {
         for (var peer = 0u; peer < PEERS; peer++) {

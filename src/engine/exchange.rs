@@ -1,6 +1,6 @@
 //! What passes from rank to rank where several share a run: particles at the end of a step, and integers that all add to within it.
 
-use super::readback::read_after;
+use super::readback::Reading;
 use super::{EngineError, recording::Recording};
 use crate::gpu::Gpu;
 use crate::plan::paths::PATH_WORDS;
@@ -38,9 +38,9 @@ pub struct Traffic {
     pub copies: u64,
     /// Time spent waiting for peers.
     pub waiting: Duration,
-    /// Time in which the device computed, with the copies from it that follow in the same submission.
+    /// Time in which the host waited for the device and the copies from it.
     pub computing: Duration,
-    /// Time of the exchanges but for that: waiting, and what the host does before and after.
+    /// Time of the exchanges but for that: waiting for peers, and what the host does before and after. The device may compute meanwhile.
     pub exchanging: Duration,
 }
 
@@ -66,6 +66,8 @@ pub(super) struct Exchange<'a> {
     pub stored: u64,
     /// Particles that are the rank's own, where it knows of no others.
     own: u64,
+    /// What is on its way to the host, and since when.
+    outgoing_read: Option<(Reading, Instant)>,
     /// The step at which a part turned out too small for what arrived.
     pub crowded: Option<u64>,
     pub traffic: Traffic,
@@ -96,6 +98,7 @@ impl<'a> Exchange<'a> {
             domains: buffers.get(&Array::Domains).cloned(),
             stored: 0,
             own: 0,
+            outgoing_read: None,
             crowded: None,
             traffic: Traffic::default(),
         }
@@ -111,8 +114,13 @@ impl<'a> Exchange<'a> {
         recording: &mut Recording<'_>,
         step: u64,
     ) -> Result<(), EngineError> {
-        if kernel == self.part.exchange {
-            self.pass_on(recording, step)?;
+        if self.part.passages.iter().any(|passage| passage.after == kernel) {
+            self.send(recording)?;
+        }
+        if self.part.passages.iter().any(|passage| passage.until == kernel) {
+            // The device goes on with what is recorded since.
+            recording.submit();
+            self.take_up(step)?;
         }
         match (self.part.sum.clone(), self.summed.clone()) {
             (Some(sum), Some(buffer)) if kernel == sum.after => self.add_up(recording, &sum, &buffer),
@@ -200,6 +208,7 @@ impl<'a> Exchange<'a> {
         let stored = words / self.part.particle.count as u64;
         self.store_count(stored);
         self.own = stored;
+        self.outgoing_read = None;
         self.crowded = None;
         let none = vec![0_u8; 4 * (self.part.peers.len() + 1)];
         self.gpu.queue.write_buffer(&self.outgoing_counts, 0, &none);
@@ -210,18 +219,20 @@ impl<'a> Exchange<'a> {
         self.gpu.queue.write_buffer(&self.stored_count, 0, bytemuck::bytes_of(&(stored as u32)));
     }
 
-    /// Runs what is recorded, and exchanges the particles that it leaves at the end of a step.
-    ///
-    /// # Errors
-    /// [`EngineError`] if the device or a peer fails. Too many particles are no error yet: the other ranks wait for the rest of the batch.
-    fn pass_on(&mut self, recording: &mut Recording<'_>, step: u64) -> Result<(), EngineError> {
+    /// Bytes of the numbers of outgoing and of sorted particles.
+    fn head(&self) -> u64 {
+        4 * (self.part.peers.len() as u64 + 1)
+    }
+
+    /// Runs what is recorded, and begins to read the particles that other ranks need.
+    fn send(&mut self, recording: &mut Recording<'_>) -> Result<(), EngineError> {
         let particle = 4 * self.part.particle.count as u64;
         let stretch = particle * self.part.room;
-        let head = 4 * (self.part.peers.len() as u64 + 1);
+        let head = self.head();
         let (outgoing, counts) = (&self.outgoing, &self.outgoing_counts);
         let guessed = head + particle * self.guesses.iter().sum::<u64>();
         let submitted = Instant::now();
-        let read = read_after(self.gpu, recording.take(), guessed, |encoder, staging| {
+        let reading = Reading::begin(self.gpu, recording.take(), guessed, |encoder, staging| {
             encoder.copy_buffer_to_buffer(counts, 0, staging, 0, head);
             let mut at = head;
             for (peer, guess) in self.guesses.iter().enumerate().filter(|(_, guess)| **guess > 0) {
@@ -230,6 +241,19 @@ impl<'a> Exchange<'a> {
             }
             encoder.clear_buffer(counts, 0, Some(head - 4));
         })?;
+        self.outgoing_read = Some((reading, submitted));
+        Ok(())
+    }
+
+    /// Gives the other ranks what was read, and stores what they give.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device or a peer fails. Too many particles are no error yet: the other ranks wait for the rest of the batch.
+    fn take_up(&mut self, step: u64) -> Result<(), EngineError> {
+        let Some((reading, submitted)) = self.outgoing_read.take() else { return Ok(()) };
+        let particle = 4 * self.part.particle.count as u64;
+        let head = self.head();
+        let read = reading.finish(self.gpu)?;
         self.traffic.computing += submitted.elapsed();
         let computed = Instant::now();
         let head_words: Vec<u32> = bytemuck::pod_collect_to_vec(&read[..head as usize]);
@@ -283,13 +307,14 @@ impl<'a> Exchange<'a> {
         let stretch_of = |rank: usize| sum.stretches.get(rank).copied().unwrap_or(none);
         let own = stretch_of(rank);
         let submitted = Instant::now();
-        let read = read_after(self.gpu, recording.take(), 4 * own.count, |encoder, staging| {
+        let read = Reading::begin(self.gpu, recording.take(), 4 * own.count, |encoder, staging| {
             let mut at = 0;
             for piece in sum.pieces(own).into_iter().filter(|piece| piece.count > 0) {
                 encoder.copy_buffer_to_buffer(buffer, 4 * piece.first, staging, at, 4 * piece.count);
                 at += 4 * piece.count;
             }
         })?;
+        let read = read.finish(self.gpu)?;
         self.traffic.computing += submitted.elapsed();
         let computed = Instant::now();
         let others = self.part.others();
@@ -330,7 +355,7 @@ impl<'a> Exchange<'a> {
         }
         let stretch = particle * self.part.room;
         let encoder = self.gpu.encoder("exchange");
-        let read = read_after(self.gpu, encoder, particle * all, |encoder, staging| {
+        let read = Reading::begin(self.gpu, encoder, particle * all, |encoder, staging| {
             let mut at = 0;
             for (peer, rest) in rests.iter().enumerate().filter(|(_, rest)| **rest > 0) {
                 let from = stretch * peer as u64 + particle * self.guesses[peer];
@@ -338,6 +363,7 @@ impl<'a> Exchange<'a> {
                 at += particle * rest;
             }
         })?;
+        let read = read.finish(self.gpu)?;
         let mut at = 0;
         for (parcel, rest) in parcels.iter_mut().zip(&rests) {
             let bytes = (particle * rest) as usize;

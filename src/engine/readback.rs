@@ -110,29 +110,43 @@ pub(crate) fn read(
     size: u64,
     copy: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer),
 ) -> Result<Vec<u8>, GpuError> {
-    read_after(gpu, gpu.encoder("readback"), size, copy)
+    Reading::begin(gpu, gpu.encoder("readback"), size, copy)?.finish(gpu)
 }
 
-/// The same after what is recorded already.
-pub(super) fn read_after(
-    gpu: &Gpu,
-    mut encoder: wgpu::CommandEncoder,
-    size: u64,
-    copy: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer),
-) -> Result<Vec<u8>, GpuError> {
-    let staging = gpu.scoped("creating a readback buffer", size, || {
-        gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("readback"),
-            size,
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        })
-    })?;
-    copy(&mut encoder, &staging);
-    let (sender, arrival) = mpsc::channel();
-    encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {
-        let _ = sender.send(result);
-    });
-    let submission = gpu.queue.submit([encoder.finish()]);
-    arrived(gpu, &staging, Some(submission), &arrival)
+/// Bytes on their way to the host.
+pub(super) struct Reading {
+    staging: wgpu::Buffer,
+    submission: wgpu::SubmissionIndex,
+    arrival: mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
+}
+
+impl Reading {
+    /// Submits what is recorded, and after it the copy of as many bytes as `copy` copies into a buffer.
+    pub(super) fn begin(
+        gpu: &Gpu,
+        mut encoder: wgpu::CommandEncoder,
+        size: u64,
+        copy: impl FnOnce(&mut wgpu::CommandEncoder, &wgpu::Buffer),
+    ) -> Result<Self, GpuError> {
+        let staging = gpu.scoped("creating a readback buffer", size, || {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("readback"),
+                size,
+                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        })?;
+        copy(&mut encoder, &staging);
+        let (sender, arrival) = mpsc::channel();
+        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {
+            let _ = sender.send(result);
+        });
+        let submission = gpu.queue.submit([encoder.finish()]);
+        Ok(Self { staging, submission, arrival })
+    }
+
+    /// Waits for them, and for nothing that was submitted later.
+    pub(super) fn finish(self, gpu: &Gpu) -> Result<Vec<u8>, GpuError> {
+        arrived(gpu, &self.staging, Some(self.submission), &self.arrival)
+    }
 }

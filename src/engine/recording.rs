@@ -22,6 +22,13 @@ impl<'a> Recording<'a> {
         let pass = self.pass.get_or_insert_with(|| compute_pass(encoder, label).forget_lifetime());
         stage.dispatch(pass);
         if stage.takes_long {
+            self.submit();
+        }
+    }
+
+    /// Submits the kernels that have not been submitted, if there are any.
+    pub(super) fn submit(&mut self) {
+        if self.pass.is_some() {
             let full = self.take();
             self.gpu.queue.submit([full.finish()]);
         }

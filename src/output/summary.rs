@@ -174,10 +174,11 @@ pub struct RankSummary {
     pub copies: f64,
     /// Bytes that it sent at the end of a step, on average.
     pub bytes_per_step: f64,
-    /// Seconds a step that its device computed, on average, with the copies from it to the host.
+    /// Seconds a step that it waited for its device, on average, and for the copies from it to the host.
     #[serde(default)]
     pub seconds_computing: f64,
-    /// Seconds a step that the exchange took but for these copies, on average: waiting, and what the host did before and after.
+    /// Seconds a step that the exchange took but for these copies, on average: waiting for other ranks, and what the host did before and
+    /// after. The device may have computed meanwhile.
     #[serde(default)]
     pub seconds_exchanging: f64,
     /// Seconds a step that it waited for other ranks, on average.

@@ -44,6 +44,31 @@ pub struct Rows {
 /// Bounds have to be beyond the cutoff as single precision finds it.
 const MARGIN: f64 = 1.0 + 1e-5;
 
+/// A distance along an axis of a length, rounded up, in fractions of 2⁻³².
+fn fraction(distance: f64, length: f64) -> u64 {
+    (distance * MARGIN / length * 2_f64.powi(32)).ceil() as u64 + 1
+}
+
+/// Neighbouring cells of a grid; after the last cell of an axis comes the first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Cells {
+    /// The first of them on each axis.
+    pub first: [u32; 3],
+    /// How many there are on each axis.
+    pub count: [u32; 3],
+}
+
+impl Cells {
+    /// Their part of a grid of so many cells.
+    #[must_use]
+    pub fn share(&self, of: [u32; 3]) -> f64 {
+        (0..3).map(|axis| f64::from(self.count[axis]) / f64::from(of[axis])).product()
+    }
+}
+
+/// Kernels find the cell of a position in single precision, and not of its last bits: fractions that a cell may begin earlier or later.
+const ROUNDING: i64 = 1024;
+
 impl Division {
     /// Number of ranks.
     #[must_use]
@@ -176,12 +201,68 @@ impl Domain {
             if self.width[axis] == 0 {
                 continue;
             }
-            let halo = (distance * MARGIN / units.lengths[axis] * 2_f64.powi(32)).ceil() as u64 + 1;
+            let halo = fraction(distance, units.lengths[axis]);
             let width = u64::from(self.width[axis]) + 2 * halo;
             self.low[axis] = self.low[axis].wrapping_sub(halo as u32);
             self.width[axis] = u32::try_from(width).unwrap_or(0);
         }
         self
+    }
+
+    /// The same without what is nearer than a distance to its faces, if anything is left. It must not go round the box.
+    #[must_use]
+    pub fn without_edge(mut self, units: &Units, distance: f64) -> Option<Self> {
+        for axis in 0..3 {
+            if self.width[axis] == 0 {
+                continue;
+            }
+            let edge = fraction(distance, units.lengths[axis]);
+            let left = u64::from(self.width[axis]).checked_sub(2 * edge).filter(|left| *left > 0)?;
+            (self.low[axis], self.width[axis]) = (self.low[axis].wrapping_add(edge as u32), left as u32);
+        }
+        Some(self)
+    }
+
+    /// The cells of a grid that lie in it whole, if there are any. It must not go round the box.
+    ///
+    /// ```
+    /// use mesoscope::plan::Division;
+    ///
+    /// // The upper half of seven layers. A cell that ends where it does may be taken for more by rounding.
+    /// let upper = Division { parts: [1, 1, 2] }.domain(1);
+    /// let cells = upper.cells_within([3, 3, 7]).map(|cells| (cells.first, cells.count));
+    /// assert_eq!(cells, Some(([0, 0, 4], [3, 3, 2])));
+    /// // And, from the fourth on, all that it may touch: the last of them is the first of the box.
+    /// let cells = upper.cells_around([3, 3, 7]);
+    /// assert_eq!((cells.first, cells.count), ([0, 0, 3], [3, 3, 5]));
+    /// ```
+    #[must_use]
+    pub fn cells_within(&self, cells: [u32; 3]) -> Option<Cells> {
+        let mut within = Cells { first: [0; 3], count: cells };
+        for axis in (0..3).filter(|&axis| self.width[axis] > 0) {
+            let (low, count) = (i64::from(self.low[axis]), i64::from(cells[axis]));
+            let first = ((low + ROUNDING) * count + (1 << 32) - 1) >> 32;
+            let end = ((low + i64::from(self.width[axis]) - ROUNDING) * count) >> 32;
+            let inside = u32::try_from(end - first).ok().filter(|inside| *inside > 0)?;
+            (within.first[axis], within.count[axis]) = (first as u32, inside);
+        }
+        Some(within)
+    }
+
+    /// The cells of a grid that hold anything of it.
+    #[must_use]
+    pub fn cells_around(&self, cells: [u32; 3]) -> Cells {
+        let mut around = Cells { first: [0; 3], count: cells };
+        for axis in (0..3).filter(|&axis| self.width[axis] > 0) {
+            let (low, count) = (i64::from(self.low[axis]), i64::from(cells[axis]));
+            let first = ((low - ROUNDING) * count) >> 32;
+            let last = ((low + i64::from(self.width[axis]) + ROUNDING) * count) >> 32;
+            if last - first + 1 < count {
+                around.first[axis] = first.rem_euclid(count) as u32;
+                around.count[axis] = (last - first + 1) as u32;
+            }
+        }
+        around
     }
 
     /// Whether it is the whole box.
@@ -238,8 +319,10 @@ pub struct PlannedPart {
     pub room: u64,
     /// Particles of all ranks in a message that passes on a state: so many numbers after each other.
     pub portion: u64,
-    /// The kernel after which particles are exchanged, as an index into [`super::Plan::kernels`].
-    pub exchange: usize,
+    /// When particles are exchanged.
+    pub passages: Vec<Passage>,
+    /// The part of a step's arithmetic that the device does while they are under way: an estimate.
+    pub overlapped: f64,
     /// How a particle lies in its array.
     pub particle: ParticleWords,
     /// Particles that are shared out; those after them all ranks have.
@@ -259,6 +342,18 @@ pub struct Wider {
     pub domains: Vec<Domain>,
     /// The samplers that need it, as indices into [`super::Plan::samplers`].
     pub samplers: Vec<usize>,
+}
+
+/// When particles pass from rank to rank: kernels, as indices into [`super::Plan::kernels`].
+///
+/// What is between the two the device computes while particles are under way. It neither reads nor writes any of those
+/// that are sent or arrive.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Passage {
+    /// The kernel after which they are sent.
+    pub after: usize,
+    /// The kernel after which those of others are stored; the same if nothing is computed meanwhile.
+    pub until: usize,
 }
 
 /// How a particle that passes from rank to rank lies in its array.
@@ -390,7 +485,8 @@ impl Part {
             slots,
             room,
             portion: PORTION,
-            exchange: 0,
+            passages: Vec::new(),
+            overlapped: 0.0,
             particle: ParticleWords { count: PARTICLE_WORDS as usize, axes: 3, number: 3 },
             shared: particles,
             whole: Vec::new(),
@@ -418,7 +514,8 @@ impl Part {
             slots: expected(own.share()) + expected(own.share()) / FREE_SHARE + room,
             room,
             portion: PORTION,
-            exchange: 0,
+            passages: Vec::new(),
+            overlapped: 0.0,
             particle,
             shared: particles,
             whole: Vec::new(),
@@ -538,5 +635,107 @@ mod tests {
         assert!(!Division { parts: [1, 1, 4] }.suits(&UNITS, close, reach));
         assert!(!Division { parts: [1, 1, 2] }.suits(&UNITS, 2.0, reach));
         assert_eq!(Division::most_parts(&UNITS, close, reach, 2), 3);
+    }
+
+    /// The cell of a fraction on an axis, as shaders/grid/dimension finds it.
+    fn cell_along(fraction: u32, number: u32) -> u32 {
+        (((fraction >> 8) as f32 * (number as f32 / 16_777_216.0)) as u32).min(number - 1)
+    }
+
+    /// A domain that ends at the faces of cells, which single precision does not find to the last bit.
+    #[test]
+    fn cells_lie_within_a_domain_and_around_it_however_they_are_rounded() {
+        for number in [3_u32, 7, 29, 700, 1024] {
+            let face = |cell: u32| ((u64::from(cell) << 32).div_ceil(number.into())) as u32;
+            for cell in 0..number {
+                let domain = Domain {
+                    low: [0, 0, face(cell), 0],
+                    width: [0, 0, face((cell + 2) % number).wrapping_sub(face(cell)), 0],
+                };
+                let cells = [1, 1, number];
+                let place = |z: u32, block: &Cells| (cell_along(z, number) + number - block.first[2]) % number;
+                let (within, around) = (domain.cells_within(cells), domain.cells_around(cells));
+                for end in [domain.low[2], domain.low[2].wrapping_add(domain.width[2])] {
+                    for z in (0..600).map(|off: u32| end.wrapping_add(off).wrapping_sub(300)) {
+                        let inside = domain.contains([0, 0, z]);
+                        assert!(
+                            !inside || place(z, &around) < around.count[2],
+                            "{z} in two of {number} cells from {cell}"
+                        );
+                        let found =
+                            cell + 2 <= number && within.is_some_and(|within| place(z, &within) < within.count[2]);
+                        assert!(!found || inside, "{z} in two of {number} cells from {cell}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Nobody leaves inner cells for where another rank has to know of it, and all that a rank knows is in the cells around it.
+    #[test]
+    fn inner_cells_are_nobody_elses_and_cells_around_hold_all() {
+        let (halo, reach) = (1.0, 1.0);
+        let mut random = StdRng::seed_from_u64(8);
+        let units = Units { lengths: [16.0, 22.0, 30.0], ..UNITS };
+        let mut inside = 0;
+        for (parts, cells) in [
+            ([1, 1, 2], [16, 22, 30]),
+            ([1, 3, 2], [13, 17, 29]),
+            ([2, 2, 3], [11, 22, 27]),
+            ([1, 2, 1], [1, 1024, 1]),
+            ([2, 1, 1], [700, 3, 1]),
+        ] {
+            let division = Division { parts };
+            for rank in 0..division.ranks() {
+                let own = division.domain(rank);
+                let needed = own.with_halo(&units, halo);
+                let around = needed.cells_around(cells);
+                let inner = own.without_edge(&units, halo + reach).unwrap().cells_within(cells).unwrap();
+                // A part less two widths on both sides, and at most two cells that are cut.
+                for axis in (0..3).filter(|axis| parts[*axis] > 1) {
+                    let left = units.lengths[axis] / f64::from(parts[axis]) - 4.0;
+                    assert!(f64::from(inner.count[axis]) > left / units.lengths[axis] * f64::from(cells[axis]) - 2.001);
+                }
+                let peers = division.peers(rank, &units, halo + reach).into_iter();
+                let theirs: Vec<Domain> = peers.map(|peer| division.domain(peer).with_halo(&units, halo)).collect();
+                // At the faces of all cells, and everywhere.
+                let faces = (0..3).flat_map(|axis| (0..cells[axis]).map(move |cell| (axis, cell)));
+                let at_faces: Vec<[u32; 3]> = faces
+                    .flat_map(|(axis, cell)| [-300_i64, -1, 0, 1, 300].map(|off| (axis, cell, off)))
+                    .map(|(axis, cell, off)| {
+                        let mut position: [u32; 3] = random.random();
+                        let face = (u64::from(cell) << 32).div_ceil(cells[axis].into()) as u32;
+                        position[axis] = face.wrapping_add(off as u32);
+                        position
+                    })
+                    .collect();
+                for position in positions(&division).into_iter().chain(at_faces) {
+                    let cell: [u32; 3] = std::array::from_fn(|axis| cell_along(position[axis], cells[axis]));
+                    let among = |block: &Cells| {
+                        let place = |axis: usize| (cell[axis] + cells[axis] - block.first[axis]) % cells[axis];
+                        (0..3).all(|axis| place(axis) < block.count[axis])
+                    };
+                    assert!(among(&around) || !needed.contains(position), "{position:?} of {rank} in {parts:?}");
+                    if !among(&inner) {
+                        continue;
+                    }
+                    inside += 1;
+                    assert!(among(&around) && own.contains(position));
+                    for _ in 0..8 {
+                        let moved: [u32; 3] = std::array::from_fn(|axis| {
+                            let way = [-1.0, 1.0, random.random_range(-1.0..1.0)][random.random_range(0..3)];
+                            let fraction = reach * way / units.lengths[axis] * 2_f64.powi(32);
+                            position[axis].wrapping_add(fraction as i64 as u32)
+                        });
+                        assert!(own.contains(moved), "{position:?} to {moved:?} of {rank} in {parts:?}");
+                        let known = theirs.iter().any(|domain| domain.contains(moved));
+                        assert!(!known, "{position:?} to {moved:?} of {rank} in {parts:?}");
+                    }
+                }
+            }
+        }
+        assert!(inside > 1000, "{inside}");
+        // Nothing is left of parts that are no wider than their edges.
+        assert_eq!(Division { parts: [1, 1, 8] }.domain(3).without_edge(&units, halo + reach), None);
     }
 }

@@ -124,14 +124,15 @@ pub(super) fn fits(model: &Model, part: &PlannedPart) -> bool {
 }
 
 /// What the first rank of a division has.
-fn first_part(scene: &Scene, model: &Model, division: Division) -> Option<PlannedPart> {
+fn first_part(scene: &Scene, model: &Model, division: Division, hardware: Hardware) -> Option<PlannedPart> {
     let options = Options { part: Some(Part { division, rank: 0 }), ..Options::default() };
-    plan(model, scene.time.equilibration, &scene.output, Hardware::default(), options).part
+    plan(model, scene.time.equilibration, &scene.output, hardware, options).part
 }
 
 /// How far around its part a rank knows the particles, and how far it would without bonds.
 fn halo(scene: &Scene, model: &Model) -> (f64, f64) {
-    first_part(scene, model, Division { parts: [1; 3] }).map_or((0.0, 0.0), |part| (part.halo, part.close))
+    let alone = Division { parts: [1; 3] };
+    first_part(scene, model, alone, Hardware::default()).map_or((0.0, 0.0), |part| (part.halo, part.close))
 }
 
 /// What of a scene several ranks cannot share.
@@ -188,6 +189,8 @@ pub struct Share {
     pub nodes: Option<[u64; 2]>,
     /// The part of the arithmetic of a step that every rank does for itself, as if it were alone.
     pub undivided: f64,
+    /// The part of the arithmetic of a step that goes on during an exchange.
+    pub overlapped: f64,
     /// How often it waits for other ranks in a step.
     pub exchanges: u32,
     /// The most ranks that fit.
@@ -200,42 +203,54 @@ const FIXED: f64 = 150e-6;
 const TO_HOST: f64 = 22e9;
 const BETWEEN_HOSTS: f64 = 12.5e9;
 
+/// Of the time that the arithmetic of a step is thought to take, what passes over pairs do; the rest sorts particles and comes before or after.
+const PASSES: f64 = 0.8;
+
 impl Share {
-    /// How many times as fast as one rank so many are, if that takes so many seconds a step: with an adapter each, PCI Express 4, a
-    /// network of 100 Gb/s, and exchanges that do not overlap with anything.
+    /// How many times as fast as one rank so many are, if that takes so many seconds a step: with an adapter each, PCI Express 4 and a
+    /// network of 100 Gb/s. Copies to hosts and from them overlap with nothing.
     ///
     /// ```
     /// use mesoscope::run::Share;
     ///
     /// // A million particles of a rank, in a cube with a halo of one cutoff, at a billion particle-steps/s.
     /// let share = Share { own: 1e6, copies: 8.9e4, bytes: 2.8e6, exchanges: 1, ..Share::default() };
-    /// let efficiency = share.speed_up(8, 8e-3) / 8.0;
-    /// assert!((efficiency - 0.58).abs() < 0.01, "{efficiency}");
+    /// let efficiency = |share: Share| share.speed_up(8, 8e-3) / 8.0;
+    /// assert!((efficiency(share) - 0.58).abs() < 0.01, "{}", efficiency(share));
+    /// // If its device computes in the meantime, only the copies are left of the exchange.
+    /// let overlapping = Share { overlapped: 0.5, ..share };
+    /// assert!((efficiency(overlapping) - 0.74).abs() < 0.01, "{}", efficiency(overlapping));
     /// ```
     #[must_use]
     pub fn speed_up(&self, ranks: u32, seconds: f64) -> f64 {
         let part = (1.0 - self.undivided) / f64::from(ranks) * (self.own + self.copies) / self.own.max(1.0);
-        let exchange = f64::from(self.exchanges) * FIXED + self.bytes * (2.0 / TO_HOST + 1.0 / BETWEEN_HOSTS);
+        let between = f64::from(self.exchanges) * FIXED + self.bytes / BETWEEN_HOSTS;
+        let hidden = between.min(PASSES * self.overlapped * part * seconds);
+        let exchange = self.bytes * 2.0 / TO_HOST + between - hidden;
         seconds / (seconds * (part + self.undivided) + exchange)
     }
 }
 
-/// What each rank of a division has to do, without a device.
+/// What each rank of a division has to do, on hardware of a kind and without a device.
 ///
 /// ```
+/// use mesoscope::plan::Hardware;
 /// use mesoscope::run::{Ranks, divide, share_of};
 /// use mesoscope::{families::Model, scene};
 ///
 /// let scene = scene::load("dpd-fluid", &["output={}".to_owned()])?;
 /// let model = Model::new(&scene);
-/// let share = share_of(&scene, &model, divide(&scene, &model, Ranks::Parts([1, 1, 2]))?);
+/// let division = divide(&scene, &model, Ranks::Parts([1, 1, 2]))?;
+/// let share = share_of(&scene, &model, division, Hardware::default());
 /// assert_eq!((share.own, share.halo, share.peers), (12_000.0, 2.0, 1));
 /// assert!((share.copies - 2.0 * 2.0 / 20.0 * 24_000.0).abs() < 1.0);
+/// // Two of its ten layers of cells, of fourteen with the copies, hold nothing that others may need; the last of two visits of pairs.
+/// assert!((share.overlapped - 0.5 * 2.0 / 14.0).abs() < 0.01, "{}", share.overlapped);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn share_of(scene: &Scene, model: &Model, division: Division) -> Share {
-    let (units, planned) = (&model.units, first_part(scene, model, division));
+pub fn share_of(scene: &Scene, model: &Model, division: Division, hardware: Hardware) -> Share {
+    let (units, planned) = (&model.units, first_part(scene, model, division, hardware));
     let Some(part) = &planned else { return Share::default() };
     let PlannedPart { halo, close, domains, wider, peers, shared, .. } = part;
     let particles = |domain: Option<&Domain>| domain.map_or(0.0, Domain::share) * *shared as f64;
@@ -253,6 +268,7 @@ pub fn share_of(scene: &Scene, model: &Model, division: Division) -> Share {
         peers: peers.len(),
         bytes: 4.0 * f64::from(PARTICLE_WORDS) * copies + summed as f64,
         undivided: model.physics().undivided(),
+        overlapped: planned.as_ref().map_or(0.0, |planned| planned.overlapped),
         // What is summed on a mesh is exchanged in mid-step.
         exchanges: if summed > 0 { 2 } else { 1 },
         nodes: model.physics().rows().map(|_| [summed / 4 / peers.len().max(1) as u64, model.physics().nodes()]),

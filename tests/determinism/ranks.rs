@@ -1,7 +1,7 @@
 //! Several ranks: the same bytes as one.
 
 use mesoscope::engine::{Shown, Stepper as _};
-use mesoscope::plan::{Division, Options};
+use mesoscope::plan::{Division, Hardware, Options, Part, Plan, Traversal};
 use mesoscope::ranks::Team;
 use mesoscope::run;
 use mesoscope::scene::Scene;
@@ -20,6 +20,9 @@ const GAUSSIAN: &str = "noise.distribution=gaussian";
 pub const FOLLOWED: &str = r#"output.trajectory={"every":10}"#;
 const OPPOSED: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
     {"type":"body-force","force":[0.3,0,0.1],"profile":"opposed","axis":"z"}]"#;
+const RADIAL: &str = r#"output.radial_distribution={"every":5,"range":2.4,"bins":40}"#;
+const OPPOSED_IN_PLANE: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+    {"type":"body-force","force":[0.3,0.1],"profile":"opposed","axis":"y"}]"#;
 const COUETTE: &str = r#"space.walls={"y":{"upper_velocity":[1.5,0,0]}}"#;
 const LAYERED: &str = r#"particles=[{"species":"A","number_density":3},
     {"species":"wall","number_density":3,"placement":{"type":"behind-walls","axis":"y","thickness":1}}]"#;
@@ -58,18 +61,20 @@ pub fn team(scene: &Scene, division: Division, options: Options, state: &State) 
     run::team((scene, &model), gpu(), &adapter(), (division, false), options, state).expect("ranks")
 }
 
-fn divided(scene: &Scene, parts: [u32; 3], batch: u64) -> Bytes {
+fn divided(scene: &Scene, parts: [u32; 3], batch: u64, options: Options) -> Bytes {
     let (_, state) = start(scene);
-    let options = Options { particles_in_message: (batch == 1).then_some(100), ..Options::default() };
+    let options = Options { particles_in_message: (batch == 1).then_some(100), ..options };
     let mut team = team(scene, Division { parts }, options, &state);
     team.advance(STEPS, batch).unwrap();
     assert!(team.traffic().iter().all(|traffic| traffic.exchanges >= STEPS && traffic.copies > 0));
     harvest(team, Vec::new())
 }
 
-/// Whether the adapter of the tests takes the plan of a scene: with walls or shear, plans for any GPU need more buffers.
+/// Whether the device of the tests takes the plan of a rank: with walls or shear, plans for any GPU need more buffers.
 pub fn fits(scene: &Scene) -> bool {
-    let plan = run::plan(&start(scene).0, 0, &scene.output, hardware(), Options::default());
+    let part = Some(Part { division: Division { parts: [2, 1, 1] }, rank: 0 });
+    let options = Options { part, ..Options::default() };
+    let plan = run::plan(&start(scene).0, 0, &scene.output, hardware(), options);
     plan.storage_buffers <= gpu().device().limits().max_storage_buffers_per_shader_stage
 }
 
@@ -87,11 +92,92 @@ fn any_number_of_ranks_gives_the_bytes_of_one() {
         assert_eq!(followed, alone.state.images.iter().flatten().filter(|image| **image != 0).count() > 9);
         for (number, parts) in divisions.into_iter().enumerate() {
             let batch = [8, 1, STEPS][number % 3];
-            assert!(same(&alone, &divided(&scene, parts, batch)), "{changes:?} in {parts:?}");
+            assert!(same(&alone, &divided(&scene, parts, batch, Options::default())), "{changes:?} in {parts:?}");
         }
     }
     // Those without walls and shear at least.
     assert!(compared >= 10, "{compared} scenes");
+}
+
+/// Pairs are visited particle by particle, as on graphics cards.
+fn by_particles() -> Options {
+    Options { traversal: Some(Traversal::Rows), ..Options::default() }
+}
+
+/// The plan of the last rank, on any adapter.
+fn plan_of_part(scene: &Scene, parts: [u32; 3], options: Options) -> Plan {
+    let division = Division { parts };
+    let part = Some(Part { division, rank: division.ranks() - 1 });
+    run::plan(&start(scene).0, 0, &scene.output, Hardware::default(), Options { part, ..options })
+}
+
+/// Whether a rank goes on while particles are exchanged.
+fn overlaps(plan: &Plan) -> bool {
+    let Some(part) = &plan.part else { return false };
+    let overlaps = part.passages.iter().any(|passage| passage.after != passage.until);
+    assert_eq!(overlaps, part.overlapped > 0.0, "{part:?}");
+    overlaps
+}
+
+/// Where the device goes on with the inner cells of a part while particles are exchanged: of parts in layers and in columns, cut across the
+/// rows of cells and between them, with reports in between and without.
+#[test]
+fn exchanges_during_a_step_give_the_bytes_of_one_rank() {
+    let cases = [
+        (vec![GROOT_WARREN, "space.box=[4,4,14]", FOLLOWED, "temperature=9"], [1, 1, 2]),
+        (vec![SPLITTING, "space.box=[4,4,20]", FOLLOWED, "temperature=9"], [1, 1, 2]),
+        (vec![STAGED, "space.box=[4,3.5,25]", MIXTURE, MIXTURE_FORCE, GAUSSIAN], [1, 1, 2]),
+        (vec![PREDICTED, "space.box=[14,22]", MIXTURE, MIXTURE_FORCE], [2, 3, 1]),
+        (vec![COTTER_REICH, "space.box=[14,4,15]"], [2, 1, 2]),
+        (vec![SPLITTING, "space.box=[17,17]", OPPOSED_IN_PLANE], [2, 2, 1]),
+        (vec![GROOT_WARREN, "space.box=[4,19,3]", MANY_BODY], [1, 2, 1]),
+        (vec![SPLITTING, "space.box=[4,5,22]", COUETTE], [1, 1, 2]),
+        (vec![PREDICTED, "space.box=[4,17,5]", COUETTE, LAYERED], [1, 2, 1]),
+        (vec![SPLITTING, "space.box=[4,5,21]", SHEARED], [1, 1, 2]),
+        // Its samples look further than its forces reach, at some steps.
+        (vec![GROOT_WARREN, "space.box=[5,5,16]", RADIAL], [1, 1, 2]),
+        (vec![SPLITTING, "space.box=[5,5,18]", RADIAL], [1, 1, 2]),
+    ];
+    let mut compared = 0;
+    for (number, (changes, parts)) in cases.into_iter().enumerate() {
+        let scene = scene(&changes);
+        assert!(overlaps(&plan_of_part(&scene, parts, by_particles())), "{changes:?}");
+        if !fits(&scene) {
+            continue;
+        }
+        compared += 1;
+        // On lavapipe another traversal.
+        let alone = bytes::run(&scene, Options::default(), STEPS, 8);
+        let batch = [8, 1, STEPS][number % 3];
+        assert!(same(&alone, &divided(&scene, parts, batch, by_particles())), "{changes:?} in {parts:?}");
+    }
+    assert!(compared >= 7);
+}
+
+/// All else is exchanged between two kernels: of narrow parts, with bonds, and where eight particles are visited together. Alone a rank
+/// has nobody to wait for.
+#[test]
+fn exchanges_overlap_where_there_is_something_to_do() {
+    const WIDE: &str = "space.box=[4,4,20]";
+    let plan =
+        |changes: &[&str], parts, options| plan_of_part(&scene(&[&[SPLITTING], changes].concat()), parts, options);
+    let wide = plan(&[WIDE], [1, 1, 2], by_particles());
+    assert!(overlaps(&wide));
+    // Ten layers of four rows, and one on either side that rounding may touch; of these two inner ones, which both turns look at.
+    let workgroups = |name: &str| wide.kernels.iter().find(|kernel| kernel.name == name).unwrap().workgroups;
+    assert_eq!([workgroups("relax_edges"), workgroups("relax_inner")], [4 * 12, 4 * 2]);
+    let clusters = Options { traversal: Some(Traversal::Clusters), ..Options::default() };
+    let bonds = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+        {"type":"bonds","potential":{"type":"harmonic","stiffness":50,"length":0.6}}]"#;
+    let chains = r#"particles=[{"species":"A","count":240,"chain":{"beads":6,"spacing":0.6}}]"#;
+    for (changes, parts, options) in [
+        (vec!["space.box=[4,4,13]"], [1, 1, 2], by_particles()),
+        (vec![WIDE], [1, 1, 2], clusters),
+        (vec![WIDE, bonds, chains], [1, 1, 2], by_particles()),
+        (vec![WIDE], [1, 1, 1], by_particles()),
+    ] {
+        assert!(!overlaps(&plan(&changes, parts, options)), "{changes:?}");
+    }
 }
 
 /// That what was saved by ranks of one division goes on with the bytes of one rank, by ranks of another and alone.
@@ -126,12 +212,11 @@ fn ranks_continue_from_each_others_states() {
 /// Distances of pairs are counted once, though several ranks know of a pair.
 #[test]
 fn pairs_are_counted_once() {
-    let radial = r#"output.radial_distribution={"every":5,"range":2.4,"bins":40}"#;
     for integrator in [SPLITTING, GROOT_WARREN] {
-        let scene = scene(&[integrator, "space.box=[5,5,16]", radial]);
+        let scene = scene(&[integrator, "space.box=[5,5,16]", RADIAL]);
         let alone = bytes::run(&scene, Options::default(), STEPS, 8);
         assert!(alone.samples.iter().any(|sample| sample.sampler == 1 && sample.sums.iter().sum::<i64>() > 1000));
-        assert!(same(&alone, &divided(&scene, [1, 1, 3], 8)), "{integrator}");
+        assert!(same(&alone, &divided(&scene, [1, 1, 3], 8, Options::default())), "{integrator}");
     }
 }
 
@@ -188,13 +273,15 @@ fn any_number_of_ranks_shows_the_same_sample() {
 /// A run that fails does so at the same step with the same words, however many ranks it has; the ranks can begin again.
 #[test]
 fn failures_are_those_of_one_rank() {
-    let scene = scene(&[GROOT_WARREN, "space.box=[5,5,9]", "time.step=0.16"]);
+    let scene = scene(&[GROOT_WARREN, "space.box=[4,4,14]", "time.step=0.16"]);
     let (_, state) = start(&scene);
     let mut alone = crate::support::engine(&scene, &state, Options::default());
     let expected = alone.advance(200, 8).and_then(|()| alone.finish()).unwrap_err().to_string();
     assert!(expected.contains("unstable at step"), "{expected}");
-    let mut team = team(&scene, Division { parts: [1, 1, 3] }, Options::default(), &state);
-    let found = team.advance(200, 8).and_then(|()| team.finish()).unwrap_err().to_string();
-    assert_eq!(found, expected);
-    assert!(team.advance(1, 1).is_err(), "what has failed does not go on");
+    for (parts, options) in [([1, 1, 3], Options::default()), ([1, 1, 2], by_particles())] {
+        let mut team = team(&scene, Division { parts }, options, &state);
+        let found = team.advance(200, 8).and_then(|()| team.finish()).unwrap_err().to_string();
+        assert_eq!(found, expected);
+        assert!(team.advance(1, 1).is_err(), "what has failed does not go on");
+    }
 }

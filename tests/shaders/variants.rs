@@ -237,13 +237,14 @@ fn long_range_plans() -> Vec<(String, Plan)> {
 
 /// The same of one of several ranks that share the box.
 fn shared_plans() -> Vec<(String, Plan)> {
+    // Parts so wide that exchanges overlap with their inner cells, where pairs are visited particle by particle.
     let radial = r#"output.radial_distribution={"every":2,"range":1.5}"#;
     let dense = r#"interactions=[{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}]"#;
     let walled = r#"space.walls={"y":{}}"#;
     let sheared = r#"space.shear={"rate":0.5,"gradient":"y"}"#;
     let mut plans = Vec::new();
     for (row, (space, force)) in
-        [("space.box=[9,12]", "[1,2]"), ("space.box=[7,8,15]", "[1,2,3]")].into_iter().enumerate()
+        [("space.box=[9,24]", "[1,2]"), ("space.box=[7,8,24]", "[1,2,3]")].into_iter().enumerate()
     {
         let driven = format!(
             r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},{{"type":"body-force","force":{force}}}]"#

@@ -6,6 +6,8 @@ fn stored_count() -> u32 { return stored_number; }
 fn sorted_count() -> u32 { return atomicLoad(&outgoing_counts[PEERS]); }
 fn is_own(position: vec4<u32>) -> bool { return position.w != NOBODY && lies_in(OWN, position); }
 fn forgets(index: u32) -> bool {
+    // What stays where it was has been counted.
+    if (is_inner(index)) { return true; }
     let forgotten = stored_position(index).w == NOBODY;
     if (forgotten) { put_rank(index, NO_RANK); }
     return forgotten;

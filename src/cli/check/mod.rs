@@ -83,7 +83,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let sizes = Sizes::of(&scene, &model, &plan);
     let mut rows = overview(&scene, &model, &plan, &adapter, time, &sizes);
     let step = trial.as_ref().and_then(|trial| Some(trial.as_ref().ok()?.step));
-    rows.extend(division.into_iter().flat_map(|division| ranks::rows(&scene, &model, division, step)));
+    rows.extend(division.into_iter().flat_map(|division| ranks::rows(&scene, &model, division, (step, hardware))));
     rows.extend(predictions::rows(&arguments.scene.as_argument(), (&scene, &model), &plan, hardware));
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
     let mut text = format!("{}\n{}", printable::name(&scene.title), aligned(&rows, "  "));

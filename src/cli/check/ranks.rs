@@ -2,17 +2,22 @@
 
 use mesoscope::families::Model;
 use mesoscope::numbers::{bytes, grouped, prefixed};
-use mesoscope::plan::Division;
+use mesoscope::plan::{Division, Hardware};
 use mesoscope::run::{Share, share_of};
 use mesoscope::scene::Scene;
 
 /// Particle-steps a second of a graphics card, where no adapter says how many.
 const SPEED: f64 = 1e9;
 
-/// The rows of the overview. One rank takes so many seconds a step, if that is known.
-pub fn rows(scene: &Scene, model: &Model, division: Division, step: Option<f64>) -> Vec<(&'static str, String)> {
+/// The rows of the overview. One rank takes so many seconds a step on this hardware, if that is known.
+pub fn rows(
+    scene: &Scene,
+    model: &Model,
+    division: Division,
+    (step, hardware): (Option<f64>, Hardware),
+) -> Vec<(&'static str, String)> {
     let dimension = scene.space.lengths.len();
-    let share = share_of(scene, model, division);
+    let share = share_of(scene, model, division, hardware);
     let product = |numbers: Vec<String>| numbers[..dimension].join(" × ");
     let parts = product(division.parts.map(|part| part.to_string()).to_vec());
     let length = |length: f64| format!("{length:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
@@ -42,9 +47,17 @@ pub fn rows(scene: &Scene, model: &Model, division: Division, step: Option<f64>)
                 100.0 * share.own / (share.own + copies).max(1.0)
             ),
         ),
-        ("exchange", format!("about {sent} a step and rank, with {peers}")),
+        ("exchange", format!("about {sent} a step and rank, with {peers}{}", meanwhile(&share))),
         ("speed", speed(model, &share, division.ranks(), step)),
     ]
+}
+
+/// What an adapter does during an exchange.
+fn meanwhile(share: &Share) -> String {
+    if share.overlapped == 0.0 {
+        return String::new();
+    }
+    format!(", during which {:.0} % of its work goes on", 100.0 * share.overlapped)
 }
 
 /// How much faster than one rank the ranks are expected to be.

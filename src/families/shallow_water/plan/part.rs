@@ -3,7 +3,7 @@
 
 use super::WATER;
 use super::steps::Builder;
-use crate::plan::{Domain, ParticleWords, PlannedPart, SharedSum};
+use crate::plan::{Domain, ParticleWords, Passage, PlannedPart, SharedSum};
 use crate::shaders::{Array, Choices, Constant, Entry, grid, mesh, water};
 use std::ops::Range;
 
@@ -70,6 +70,7 @@ impl Builder<'_> {
             kernels.extend([send, count]);
         }
         self.plan.samplers[0].whole = SUMS_OF_NODES;
-        self.plan.part = Some(PlannedPart { exchange: send, ..part });
+        let passages = vec![Passage { after: send, until: send }];
+        self.plan.part = Some(PlannedPart { passages, ..part });
     }
 }

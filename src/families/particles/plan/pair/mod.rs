@@ -25,6 +25,7 @@ use crate::document::Integrator;
 use crate::families::particles::{CoupledLayout, ParticleLayout};
 use crate::families::{Model, PairForce};
 use crate::noise;
+use crate::plan::Cells;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, couplings, grid, pairs, space};
 use crate::state::Units;
 use std::f64::consts::SQRT_2;
@@ -72,6 +73,8 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
             && options.part.is_none(),
         scan: Vec::new(),
         passed_on: Vec::new(),
+        inner: None,
+        passed_on_early: Vec::new(),
         plan: empty_plan(model, &grid, options),
     };
     // What ends a step that visits pairs once is no traversal.
@@ -142,6 +145,10 @@ struct Builder<'a> {
     scan: Vec<usize>,
     /// The kernels of one of several ranks that exchange particles where others follow them.
     passed_on: Vec<usize>,
+    /// Of one of several ranks: cells of which no other has to know, if the device goes on with them during an exchange.
+    inner: Option<Cells>,
+    /// The kernels that exchange particles then.
+    passed_on_early: Vec<usize>,
     plan: Plan,
 }
 
@@ -387,32 +394,43 @@ impl Builder<'_> {
             Masks::Keep => Some(pairs::Hits::Keep),
             Masks::Kept => Some(pairs::Hits::Kept),
         });
-        let (entry, lanes) = match traversal {
-            Traversal::Alone => (Entry::VisitAlone, self.workgroup_size()),
-            Traversal::Rows => (Entry::VisitRows, self.workgroup_size()),
-            Traversal::Clusters => (Entry::VisitClusters, 8),
+        let entry = match traversal {
+            Traversal::Alone => Entry::VisitAlone,
+            Traversal::Rows => Entry::VisitRows,
+            Traversal::Clusters => Entry::VisitClusters,
         };
-        // Enough workgroups to fill the adapter, none with less than one round of work on average. Subgroups of eight are
-        // those of processors, whose few cores are filled by a few workgroups, and to which a workgroup is dear: some hundred
-        // particles each, and as many of them for every core.
         let rows = self.grid.rows();
         let clusters = traversal == Traversal::Clusters;
-        let enough = if clusters { 64 } else { 8192 };
-        let rounds = (self.particles / rows).div_ceil(lanes).max(1);
-        let segments = u64::from(self.options.segments.unwrap_or(0));
-        // Turns of loops: of a cluster about half of its candidates, and once more as many pairs.
-        let crowd = (self.particles / self.grid.count()).max(1);
-        let turns = (self.particles / lanes * 3_u64.pow(self.grid.dimension as u32)).saturating_mul(crowd);
-        let least = turns.div_ceil(TURNS);
-        let segments = if segments > 0 { segments } else { rounds.min((enough.max(least) / rows).max(1)) };
+        let segments = self.segments(traversal, rows);
         let mut constants = vec![(Constant::Segments, segments as f64)];
         let mut groups = rows * segments;
         if clusters {
-            let wanted = (self.particles / 256).clamp(32, 1024).max(least);
+            let wanted = (self.particles / 256).clamp(32, 1024).max(self.least_groups(8));
             groups = groups.min(wanted.next_multiple_of(32));
             constants.push((Constant::Shares, groups as f64));
         }
         self.plan.add_kernel(Kernel::new(name, entry, choices, groups).with(constants))
+    }
+
+    /// Workgroups that share a row, where so many rows are visited: enough of them to fill the adapter, none with less than one round of
+    /// work on average. Subgroups of eight are those of processors, whose few cores are filled by a few workgroups, and to which a workgroup
+    /// is dear: some hundred particles each, and as many of them for every core.
+    fn segments(&self, traversal: Traversal, rows: u64) -> u64 {
+        let (lanes, enough) = match traversal {
+            Traversal::Clusters => (8, 64),
+            Traversal::Alone | Traversal::Rows => (self.workgroup_size(), 8192),
+        };
+        let rounds = (self.particles / self.grid.rows()).div_ceil(lanes).max(1);
+        let chosen = self.options.segments.filter(|segments| *segments > 0).map(u64::from);
+        chosen.unwrap_or_else(|| rounds.min((enough.max(self.least_groups(lanes)) / rows).max(1)))
+    }
+
+    /// The fewest workgroups whose invocations make no more turns of loops than software adapters allow: of a cluster about half of
+    /// its candidates, and once more as many pairs.
+    fn least_groups(&self, lanes: u64) -> u64 {
+        let crowd = (self.particles / self.grid.count()).max(1);
+        let turns = (self.particles / lanes * 3_u64.pow(self.grid.dimension as u32)).saturating_mul(crowd);
+        turns.div_ceil(TURNS)
     }
 
     fn integration(&mut self) {
@@ -464,14 +482,15 @@ impl Builder<'_> {
     /// One pass a step. Returns the number of rows of sums that the report leaves.
     fn leapfrog_step(&mut self, forces: &Choices) -> u32 {
         let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model));
-        let advance = self.traversal("leapfrog", self.traversal, Masks::Unkept, &pass);
+        let names = ["leapfrog", "leapfrog_edges", "leapfrog_inner"];
+        let advance = self.last_pass(names, self.traversal, Masks::Unkept, &pass);
         let report = self.observation("report", forces.clone().with(pairs::Pass::ObserveLeapfrog));
         let mut rows = self.plan.kernels[report].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = self.stress();
         let densities = self.densities(Masks::Unkept, &mut rows);
         self.plan.before_report = [&bonded.kicks[..], &densities.step].concat();
-        self.plan.advance = [&[advance], &self.passed_on[..]].concat();
+        self.plan.advance = self.end_with(&advance);
         self.plan.report = [&densities.report[..], &[report], &bonded.report, &stress, &bonded.stress].concat();
         self.plan.finish_report = self.plan.advance.clone();
         rows
@@ -494,8 +513,10 @@ impl Builder<'_> {
         }
         let last = if once { Traversal::Alone } else { self.traversal };
         let to_the_end = self.end_of_step().with(pairs::Pass::Relax).and(&walls::booking(self.model));
-        let relax = self.traversal("relax", last, Masks::Kept, &to_the_end);
-        self.plan.kernels[relax].constants.push((Constant::Halves, 2.0));
+        let relax = self.last_pass(["relax", "relax_edges", "relax_inner"], last, Masks::Kept, &to_the_end);
+        for &kernel in &relax {
+            self.plan.kernels[kernel].constants.push((Constant::Halves, 2.0));
+        }
         let to_the_report = with(pairs::Pass::Relax).and(&walls::booking(self.model));
         let relax_to_report = self.traversal("relax_to_report", last, Masks::Kept, &to_the_report);
         self.plan.kernels[relax_to_report].constants.push((Constant::Halves, 1.0));
@@ -531,19 +552,19 @@ impl Builder<'_> {
             }
         }
         self.plan.before_report = [&bonded.kicks[..], &densities.step, &[find], &baths].concat();
-        self.plan.advance = [&[relax], &self.passed_on[..]].concat();
+        self.plan.advance = self.end_with(&relax);
         let motion_there = [&bonded.report[..], &stress, &[motion, relax_to_report]].concat();
         self.plan.report =
             [&motion_there[..], &again, &bonded.configuration, &densities.report, &[configuration]].concat();
         if self.relaxes_in_two_stages() {
-            self.first_stage([relax, relax_to_report, motion], kept);
+            self.first_stage(&[&relax[..], &[relax_to_report, motion]].concat(), kept);
         }
         self.plan.finish_report = [&[rest], &self.passed_on[..], &self.scan].concat();
         rows
     }
 
     /// Adds the first of two stages of friction, which leaves momenta for these kernels, those of the second.
-    fn first_stage(&mut self, second: [usize; 3], kept: &Choices) {
+    fn first_stage(&mut self, second: &[usize], kept: &Choices) {
         let pass = self
             .booking_of_layers()
             .with(pairs::Pass::RelaxFirst)
@@ -559,12 +580,21 @@ impl Builder<'_> {
             self.plan.kernels[kernel].constants.extend(first_stage);
         }
         let taken = self.staged();
-        for kernel in second {
+        for &kernel in second {
             self.plan.kernels[kernel].constants.extend(second_stage);
             self.plan.kernels[kernel].renamed.push(taken);
         }
         self.plan.before_report.push(first);
         self.plan.report.insert(0, report);
+    }
+
+    /// How often a step visits all pairs, but for local densities.
+    fn visits(&self) -> f64 {
+        match (self.splits() && !self.visits_once(), self.relaxes_in_two_stages()) {
+            (false, _) => 1.0,
+            (true, false) => 2.0,
+            (true, true) => 3.0,
+        }
     }
 
     /// Arithmetic of a particle and step: the prefilter of the candidates of 27 (9) cells, then the pairs inside the cutoff, as
@@ -582,7 +612,7 @@ impl Builder<'_> {
             (9.0 * density * cutoff.powi(2), std::f64::consts::PI * density * cutoff.powi(2))
         };
         let relaxations = if self.relaxes_in_two_stages() { 2.0 } else { 1.0 };
-        let visits = if self.splits() && !self.visits_once() { 1.0 + relaxations } else { 1.0 };
+        let visits = self.visits();
         let cost = |there: bool, operations: f64| if there { operations } else { 0.0 };
         let frictional = self.force.largest_friction() > 0.0;
         let dense = self.force.many_body.is_some();
