@@ -135,8 +135,8 @@ fn exchanges_during_a_step_give_the_bytes_of_one_rank() {
         (vec![PREDICTED, "space.box=[4,17,5]", COUETTE, LAYERED], [1, 2, 1]),
         (vec![SPLITTING, "space.box=[4,5,21]", SHEARED], [1, 1, 2]),
         // Its samples look further than its forces reach, at some steps.
-        (vec![GROOT_WARREN, "space.box=[5,5,16]", RADIAL], [1, 1, 2]),
-        (vec![SPLITTING, "space.box=[5,5,18]", RADIAL], [1, 1, 2]),
+        (vec![GROOT_WARREN, "space.box=[5,5,20]", RADIAL], [1, 1, 2]),
+        (vec![SPLITTING, "space.box=[5,5,20]", RADIAL], [1, 1, 2]),
     ];
     let mut compared = 0;
     for (number, (changes, parts)) in cases.into_iter().enumerate() {
