@@ -1,6 +1,7 @@
 //! The page of a tradeoff: what to choose, in words.
 
 use super::deviation::Deviation;
+use super::fields::DISTANCE;
 use super::reference::Source;
 use super::summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary};
 use super::target::{Target, Verdict};
@@ -36,18 +37,20 @@ pub(super) fn reference_in_words(summary: &TradeoffSummary, measure: &str) -> St
     match &reference.source {
         Source::Given => format!("compared with {value}, which was given"),
         Source::Predicted(law) => format!("compared with {value}: {law}"),
-        Source::Finer(_) => {
-            let step = summary.finer.first().map_or(0.0, |run| run.time_step);
-            let step = if step > 0.0 { format!(" of step {}", short(step)) } else { String::new() };
-            let settings =
-                summary.arguments.finer.as_deref().map(|finer| format!(" with `{finer}`")).unwrap_or_default();
-            let changes = match &summary.arguments.still_finer {
-                Some(still_finer) => format!("`{still_finer}` and twice its step change"),
-                None => "twice its step changes".to_owned(),
-            };
-            format!("compared with {value} of a finer run{step}{settings}, uncertain by what {changes}")
-        }
+        Source::Finer(_) => format!("compared with {value} of a finer run{}", finer_in_words(summary)),
     }
+}
+
+/// What the finer run is like, and how uncertain what it says is.
+fn finer_in_words(summary: &TradeoffSummary) -> String {
+    let step = summary.finer.first().map_or(0.0, |run| run.time_step);
+    let step = if step > 0.0 { format!(" of step {}", short(step)) } else { String::new() };
+    let settings = summary.arguments.finer.as_deref().map(|finer| format!(" with `{finer}`")).unwrap_or_default();
+    let changes = match &summary.arguments.still_finer {
+        Some(still_finer) => format!("`{still_finer}` and twice its step change"),
+        None => "twice its step changes".to_owned(),
+    };
+    format!("{step}{settings}, uncertain by what {changes}")
 }
 
 /// An error with its uncertainty, in per cent where it is a part of something.
@@ -387,6 +390,9 @@ fn capitalised(text: &str) -> String {
 fn section(text: &mut String, summary: &TradeoffSummary, measure: &str) {
     let _ = writeln!(text, "## {}\n", measure.replace('_', " "));
     let _ = writeln!(text, "{}.\n", capitalised(&reference_in_words(summary, measure)));
+    if measure.ends_with(DISTANCE) {
+        let _ = writeln!(text, "The finer run is one{}.\n", finer_in_words(summary));
+    }
     let mut front: Vec<(&Choice, &Deviation)> = summary
         .choices
         .iter()

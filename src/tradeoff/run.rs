@@ -315,12 +315,13 @@ impl StudyRun<TradeoffSummary> {
     /// Adds the distances of fields and curves from those of the finer run; how far the run with twice its step is from it, and one that is
     /// finer still, says how certain they are.
     fn compare_fields(&mut self, runs: &[(String, Scene)]) -> Result<(), StudyError> {
-        if self.summary.finer.iter().any(|run| run.state != ChoiceState::Finished) {
-            return Ok(());
-        }
         let place = |name: &str| RunDirectory::open(self.directory().join(name));
         // All of these may be runs of choices.
         let Some((reference, others)) = self.summary.finer.split_first() else { return Ok(()) };
+        let is_finished = |run: &Choice| run.state == ChoiceState::Finished;
+        if !is_finished(reference) {
+            return Ok(());
+        }
         let finer = place(&reference.name)?;
         // Fields at another time differ for that alone: rows of tables end at different times where steps do not fit.
         let is_at_once = |run: &Choice| {
@@ -329,7 +330,7 @@ impl StudyRun<TradeoffSummary> {
         };
         let limits = others
             .iter()
-            .filter(|run| is_at_once(run))
+            .filter(|run| is_finished(run) && is_at_once(run))
             .map(|run| fields::distances(&place(&run.name)?, &finer))
             .collect::<Result<Vec<_>, _>>()?;
         let limit = |measure: &str| {
@@ -340,7 +341,7 @@ impl StudyRun<TradeoffSummary> {
         let mut found = Vec::new();
         for (index, (name, _)) in runs.iter().enumerate().take(self.summary.choices.len()) {
             let choice = &self.summary.choices[index];
-            if choice.state == ChoiceState::Finished && is_at_once(choice) {
+            if is_finished(choice) && is_at_once(choice) {
                 let mut distances = fields::distances(&place(name)?, &finer)?;
                 for distance in &mut distances {
                     distance.standard_error = limit(&distance.measure);

@@ -412,7 +412,7 @@ fn resume_completes_what_is_missing() {
     let limited = "trap '' XFSZ; ulimit -f 24";
     let output = |mut command: Command| ended(command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap());
     let driver_works = output(after(limited, &["check", &scene])).0.is_some();
-    let ranks = ["--set", "space.box=[4,4,16]", "--ranks", "2"];
+    let ranks = ["--set", "space.box=[4,4,16]", "--set", "particles.0.number_density=0.75", "--ranks", "2"];
     for (number, further) in [&["--set", "output.snapshot.width=64"][..], &[], &ranks].into_iter().enumerate() {
         let out = place.argument(&format!("full{number}"));
         let run = [&["run", &scene, "--out", &out, "--quiet"], further].concat();

@@ -250,8 +250,9 @@ fn a_still_finer_run_says_how_far_the_finer_one_is_off() {
     let names: Vec<&str> = summary.finer.iter().map(|run| run.name.as_str()).collect();
     assert_eq!(names, ["finer", "finer-twice-the-step", "still-finer"]);
     let page = fs::read_to_string(place.path("out").join(files::PAGE)).unwrap();
-    let said = "with `particles.0.count=2304`, uncertain by what `particles.0.count=9216` and twice its step change";
-    assert!(page.contains(said) || !page.contains("of a finer run of"), "{page}");
+    let said = "The finer run is one of step 0.01 with `particles.0.count=2304`, uncertain by what `particles.0.count=9216` and twice its \
+                step change.";
+    assert!(page.contains(said), "{page}");
     succeeds(&["tradeoff", "--resume", &place.argument("out"), "--quiet"]);
     let wrong = ["--vary", "time.step=0.01,0.02", "--still-finer", "time.equilibration=3", "--force"];
     let told = ["`--still-finer time.equilibration=3`", "follows from the choices"];
