@@ -175,17 +175,17 @@ mod tests {
     /// What a thread does after its rank has been told to end is done when the first rank is gone.
     #[test]
     fn the_first_rank_ends_after_the_others() {
-        let mut links = links(2).into_iter();
-        let (Some(mut first), Some(second)) = (links.next(), links.next()) else { return };
+        let mut links = links(2);
+        let second = links.remove(1);
         let is_done = Arc::new(AtomicBool::new(false));
         let done = Arc::clone(&is_done);
-        first.channel.keep(vec![thread::spawn(move || {
+        links[0].channel.keep(vec![thread::spawn(move || {
             let Links { mut channel, .. } = second;
             while channel.listen().is_ok() {}
             thread::sleep(Duration::from_millis(50));
             done.store(true, Ordering::SeqCst);
         })]);
-        drop(first);
+        drop(links);
         assert!(is_done.load(Ordering::SeqCst));
     }
 }

@@ -279,12 +279,16 @@ fn analyses_are_measures_too() {
                 "{measure}: {found:?}"
             );
         }
-        // Self-diffusion of the standard fluid is .29; waves have no room in a box of four cutoffs.
-        let diffusion = choice.value("diffusion.diffusion_einstein").unwrap();
-        assert!((0.15..0.45).contains(&diffusion.value), "{diffusion:?}");
-        // Thirty bins of some 10⁴ pairs each are known to a few per cent.
+        // Sixteen runs with other seeds gave .278 and .80 on average, with standard deviations of .008 and .044: five of these are allowed.
+        for (measure, expected, error) in
+            [("diffusion.diffusion_einstein", 0.278, 0.04), ("viscosity.shear_viscosity", 0.80, 0.22)]
+        {
+            let found = choice.value(measure).unwrap().value;
+            assert!((found - expected).abs() < error, "{measure}: {found}");
+        }
+        // The same runs had .0095 to .016, .012 on average.
         let distance = choice.value("radial_distribution_distance").unwrap().value;
-        assert!(distance > 0.0 && distance < 0.2, "{distance}");
+        assert!(distance > 0.0 && distance < 5.0 * 0.012, "{distance}");
     }
     let names = listing(&place.path("out"));
     for measure in &summary.measures {

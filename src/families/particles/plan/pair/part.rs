@@ -14,8 +14,8 @@ const LONGEST: f64 = 1e30;
 impl Builder<'_> {
     /// How far around a domain particles have to be known for those within it to be advanced: a cutoff for each pass over pairs that
     /// depends on the one before, and the length of a bond for each round of friction along bonds; then once more a cutoff, or as far as bonds
-    /// and angles reach. Where particles are followed as far as one goes in a step; and where distances are counted their range, at
-    /// the steps at which they are.
+    /// and angles reach. Trajectories need as far as a particle goes in a step. Where distances are counted, the range of these has to be
+    /// known as well, at the steps at which they are.
     fn halo(&self) -> Halo {
         let densities = u32::from(self.force.many_body.is_some());
         let relaxations = match (self.splits() && self.relaxes_pairs(), self.relaxes_in_two_stages()) {
@@ -50,7 +50,9 @@ impl Builder<'_> {
         planned.whole.extend(self.model.particles().tether.is_some().then_some(Array::Tethers));
         planned.portion = self.options.particles_in_message.unwrap_or(planned.portion);
         self.slots = planned.slots;
-        self.inner = self.inner_cells(&planned, halo.width.max(halo.sampled) + reach);
+        // Samples of split steps are taken at their report, and nothing goes on during the exchange there.
+        let sampled = if self.splits() { 0.0 } else { halo.sampled };
+        self.inner = self.inner_cells(&planned, halo.width.max(sampled) + reach);
         if let (Some(inner), [_, needed, ..]) = (self.inner, &planned.domains[..]) {
             planned.overlapped = inner.share(self.grid.cells) / needed.share() / self.visits();
         }
