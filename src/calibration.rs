@@ -1,8 +1,10 @@
-//! What is known of the errors of scenes before they run: tradeoffs that were made once and are shipped with the program.
+//! What is known of the errors of scenes before they run: by theory, where the scheme is solved, or by tradeoffs that were made once and are
+//! shipped with the program.
 
+use crate::families::{ExactMean, Model};
 use crate::numbers::three_digits;
 use crate::scene::{self, Scene};
-use crate::tradeoff::{Choice, ChoiceState, Deviation, TradeoffSummary, error_in_words};
+use crate::tradeoff::{Choice, ChoiceState, Deviation, Measured, Reference, Source, TradeoffSummary, error_in_words};
 use serde_json::Value;
 use std::fmt;
 use std::sync::LazyLock;
@@ -20,6 +22,8 @@ static SUMMARIES: LazyLock<Vec<TradeoffSummary>> =
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Basis {
+    /// Theory knows what the scheme gives with the time step.
+    Theory,
     /// The same physics with about the same time step.
     Measured,
     /// The same physics with a smaller and a larger time step, between which errors are taken to go with a power of the step.
@@ -30,10 +34,10 @@ pub enum Basis {
     OtherChoice(String),
 }
 
-/// Errors that were measured of a scene of the same physics, with the same integrator.
+/// Errors that theory knows, or that were measured of a scene of the same physics, with the same integrator.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expected {
-    /// Title of the scene that was measured.
+    /// Title of the scene that was measured, or of that asked about.
     pub scene: String,
     /// The time step that the errors are of.
     pub time_step: f64,
@@ -41,11 +45,15 @@ pub struct Expected {
     pub basis: Basis,
     /// The errors, measure by measure.
     pub errors: Vec<Deviation>,
-    /// When it was measured, as year, month and day.
+    /// When it was measured, as year, month and day; empty where nothing was.
     pub date: String,
-    /// The version of the program that measured it.
+    /// The version of the program that measured it, or knows it.
     pub version: String,
 }
+
+/// What is said of the errors of a scene that theory knows, of the means that a table of energies has.
+const KNOWN: [&str; 5] =
+    ["temperature", "configurational_temperature", "potential_energy", "bath_square", "bath_times_displacement"];
 
 /// What was measured of a choice.
 struct Known {
@@ -95,6 +103,43 @@ impl Known {
 /// ```
 #[must_use]
 pub fn expected(scene: &Scene) -> Option<Expected> {
+    by_theory(scene).or_else(|| by_measurement(scene))
+}
+
+/// The errors of a scheme that is solved.
+fn by_theory(scene: &Scene) -> Option<Expected> {
+    let model = Model::new(scene);
+    let deviation = |mean: ExactMean| {
+        let measured = Measured {
+            measure: mean.column.to_owned(),
+            value: mean.discrete?,
+            standard_error: Some(0.0),
+            fluctuates: true,
+            from_few_samples: false,
+        };
+        let exact = Reference {
+            measure: measured.measure.clone(),
+            value: mean.continuous,
+            uncertainty: Some(0.0),
+            source: Source::Predicted("the mean of the exact motion in equilibrium".to_owned()),
+        };
+        Some(Deviation::new(&measured, &exact))
+    };
+    let means = model.physics().exact_means(&model).into_iter();
+    let errors: Vec<Deviation> =
+        means.filter(|mean| KNOWN.contains(&mean.column)).map(deviation).collect::<Option<_>>()?;
+    (!errors.is_empty()).then(|| Expected {
+        scene: scene.title.clone(),
+        time_step: scene.time.step,
+        basis: Basis::Theory,
+        errors,
+        date: String::new(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+    })
+}
+
+/// The errors of what was measured that is nearest to a scene.
+fn by_measurement(scene: &Scene) -> Option<Expected> {
     let nearest = |one: &Known, other: &Known| apart(scene, &one.scene).total_cmp(&apart(scene, &other.scene));
     let (mut alike, others): (Vec<Known>, Vec<Known>) = Known::all()
         .filter(|known| is_like(scene, &known.scene))
@@ -219,6 +264,7 @@ impl fmt::Display for Expected {
         let words: Vec<String> = words.collect();
         let (words, step) = (words.join(", "), three_digits(self.time_step));
         match &self.basis {
+            Basis::Theory => return write!(formatter, "{words} off, as theory knows of this scheme and step"),
             Basis::Measured => write!(formatter, "{words} off, as measured with a step of {step}")?,
             Basis::Interpolated(ends) => {
                 let [low, high] = ends.map(three_digits);
@@ -300,6 +346,33 @@ mod tests {
             "{low:?} {middle:?} {high:?}"
         );
         assert_eq!(middle.uncertainty, Some(low.uncertainty.unwrap().max(high.uncertainty.unwrap())));
+    }
+
+    /// B and W of the shipped oscillators are .01 and .01 with λ = α = K = m = 1, dt = .1 and `exponential`, but for λₑ/λ = tanh(a/2)/(a/2).
+    #[test]
+    fn theory_knows_schemes_that_are_solved() {
+        let load = |set: &[&str]| {
+            let set: Vec<String> = set.iter().map(|change| (*change).to_owned()).collect();
+            expected(&scene::load("gle-oscillator", &set).unwrap())
+        };
+        let found = load(&[]).unwrap();
+        assert_eq!(found.basis, Basis::Theory);
+        let effective = 0.05_f64.tanh() / 0.05;
+        let (b, w) = (0.01 * effective, 0.01);
+        let margin = 4.0 - b - w;
+        for (measure, error) in [
+            ("temperature", 0.0),
+            ("potential_energy", (4.0 - b) / margin - 1.0),
+            ("configurational_temperature", (4.0 - b) / margin - 1.0),
+            ("bath_square", effective * (4.0 - w) / margin - 1.0),
+            ("bath_times_displacement", b / margin),
+        ] {
+            let known = found.errors.iter().find(|known| known.measure == measure).unwrap();
+            assert!((known.error - error).abs() < 1e-12, "{measure}: {known:?}");
+        }
+        assert!(found.to_string().ends_with(" off, as theory knows of this scheme and step"), "{found}");
+        // Repulsion: nothing is known.
+        assert_eq!(load(&[r#"interactions.0={"type":"dpd","repulsion":25}"#]), None);
     }
 
     #[test]

@@ -18,8 +18,10 @@ fn advanced_bath(kept: f32, response: f32, change: f32, noise: f32) -> f32 {
 // The impulse of half a step for each unit of the bath; `slope` is that of h along the impulse.
 fn impulse_per_bath(slope: f32) -> f32 { return -BATH_IMPULSE * slope; }
 
-// A report of a bath with memory: its energy, where `energy` is that of a square for a response of one, over its quantum.
+// A report of a bath with memory: its energy, where `energy` is that of a square for a response of one, over its quantum. One
+// that is coupled to nothing has none, and does not count.
 fn report_bath(bath: f32, response: f32, energy: f32) {
+    if (response <= 0.0 || energy == 0.0) { return; }
     let square = bath * bath;
-    observe_bath(select(0.0, square / response * energy, response > 0.0), square * BATH_SQUARE);
+    observe_bath(square / response * energy, square * BATH_SQUARE);
 }

@@ -58,6 +58,7 @@ fn observe_particle(slot: u32) {
     add_reported_force(momentum_word(kick, 0));
     store_force(id);
     let p = Vector(momentum);
+    note_bath_products(me.position, species, bath, p);
     total_add(0u, sum64_of_f32(dot(p, p) * kinetic_of(species)));
     let word = momentum_word(momentum, species);
     total_add(2u, sum64_of_i32(word.x));
@@ -90,3 +91,8 @@ fn position_noise(id: u32, species: i32, axis: u32) -> f32 { return 0.0; }
 // Slot baths/position_report: adds the energy of a position bath to a report.
 // Default: off, such baths have none. The plan chooses `observed` if they have memory.
 fn note_position_bath(species: i32, bath: Vector) {}
+
+// Slot baths/position_products: adds the products of a position bath, a momentum and a displacement to a report.
+// Default: off, nothing says what their means should be. The plan chooses `tethered` if such baths have memory and tethers say where
+// displacements begin.
+fn note_bath_products(position: vec4<u32>, species: i32, bath: Vector, momentum: Vector) {}

@@ -34,8 +34,8 @@ fn mark_of(row: u32, index: u32, own: bool) -> u32 { return select(0u, 1u, own);
 fn is_inner(slot: u32) -> bool { return false; }
 
 // Ends a step or half of a drift: sends on what other ranks need, forgets what this one does not need, and empties the cells, in which
-// particles are counted again once those of others have arrived. One invocation a stored particle or a cell; reads `owned_slots` and
-// `domains`, updates `particles`, `outgoing_counts` and `counts`, writes `outgoing`; where there are bonds, updates `slots`.
+// particles are counted again once those of others have arrived. Inner particles stay as they are. One invocation a stored particle or a
+// cell; reads `owned_slots` and `domains`, updates `particles`, `outgoing_counts` and `counts`, writes `outgoing`; where there are bonds, updates `slots`.
 @compute @workgroup_size(WORKGROUP)
 fn send_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;

@@ -54,6 +54,11 @@ fn scrambled(number: u32) -> u32 {
     word ^ (word >> 16)
 }
 
+/// What some particles have of an array, which may be one that the state has not.
+fn some_of<T: Copy>(all: &[T], numbers: &[u32]) -> Vec<T> {
+    numbers.iter().filter_map(|number| all.get(*number as usize)).copied().collect()
+}
+
 impl Shown {
     /// All particles of a state, or about so many of them if there are more.
     ///
@@ -63,7 +68,7 @@ impl Shown {
     ///
     /// let count = 10_000;
     /// let positions = (0..count).map(|number| [number, 0, 0]).collect();
-    /// let state = State { positions, momenta: vec![[0; 3]; 10_000], species: vec![0; 10_000], ..State::default() };
+    /// let state = State { positions, ..State::default() };
     /// assert_eq!(Shown::of(state.clone(), 10_000).numbers, None);
     /// let shown = Shown::of(state, 1_000);
     /// assert!(shown.state.len().abs_diff(1_000) < 150);
@@ -74,12 +79,11 @@ impl Shown {
     pub fn of(state: State, most: u64) -> Self {
         let Some(sampling) = Sampling::new(state.len() as u64, most) else { return Self::all(state) };
         let numbers = sampling.numbers(state.len() as u64);
-        let of = |number: &u32| *number as usize;
         let sample = State {
             step: state.step,
-            positions: numbers.iter().map(|number| state.positions[of(number)]).collect(),
-            momenta: numbers.iter().map(|number| state.momenta[of(number)]).collect(),
-            species: numbers.iter().map(|number| state.species[of(number)]).collect(),
+            positions: some_of(&state.positions, &numbers),
+            momenta: some_of(&state.momenta, &numbers),
+            species: some_of(&state.species, &numbers),
             ..State::default()
         };
         Self { state: sample, numbers: Some(numbers) }

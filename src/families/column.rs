@@ -31,6 +31,12 @@ pub(crate) const BATH_ENERGIES: [Column; 2] = [
 ];
 /// Mean square of the variables of baths.
 pub(crate) const BATH_SQUARE: Column = column("bath_square", |row, _| row.bath_square);
+/// Covariances of oscillators and their baths.
+pub(crate) const BATH_PRODUCTS: [Column; 3] = [
+    column("bath_times_momentum", |row, _| row.bath_products.momentum),
+    column("bath_times_displacement", |row, _| row.bath_products.displacement),
+    column("momentum_times_displacement", |row, _| row.bath_products.momentum_displacement),
+];
 /// Kinetic temperature.
 pub(crate) const TEMPERATURE: Column = column("temperature", |row, _| row.kinetic_temperature());
 /// Configurational temperature.

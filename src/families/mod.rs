@@ -35,7 +35,7 @@ pub use field::{Field, FieldError};
 pub use instability::Instability;
 pub use limits::{Beyond, LargestStep, Limit, largest_steps, limits};
 pub use model::{Model, Species};
-pub use observables::{CellObservables, Observables, OnWalls, PutIn};
+pub use observables::{BathProducts, CellObservables, Observables, OnWalls, PutIn};
 pub use particles::Particles;
 pub(crate) use particles::chains::mirrored;
 pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, FRICTION_LIMIT};

@@ -54,12 +54,26 @@ pub struct Observables {
     pub bath_energy: f64,
     /// Mean square of the bath variables.
     pub bath_square: f64,
+    /// Mean products of oscillators with their baths.
+    pub bath_products: BathProducts,
     /// What body forces have put in since the start.
     pub put_in: PutIn,
     /// What walls have taken up since the start.
     pub on_walls: OnWalls,
     /// What is measured of Voronoi cells, in Voronoi DPD.
     pub cells: Option<CellObservables>,
+}
+
+/// Mean products, over all coordinates of oscillators that have a bath with memory: the covariances of bath variable, momentum and displacement
+/// from the end of the tether. In equilibrium the exact motion has none of them, and the schemes only the second.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BathProducts {
+    /// Bath variable times momentum.
+    pub momentum: f64,
+    /// Bath variable times displacement.
+    pub displacement: f64,
+    /// Momentum times displacement.
+    pub momentum_displacement: f64,
 }
 
 /// What body forces have put in since the start of a run.
@@ -143,6 +157,7 @@ impl Observables {
             about_centre_of_mass: model.measures_about_centre_of_mass(),
             bath_energy: 0.0,
             bath_square: 0.0,
+            bath_products: BathProducts::default(),
             put_in: PutIn::default(),
             on_walls: OnWalls::default(),
             cells: None,
@@ -231,6 +246,7 @@ mod tests {
         about_centre_of_mass: true,
         bath_energy: 0.0,
         bath_square: 0.0,
+        bath_products: BathProducts { momentum: 0.0, displacement: 0.0, momentum_displacement: 0.0 },
         put_in: PutIn { momentum: [0.0; 3], work: 0.0 },
         on_walls: OnWalls { momentum: [[0.0; 3]; 6], sheared: 0.0, work: 0.0 },
         cells: None,

@@ -63,6 +63,19 @@ pub struct Quanta {
     pub velocity_squared: f64,
     /// Square of a bath variable.
     pub bath_squared: f64,
+    /// Products with a bath variable.
+    pub bath_products: ProductQuanta,
+}
+
+/// Units of the sums of products, where particles are oscillators in baths with memory.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ProductQuanta {
+    /// Bath variable times momentum.
+    pub momentum: f64,
+    /// Bath variable times displacement.
+    pub displacement: f64,
+    /// Momentum times displacement.
+    pub momentum_displacement: f64,
 }
 
 /// Everything a run does on the device.

@@ -8,7 +8,7 @@ use crate::table::Table;
 
 /// Columns of the table of energies that fluctuate about a constant in equilibrium, those most asked for first. Not among
 /// them are what is conserved, what wanders (the centre of mass in noise), and what is counted.
-const QUANTITIES: [&str; 8] = [
+const QUANTITIES: [&str; 11] = [
     "temperature",
     "internal_temperature",
     "configurational_temperature",
@@ -17,6 +17,9 @@ const QUANTITIES: [&str; 8] = [
     "kinetic_energy",
     "potential_energy",
     "bath_square",
+    "bath_times_momentum",
+    "bath_times_displacement",
+    "momentum_times_displacement",
 ];
 
 /// Whether the means of a scene are meant to be those of equilibrium: where it says how long to wait for that, and for

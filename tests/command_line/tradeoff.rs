@@ -460,15 +460,24 @@ fn schemes_err_as_theory_says() {
         ],
         "output": {"energies": {"every": 4}, "plot": {"width": 640, "height": 480}, "snapshot": {"width": 100, "height": 80}},
     }));
-    let further = ["--vary", "time.step=0.25,1", "--measure", "potential_energy,bath_square,temperature", "--quiet"];
+    let products = "bath_times_displacement,bath_times_momentum,momentum_times_displacement";
+    let measures = format!("potential_energy,bath_square,temperature,{products}");
+    let further = ["--vary", "time.step=0.25,1", "--measure", &measures, "--quiet"];
     succeeds(&borrowed(&arguments(&place, &further)));
     let summary = TradeoffSummary::load(&place.path("out")).unwrap();
     // The exact motion: three coordinates of kT/2 each, and ⟨s²⟩ = kT λ.
     let references: Vec<f64> = summary.references.iter().map(|reference| reference.value).collect();
-    assert_eq!(references, [3000.0, 1.0, 1.0]);
+    assert_eq!(references, [3000.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
     // Of dt = 1: λₑ = 2/3, B = 2/3, W = 1, worked out by hand.
     let coarse = summary.choices.iter().find(|choice| choice.time_step == 1.0).unwrap();
-    for (measure, expected) in [("potential_energy", 3.0 / 7.0), ("bath_square", -1.0 / 7.0), ("temperature", 0.0)] {
+    for (measure, expected) in [
+        ("potential_energy", 3.0 / 7.0),
+        ("bath_square", -1.0 / 7.0),
+        ("temperature", 0.0),
+        ("bath_times_displacement", 2.0 / 7.0),
+        ("bath_times_momentum", 0.0),
+        ("momentum_times_displacement", 0.0),
+    ] {
         let of_scheme = coarse.error(measure).unwrap().of_scheme.unwrap();
         assert!((of_scheme - expected).abs() < 1e-12, "{measure}: {of_scheme}");
     }

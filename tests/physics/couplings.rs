@@ -418,6 +418,15 @@ fn observables_are_sums_over_oscillators() {
         ] {
             assert!((value / expected - 1.0).abs() < 2e-4, "{name}, {}: {value}, expected {expected}", run.name());
         }
+        let product = |a: usize, b: usize| found.iter().map(|c| c[a] * c[b]).sum::<f64>() / found.len() as f64;
+        for (name, value, [a, b]) in [
+            ("bath times momentum", observed.bath_products.momentum, [2, 1]),
+            ("bath times displacement", observed.bath_products.displacement, [2, 0]),
+            ("momentum times displacement", observed.bath_products.momentum_displacement, [1, 0]),
+        ] {
+            let (expected, scale) = (product(a, b), (mean(a) * mean(b)).sqrt());
+            assert!((value - expected).abs() < 2e-4 * scale, "{name}, {}: {value}, expected {expected}", run.name());
+        }
     }
 }
 

@@ -106,6 +106,12 @@ impl Particles {
             && self.position_bath.as_ref().is_some_and(|bath| !bath.memory)
     }
 
+    /// Whether particles are oscillators in baths with memory: a report adds the covariances of bath, momentum and displacement, which theory
+    /// knows.
+    pub(crate) fn oscillates_in_memory(&self) -> bool {
+        self.tether.is_some() && self.position_bath.as_ref().is_some_and(|bath| bath.memory)
+    }
+
     /// Whether a split step relaxes the velocities along bonds.
     #[must_use]
     pub fn relaxes_bonds(&self, model: &Model) -> bool {

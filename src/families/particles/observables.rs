@@ -1,7 +1,7 @@
 //! From the integer sums of a report to observables of particles.
 
 use super::plan::{external, walls};
-use crate::families::{Column, Model, Observables, OnWalls, Particles, PutIn, column};
+use crate::families::{BathProducts, Column, Model, Observables, OnWalls, Particles, PutIn, column};
 use crate::plan::Plan;
 
 /// The observables of a step from the sums of its report.
@@ -20,6 +20,16 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
     let on_walls = walls_place(model).map_or_else(OnWalls::default, |(first, number)| {
         OnWalls::new(model, (0..number).map(|wall| [0, 1, 2].map(|axis| sum(first + 3 * wall + axis))))
     });
+    let products = quanta.bath_products;
+    let bath_products = if model.particles().oscillates_in_memory() {
+        BathProducts {
+            momentum: sum(12) * products.momentum / sum(11),
+            displacement: sum(13) * products.displacement / sum(11),
+            momentum_displacement: sum(14) * products.momentum_displacement / sum(11),
+        }
+    } else {
+        BathProducts::default()
+    };
     Observables {
         step,
         particles: plan.particles,
@@ -37,6 +47,7 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
         about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: if remembering { sum(9) * quanta.pair_energy } else { 0.0 },
         bath_square: if remembering { sum(10) * quanta.bath_squared / sum(11) } else { 0.0 },
+        bath_products,
         put_in,
         on_walls,
         cells: None,
@@ -45,7 +56,9 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
 
 /// The number of sums before those of walls and body forces.
 fn own_sums(model: &Model) -> usize {
-    9 + usize::from(model.particles().relaxes_in_two_stages(model)) + if model.has_memory() { 3 } else { 0 }
+    let products = if model.particles().oscillates_in_memory() { 3 } else { 0 };
+    let remembering = if model.has_memory() { 3 } else { 0 };
+    9 + usize::from(model.particles().relaxes_in_two_stages(model)) + remembering + products
 }
 
 /// The place of the first sum of what walls have taken up, and their number, if there are any.
@@ -68,6 +81,9 @@ pub(super) fn columns(particles: &Particles, model: &Model) -> Vec<Column> {
     if model.has_memory() {
         columns.extend(column::BATH_ENERGIES);
         columns.push(column::BATH_SQUARE);
+    }
+    if particles.oscillates_in_memory() {
+        columns.extend(column::BATH_PRODUCTS);
     }
     // Harmonic chains are at temperature zero and at that of the scene side by side.
     columns.extend(particles.chains.is_none().then_some(column::TEMPERATURE));

@@ -1,6 +1,6 @@
 //! From the integer sums of a report to observables of shallow water.
 
-use crate::families::{Column, Model, Observables, OnWalls, PutIn, ShallowWater, column};
+use crate::families::{BathProducts, Column, Model, Observables, OnWalls, PutIn, ShallowWater, column};
 use crate::plan::Plan;
 
 /// The observables of a step from the sums of its report.
@@ -26,6 +26,7 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, w
         potential_energy: sum(3) * quanta.pair_energy,
         bath_energy: energy_per_square * bath_squares,
         bath_square: bath_squares / water.nodes() as f64,
+        bath_products: BathProducts::default(),
         put_in: PutIn::default(),
         on_walls: OnWalls::default(),
         cells: None,

@@ -2,7 +2,7 @@
 
 use crate::document::Integrator;
 use crate::families::column::column;
-use crate::families::{CellObservables, Column, Model, Observables, OnWalls, PutIn, Voronoi, column};
+use crate::families::{BathProducts, CellObservables, Column, Model, Observables, OnWalls, PutIn, Voronoi, column};
 use crate::plan::Plan;
 
 /// The residual of the solver of the friction is counted in these.
@@ -41,6 +41,7 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, c
         about_centre_of_mass: true,
         bath_energy: 0.0,
         bath_square: 0.0,
+        bath_products: BathProducts::default(),
         put_in: PutIn::default(),
         on_walls: OnWalls::default(),
         cells: Some(CellObservables {

@@ -2,7 +2,7 @@
 
 use super::bonded::stiffest_spring;
 use crate::families::{Model, PairForce};
-use crate::plan::Quanta;
+use crate::plan::{ProductQuanta, Quanta};
 
 /// Units of the sums. A sum of 64 bits has to hold all particles, and a term the 24 bits of single precision: energies
 /// are counted in 2⁻³² of a typical one, which leaves room for 2³¹ times as much, and the squares of forces and the
@@ -33,5 +33,6 @@ pub(crate) fn quanta(model: &Model) -> Quanta {
         length_squared: cutoff * cutoff * 2_f64.powi(-32),
         velocity_squared: energy / lightest,
         bath_squared: 0.0,
+        bath_products: ProductQuanta::default(),
     }
 }

@@ -12,6 +12,7 @@ use crate::document::Integrator;
 use crate::families::shallow_water::{Bins, WaterLayout};
 use crate::families::{Model, ShallowWater};
 use crate::noise;
+use crate::plan::ProductQuanta;
 use crate::shaders::noise::Deviate;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, grid, mesh, water};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -152,6 +153,7 @@ fn quanta(model: &Model, water: &ShallowWater) -> Quanta {
         curvature: 0.0,
         length_squared: 0.0,
         bath_squared: power_of_two(bath.max(1e-24)) * 2_f64.powi(-32),
+        bath_products: ProductQuanta::default(),
     }
 }
 

@@ -25,14 +25,16 @@ use crate::document::Integrator;
 use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
 use crate::families::{BathStep, Model, PairForce};
 use crate::noise::stream;
-use crate::plan::Layout;
+use crate::plan::{Layout, ProductQuanta};
 use crate::shaders::noise::Deviate;
-use crate::shaders::{Array, Choices, Constant, Entry, couplings, grid, space};
+use crate::shaders::{Array, Choices, Constant, Entry, core, couplings, grid, space};
 
 /// Sums of a report without baths that remember, in the order of `shaders/core/sums.wgsl`; those of baths follow.
 const OBSERVABLES: u64 = 9;
 /// Energy, square and number of the baths that remember.
 const BATH_OBSERVABLES: u64 = 3;
+/// Products of oscillators with their baths.
+const PRODUCTS: u64 = 3;
 
 /// Makes the plan of a model.
 pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> PhysicsPlan {
@@ -102,8 +104,26 @@ fn quanta(model: &Model) -> Quanta {
     let largest = baths(model).into_iter().fold(0.0, |most: f64, step| most.max(step.coupling));
     if largest > 0.0 {
         quanta.bath_squared = (temperature * largest).log2().ceil().exp2() * 2_f64.powi(-32);
+        quanta.bath_products = products(model, temperature, largest);
     }
     quanta
+}
+
+/// Units of the products of typical baths, momenta and displacements of oscillators; none where there are no such.
+fn products(model: &Model, temperature: f64, coupling: f64) -> ProductQuanta {
+    let particles = model.particles();
+    let Some(stiffness) = particles.tether.filter(|_| particles.oscillates_in_memory()) else {
+        return ProductQuanta::default();
+    };
+    let longest = model.units.lengths.into_iter().fold(0.0, f64::max);
+    let (bath, momentum) = ((temperature * coupling).sqrt(), model.units.momentum * 2_f64.powi(24));
+    let displacement = (temperature / stiffness).sqrt().min(longest);
+    let quantum = |product: f64| product.log2().ceil().exp2() * 2_f64.powi(-32);
+    ProductQuanta {
+        momentum: quantum(bath * momentum),
+        displacement: quantum(bath * displacement),
+        momentum_displacement: quantum(momentum * displacement),
+    }
 }
 
 /// The baths that remember.
@@ -144,7 +164,6 @@ impl Builder<'_> {
         let cutoff = self.force.cutoff;
         let reach = model.physics().reach(model);
         let mass = self.species.mass();
-        let inverse = |value: f64| if value > 0.0 { 1.0 / value } else { 0.0 };
         let mut constants = self.grid.constants(&units).to_vec();
         constants.extend([
             (Constant::Particles, self.particles as f64),
@@ -162,7 +181,7 @@ impl Builder<'_> {
             (Constant::Kinetic, units.momentum * units.momentum / (2.0 * mass * quanta.energy)),
             (Constant::InverseMass, 1.0 / mass),
             (Constant::FrictionPerLength, mass / (model.time_step * units.momentum)),
-            (Constant::BathSquare, inverse(quanta.bath_squared)),
+            (Constant::BathSquare, motion::inverse(quanta.bath_squared)),
         ]);
         self.plan.constants = constants;
         if !self.species.have_table() {
@@ -253,7 +272,9 @@ impl Builder<'_> {
     }
 
     fn quantities(&self) -> u64 {
-        OBSERVABLES + if baths(self.model).is_empty() { 0 } else { BATH_OBSERVABLES } + external::sums(self.model)
+        let remembering = if baths(self.model).is_empty() { 0 } else { BATH_OBSERVABLES };
+        let products = if self.model.particles().oscillates_in_memory() { PRODUCTS } else { 0 };
+        OBSERVABLES + remembering + products + external::sums(self.model)
     }
 
     /// Workgroups with a lane for each of some things.
@@ -278,6 +299,7 @@ impl Builder<'_> {
             .with(if self.predicted() { space::Particle::Predicted } else { space::Particle::Plain })
             .and(&self.species.choices())
             .with(words(self.model.generator))
+            .with_if(self.model.particles().oscillates_in_memory(), core::Reported::WithProducts)
             .with_any(external::profile(self.model))
     }
 

@@ -17,11 +17,20 @@ impl Builder<'_> {
         self.plan.advance.push(advance);
         let memory = self.model.particles().position_bath.as_ref().is_some_and(|bath| bath.memory);
         let forces = self.reported_forces();
-        // Masses, baths, a random force and an analysis of forces at once are one buffer too many.
-        let optional =
-            [self.species.have_table(), memory, self.model.particles().coloured_noise.is_some(), forces.is_some()];
+        let products = self.model.particles().oscillates_in_memory();
+        // Masses, baths, tethers, a random force and an analysis of forces at once are two buffers too many.
+        let optional = [
+            self.species.have_table(),
+            memory,
+            products,
+            self.model.particles().coloured_noise.is_some(),
+            forces.is_some(),
+        ];
         self.plan.storage_buffers = (5 + optional.into_iter().filter(|bound| *bound).count() as u32).max(8);
-        let report = choices.with_if(memory, baths::PositionReport::Observed).with_any(forces);
+        let report = choices
+            .with_if(memory, baths::PositionReport::Observed)
+            .with_if(products, baths::PositionProducts::Tethered)
+            .with_any(forces);
         self.report_kernel("observe", Entry::ObserveParticles, &report, groups);
         if self.model.has_potential() {
             self.plan.add_buffer(Array::Forces, 16 * self.particles);
@@ -39,11 +48,12 @@ impl Builder<'_> {
     }
 
     /// What a kernel needs of a species' position bath: response of the bath to a drift, its noise of one step, its energy
-    /// per square.
+    /// per square, which is zero of those that a report does not count.
     pub(super) fn position_coefficients(&self, species: usize) -> [f64; 3] {
         let Some(bath) = self.model.particles().position_bath.as_ref() else { return [0.0; 3] };
         let step = bath.steps[species];
-        let energy = if bath.memory && step.continuous_coupling > 0.0 { 0.5 / step.continuous_coupling } else { 0.0 };
+        let counts = bath.memory && step.continuous_coupling > 0.0 && !self.model.species[species].fixed;
+        let energy = if counts { 0.5 / step.continuous_coupling } else { 0.0 };
         [step.response(), step.noise(bath.temperature), energy / self.plan.quanta.pair_energy]
     }
 
@@ -65,5 +75,18 @@ impl Builder<'_> {
         if memory {
             self.plan.add_buffer(Array::PositionBaths, 16 * self.particles);
         }
+        if self.model.particles().oscillates_in_memory() {
+            let (units, quanta) = (self.model.units, self.plan.quanta.bath_products);
+            self.plan.constants.extend([
+                (Constant::BathMomentum, inverse(quanta.momentum) * units.momentum),
+                (Constant::BathDisplacement, inverse(quanta.displacement)),
+                (Constant::MomentumDisplacement, inverse(quanta.momentum_displacement) * units.momentum),
+            ]);
+        }
     }
+}
+
+/// One over a quantum; nothing of one that is not there.
+pub(super) fn inverse(quantum: f64) -> f64 {
+    if quantum > 0.0 { 1.0 / quantum } else { 0.0 }
 }

@@ -12,7 +12,7 @@ use crate::families::particles::reference::observables::of_motion;
 use crate::families::particles::reference::pairs::{Forces, Pair, find_pairs};
 use crate::families::particles::reference::potential::Potential;
 use crate::families::particles::reference::shear::Images;
-use crate::families::{Bonds, Model, Observables};
+use crate::families::{BathProducts, Bonds, Model, Observables};
 use crate::state::State;
 
 /// Sums of the potential and its derivatives.
@@ -70,8 +70,32 @@ pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -
         total_virial: evaluation.virials.total,
         bath_energy: baths.energy,
         bath_square: if baths.count == 0 { 0.0 } else { baths.squares / baths.count as f64 },
+        bath_products: products(reference, evaluation),
         ..of_configuration(model, state, &Images::of_step(model, state.step), &motion)
     }
+}
+
+/// Mean products of oscillators with their baths.
+fn products(reference: &CouplingsReference, evaluation: &Evaluation) -> BathProducts {
+    let (model, state) = (&reference.model, &reference.state);
+    let bath = model.particles().position_bath.as_ref().filter(|_| model.particles().oscillates_in_memory());
+    let count = evaluation.bath_sums.count;
+    let (Some(bath), 1..) = (bath, count) else { return BathProducts::default() };
+    let mut sums = BathProducts::default();
+    for particle in (0..state.len()).filter(|particle| !is_fixed(model, state, *particle)) {
+        if bath.steps[state.species[particle] as usize].continuous_coupling == 0.0 {
+            continue;
+        }
+        let displacement = tethers::displacement(model, state, particle);
+        for axis in 0..model.units.dimension {
+            let value = f64::from(f32::from_bits(evaluation.baths.position_baths[particle][axis]));
+            let momentum = evaluation.momenta[particle][axis] as f64 * model.units.momentum;
+            sums.momentum += value * momentum / count as f64;
+            sums.displacement += value * displacement[axis] / count as f64;
+            sums.momentum_displacement += momentum * displacement[axis] / count as f64;
+        }
+    }
+    sums
 }
 
 /// The same with what is observed of the configuration of a state.
