@@ -4,6 +4,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod baths;
 mod body_forces;
 mod bonds;
 mod many_body;

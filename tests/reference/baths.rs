@@ -1,0 +1,70 @@
+//! What a report says of baths that remember, against the float64 reference of the same state: which of them count, and how they go with
+//! momenta and displacements.
+
+use mesoscope::measure::Observables;
+use mesoscope::plan::Options;
+use serde_json::{Value, json};
+
+use crate::support::{SideBySide, observables, scene, start, units_of_a_step};
+
+/// Two species with baths, one of which may be held or coupled to nothing.
+fn document(edges: &[f64], interactions: &Value, held: bool) -> Value {
+    json!({
+        "title": "baths",
+        "seed": 5,
+        "space": {"box": edges},
+        "time": {"step": 0.05, "steps": 1},
+        "temperature": 1,
+        "integrator": {"type": "cotter-reich"},
+        "particles": [
+            {"species": "light", "count": 90, "placement": {"type": "random"}},
+            {"species": "heavy", "count": 60, "mass": 2.5, "fixed": held, "placement": {"type": "random"}}],
+        "interactions": interactions,
+        "output": {"energies": {"every": 1}},
+    })
+}
+
+fn sums(row: &Observables) -> [f64; 5] {
+    let products = row.bath_products;
+    [row.bath_energy, row.bath_square, products.momentum, products.displacement, products.momentum_displacement]
+}
+
+#[test]
+fn reports_of_baths_agree_with_the_reference() {
+    let memory = json!({"type": "memory", "rate": 3});
+    let tether = json!({"type": "tether", "stiffness": 7});
+    let all = json!({"type": "langevin", "friction": 2, "bath": memory});
+    let some =
+        json!({"type": "langevin", "friction": 2, "bath": memory, "species": [{"name": "heavy", "friction": 0}]});
+    let pushed = json!({"type": "body-force", "force": [1.5, -0.5]});
+    let pairs = json!({"type": "dpd", "friction": 3, "bath": memory, "pairs": [
+        {"between": ["light", "light"], "repulsion": 0, "friction": 0}]});
+    let boxes: [&[f64]; 3] = [&[40.0], &[7.0, 6.0], &[4.0, 5.0, 4.5]];
+    let mut cases = Vec::new();
+    for edges in boxes {
+        for langevin in [&all, &some] {
+            for held in [false, true] {
+                cases.push((document(edges, &json!([tether, langevin]), held), true));
+                cases.push((document(edges, &json!([langevin]), held), false));
+            }
+        }
+    }
+    cases.push((document(boxes[1], &json!([tether, some, pushed]), false), true));
+    cases.push((document(boxes[1], &json!([tether, all, pairs]), false), true));
+    cases.push((document(boxes[2], &json!([pairs]), false), false));
+    for (document, oscillates) in cases {
+        let scene = scene(&document.to_string());
+        let (model, state) = start(&scene);
+        let mut both = SideBySide::new(scene.clone(), model, &state, Options::default());
+        both.steps(4, units_of_a_step(false), &document.to_string(), |_, _, _| {});
+        let [found, expected] = [observables(&mut both.device, &scene), both.reference.observe()].map(|row| sums(&row));
+        // Sums of some hundred terms in single precision.
+        for (number, (found, expected)) in found.into_iter().zip(expected).enumerate() {
+            assert!(
+                (found - expected).abs() < 1e-4 * expected.abs().max(1.0),
+                "{number}: {found}, {expected}\n{document:#}"
+            );
+            assert_eq!(found != 0.0, number < 2 || oscillates, "{number}: {found}\n{document:#}");
+        }
+    }
+}
