@@ -394,10 +394,20 @@ mod tests {
         let velocity = found("shallow-water").errors.into_iter().find(|error| error.measure == "velocity_distance");
         assert!(velocity.is_some_and(|error| error.uncertainty.is_some_and(|uncertainty| uncertainty > 0.0)));
         let cells = found("voronoi-dpd");
+        assert_eq!((cells.time_step, &cells.basis), (0.0005, &Basis::Measured));
+        // Forms were measured with two integrators, of which `consistent` has one.
+        let consistent = ["interactions.0.form=consistent".to_owned(), "integrator.type=splitting".to_owned()];
+        let cells = expected(&scene::load("voronoi-dpd", &consistent).unwrap()).unwrap();
         assert_eq!(
             (cells.time_step, &cells.basis),
             (0.01, &Basis::OtherChoice("interactions.0.form = gradient".to_owned()))
         );
         assert!(cells.to_string().contains("off with interactions.0.form = gradient and a step of 0.01"), "{cells}");
+        for name in
+            ["langevin-gas", "poiseuille", "couette", "drop", "binary-mixture", "diblock-copolymer", "surfactants"]
+        {
+            assert_eq!(found(name).basis, Basis::Measured, "{name}");
+            assert_eq!(found(name).time_step, scene::load(name, &[]).unwrap().time.step, "{name}");
+        }
     }
 }

@@ -11,13 +11,21 @@ pub struct Builtin {
 }
 
 /// What `mesoscope tradeoff` found of some of them: its summaries.
-pub(crate) const CALIBRATIONS: [&str; 6] = [
+pub(crate) const CALIBRATIONS: [&str; 14] = [
+    include_str!("../../assets/calibration/binary-mixture.json"),
+    include_str!("../../assets/calibration/couette.json"),
+    include_str!("../../assets/calibration/diblock-copolymer.json"),
     include_str!("../../assets/calibration/dpd-fluid.json"),
     include_str!("../../assets/calibration/dpd-fluid-2d.json"),
+    include_str!("../../assets/calibration/drop.json"),
     include_str!("../../assets/calibration/edpd-fluid.json"),
+    include_str!("../../assets/calibration/langevin-gas.json"),
+    include_str!("../../assets/calibration/poiseuille.json"),
     include_str!("../../assets/calibration/polymer-melt.json"),
     include_str!("../../assets/calibration/shallow-water.json"),
+    include_str!("../../assets/calibration/surfactants.json"),
     include_str!("../../assets/calibration/voronoi-dpd.json"),
+    include_str!("../../assets/calibration/voronoi-dpd-paper.json"),
 ];
 
 macro_rules! builtin {

@@ -177,10 +177,8 @@ fn same_runs(summary: &TradeoffSummary) -> Vec<String> {
 
 /// Targets that no choice can be said to meet, as they are parts of nothing.
 fn parts_of_nothing(summary: &TradeoffSummary) -> Vec<String> {
-    let is_of_nothing = |target: &&Target| {
-        summary.reference(&target.measure).is_some_and(|reference| target.is_part_of_nothing(reference.value))
-    };
-    summary.arguments.targets.iter().filter(is_of_nothing).map(Target::part_of_nothing).collect()
+    let of_nothing = |target: &Target| target.part_of_nothing(summary.reference(&target.measure)?);
+    summary.arguments.targets.iter().filter_map(of_nothing).collect()
 }
 
 /// The targets, and which choice meets them.

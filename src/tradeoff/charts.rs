@@ -17,7 +17,7 @@ struct Point<'a> {
 
 /// The chart of a measure; none where no choice has both a cost and an error.
 pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str) -> Option<Chart> {
-    let relative = summary.reference(measure)?.value != 0.0;
+    let relative = !summary.reference(measure)?.is_zero();
     let is_part = summary.choices.iter().find_map(|choice| choice.error(measure)).is_some_and(Deviation::is_part);
     let scale = if is_part { 100.0 } else { 1.0 };
     let point = |choice| {

@@ -27,9 +27,9 @@ pub struct Deviation {
 }
 
 impl Deviation {
-    /// The deviation of what was measured. It is relative unless the reference is zero.
+    /// The deviation of what was measured. It is relative unless the reference is zero for all that is known.
     pub(crate) fn new(measured: &Measured, reference: &Reference) -> Self {
-        let relative = reference.value != 0.0;
+        let relative = !reference.is_zero();
         let scale = if relative { reference.value.abs() } else { 1.0 };
         let uncertainty =
             measured.uncertainty().zip(reference.uncertainty).map(|(own, other)| own.hypot(other) / scale);
@@ -98,6 +98,10 @@ mod tests {
         let absolute = Deviation::new(&measured(-0.1, Some(0.01)), &reference(0.0, Some(0.0)));
         assert_eq!((absolute.error, absolute.relative, absolute.is_within_noise()), (-0.1, false, false));
         assert_eq!(Deviation::new(&measured(1.0, None), &reference(1.0, Some(0.1))).uncertainty, None);
+        // No part of what may be zero.
+        let beside_nothing = |error| Deviation::new(&measured(-0.05, Some(0.01)), &reference(-0.02, Some(error)));
+        assert_eq!([0.009, 0.011].map(|error| beside_nothing(error).relative), [true, false]);
+        assert!((beside_nothing(0.011).error + 0.03).abs() < 1e-15);
     }
 
     #[test]

@@ -53,6 +53,11 @@ pub(super) struct Worst {
     pub measured: f64,
 }
 
+impl Worst {
+    /// Where nothing has a relative error.
+    pub(super) const NONE: Self = Self { counted: 0.0, measured: 0.0 };
+}
+
 /// By what to lengthen all runs so that the worst relative standard error falls from `worst` to what is asked for, within the
 /// budget. `spent` are the seconds of all runs so far, `averaged` the simulated time that means are taken over, `done` how often the runs
 /// were made longer.

@@ -20,6 +20,14 @@ pub struct Reference {
     pub source: Source,
 }
 
+impl Reference {
+    /// Whether it is zero for all that is known of it, so that nothing is a part of it.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.value.abs() <= 2.0 * self.uncertainty.unwrap_or(0.0)
+    }
+}
+
 /// Where a reference is from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

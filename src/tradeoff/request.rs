@@ -1,7 +1,7 @@
 //! What a tradeoff is asked for.
 
 use super::length::Length;
-use super::reference::{self, References};
+use super::reference::{self, Reference, References};
 use super::target::Target;
 use super::{fields, measures};
 use crate::families::Model;
@@ -132,18 +132,27 @@ impl Request {
         Ok(self)
     }
 
+    /// The reference of a measure that is known before anything runs.
+    fn known(&self, measure: &str) -> Option<Reference> {
+        let given = self.arguments.references.find(measure).cloned();
+        given.or_else(|| reference::predicted(measure, &self.base))
+    }
+
+    /// Those of some measures that are not known to be zero: errors of the others are no parts of anything, and more samples make them no
+    /// smaller parts.
+    pub(super) fn with_parts(&self, measures: &[String]) -> Vec<String> {
+        let has_parts = |measure: &&String| !self.known(measure).is_some_and(|reference| reference.is_zero());
+        measures.iter().filter(has_parts).cloned().collect()
+    }
+
     /// The same with targets, whose measures are assessed too.
     ///
     /// # Errors
     /// [`StudyError::Arguments`] names those of measures that no run has, and parts of what is known to be zero.
     pub fn with_targets(mut self, targets: Vec<Target>) -> Result<Self, StudyError> {
         self.check_names("--target", targets.iter().map(|target| target.measure.as_str()))?;
-        let of_nothing = |target: &&Target| {
-            let known = self.arguments.references.find(&target.measure).cloned();
-            let known = known.or_else(|| reference::predicted(&target.measure, &self.base));
-            known.is_some_and(|reference| target.is_part_of_nothing(reference.value))
-        };
-        let of_nothing: Vec<String> = targets.iter().filter(of_nothing).map(Target::part_of_nothing).collect();
+        let of_nothing = |target: &Target| target.part_of_nothing(&self.known(&target.measure)?);
+        let of_nothing: Vec<String> = targets.iter().filter_map(of_nothing).collect();
         if !of_nothing.is_empty() {
             return Err(StudyError::Arguments { mistakes: of_nothing });
         }
@@ -333,6 +342,18 @@ mod tests {
         assert!(target(&request, "momentum_x=0.01").is_ok() && target(&request, "pressure=1%").is_ok());
         let given = request.with_references(References::parse(&["pressure=0".to_owned()]).unwrap()).unwrap();
         assert!(target(&given, "pressure=1%").is_err() && target(&given, "pressure=0.1").is_ok());
+        let uncertain = request_with("pressure=0.02+-0.03");
+        let text = target(&uncertain, "pressure=1%").unwrap_err().to_string();
+        assert!(text.contains("`pressure` should be cannot be told from 0"), "{text}");
+        // More samples make no parts of what should be zero.
+        let measures = ["momentum_x", "pressure", "temperature"].map(str::to_owned);
+        assert_eq!(uncertain.with_parts(&measures), ["temperature"]);
+        assert_eq!(request_with("pressure=0.02+-0.009").with_parts(&measures), ["pressure", "temperature"]);
+    }
+
+    fn request_with(reference: &str) -> Request {
+        let references = References::parse(&[reference.to_owned()]).unwrap();
+        request(&["time.step=0.02,0.04"]).unwrap().with_references(references).unwrap()
     }
 
     #[test]

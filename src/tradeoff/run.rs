@@ -133,7 +133,7 @@ impl StudyRun<TradeoffSummary> {
                 self.summary.wanted = Some(Wanted { rounds: extension.rounds, seconds: total });
                 break;
             }
-            let worst = length.error.and_then(|_| length::worst_error(&self.summary.choices, &self.summary.measures));
+            let worst = length.error.and_then(|_| self.worst_error());
             let worst = worst.map(|worst| worst.counted);
             self.summary.stretch.averaged *= extension.factor;
             self.summary.extensions += 1;
@@ -357,11 +357,17 @@ impl StudyRun<TradeoffSummary> {
         Ok(())
     }
 
+    /// The largest relative standard errors of what may have any.
+    fn worst_error(&self) -> Option<Worst> {
+        let measures = self.request.with_parts(&self.summary.measures);
+        if measures.is_empty() { Some(Worst::NONE) } else { length::worst_error(&self.summary.choices, &measures) }
+    }
+
     /// Whether and by what to make all runs longer.
     fn extension(&self, spent: f64) -> Extension {
         let summary = &self.summary;
         let asked = self.request.arguments.length;
-        let worst = length::worst_error(&summary.choices, &summary.measures);
+        let worst = self.worst_error();
         let found = length::extension(&asked, worst, spent, summary.stretch.averaged, summary.extensions);
         if found.factor > 1.0 || asked.budget.is_some() && asked.error.is_none() {
             return found;
@@ -378,7 +384,7 @@ impl StudyRun<TradeoffSummary> {
                 let is_known = error.uncertainty.is_some() && fluctuates;
                 // More samples make no part of nothing.
                 is_known
-                    && !target.is_part_of_nothing(reference.value)
+                    && !target.is_part_of_nothing(reference)
                     && target.verdict(error, reference.value) == Verdict::Open
             })
         });

@@ -2,6 +2,7 @@
 
 use super::deviation::Deviation;
 use super::measures;
+use super::reference::Reference;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -72,18 +73,26 @@ impl Target {
         Ok(Self { measure: measure.to_owned(), amount })
     }
 
-    /// Whether it is a part of a reference of this value, of which there is none: zero is what drifts and distances should be, and these are
-    /// parts of something else.
-    pub(super) fn is_part_of_nothing(&self, reference: f64) -> bool {
-        matches!(self.amount, Amount::Relative(_)) && reference == 0.0 && !measures::is_part(&self.measure)
+    /// Whether it is a part of a reference of which there is none: zero is what drifts and distances should be, and these are parts of
+    /// something else.
+    pub(super) fn is_part_of_nothing(&self, reference: &Reference) -> bool {
+        self.is_part_where(!reference.is_zero())
     }
 
-    /// What to say of such a target.
-    pub(super) fn part_of_nothing(&self) -> String {
+    /// What to say where it is one.
+    pub(super) fn part_of_nothing(&self, reference: &Reference) -> Option<String> {
         let measure = &self.measure;
-        format!(
-            "what `{measure}` should be is 0, of which there are no parts: give an error in its own units, `--target {measure}=VALUE`"
-        )
+        let is = if reference.value == 0.0 { "is" } else { "cannot be told from" };
+        self.is_part_of_nothing(reference).then(|| {
+            format!(
+                "what `{measure}` should be {is} 0, of which there are no parts: give an error in its own units, `--target {measure}=VALUE`"
+            )
+        })
+    }
+
+    /// The same where errors are parts of the reference, or are not.
+    fn is_part_where(&self, relative: bool) -> bool {
+        matches!(self.amount, Amount::Relative(_)) && !relative && !measures::is_part(&self.measure)
     }
 
     /// The largest error allowed, for a reference of this value; as a part of it if `relative`.
@@ -99,7 +108,7 @@ impl Target {
     /// The verdict on an error, for a reference of this value. An error that nothing is known about stays open, and so does a part of nothing.
     #[must_use]
     pub fn verdict(&self, deviation: &Deviation, reference: f64) -> Verdict {
-        if self.is_part_of_nothing(reference) {
+        if self.is_part_where(deviation.relative) {
             return Verdict::Open;
         }
         let most = self.most(reference, deviation.relative);

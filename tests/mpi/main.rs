@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::thread;
@@ -318,10 +319,32 @@ fn an_interrupted_launcher_leaves_a_checkpoint() {
     for kind in ["-INT", "-TERM"] {
         let (name, output) = told_under_way(&run, kind);
         assert!(!output.status.success(), "{}", said(&output));
+        // Whatever a process had written beyond its checkpoint.
+        let table = fs::OpenOptions::new().append(true).open(run.directory(name).join("energies.csv"));
+        table.unwrap().write_all(b"2997,1,2,3\n2999,1").unwrap();
         let mut processes = launcher(2);
         processes.arg(env!("CARGO_BIN_EXE_mesoscope"));
         run.resumes_by(processes, name, "undisturbed");
     }
+}
+
+/// The disk of the first rank is full, once tables have room and pictures have not: files of more than 24 KiB are refused. What others do is
+/// to no avail, and everything ends.
+#[test]
+fn a_full_disk_of_the_first_rank_ends_all_and_the_run_resumes() {
+    let run = Run::of(60, &["--set", "space.box=[4,4,8]"]);
+    assert!(run.command(1, "undisturbed").output().unwrap().status.success());
+    let program = env!("CARGO_BIN_EXE_mesoscope");
+    let mut command = launcher(1);
+    // Memory that processes share is made of files, too, and is not what is tried here.
+    command.args(["--mca", "btl", "tcp,self"]);
+    command.args(["sh", "-c", r#"trap '' XFSZ; ulimit -f 24; exec "$@""#, "sh", program]);
+    command.args(&run.arguments).arg("--out").arg(run.directory("full"));
+    command.args([":", "-n", "1", program]).args(&run.arguments).arg("--out").arg(run.directory("full"));
+    let output = ends(command.spawn().unwrap(), &run.directory("full"));
+    assert_eq!(output.status.code(), Some(5), "{}", said(&output));
+    assert!(said(&output).contains("File too large") && errors(&output) == 1, "{}", said(&output));
+    run.resumes_like("full", "undisturbed");
 }
 
 /// Some rank is killed or stopped at some moment.
