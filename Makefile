@@ -43,10 +43,13 @@ validate: cargo adapter ## the long tests, and all tests on other drivers
 	NODE_PATH=$$(sh .ci/tint.sh) cargo test --release --locked -- --ignored --show-output
 	bash .ci/drivers.sh
 
+# All tests of ranks that are processes; without the last word those that take no minutes.
+MPI_TESTS := --include-ignored
+
 test-mpi: cargo adapter ## the tests of ranks that are processes, with an MPI library
 	@sh .ci/mpi.sh
 	cargo clippy --locked --features mpi --bins --test mpi -- -D warnings
-	cargo test --locked --features mpi --test mpi -- --test-threads=1
+	cargo test --locked --features mpi --test mpi -- --test-threads=1 $(MPI_TESTS)
 
 bench: cargo adapter ## cost per particle-step and per stage
 	cargo bench --locked
