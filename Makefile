@@ -43,7 +43,7 @@ validate: cargo adapter ## the long tests, and all tests on other drivers
 	NODE_PATH=$$(sh .ci/tint.sh) cargo test --release --locked -- --ignored --show-output
 	bash .ci/drivers.sh
 
-# All tests of ranks that are processes; without the last word those that take no minutes.
+# `make test-mpi MPI_TESTS=` leaves out the tests that take minutes.
 MPI_TESTS := --include-ignored
 
 test-mpi: cargo adapter ## the tests of ranks that are processes, with an MPI library

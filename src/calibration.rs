@@ -125,9 +125,11 @@ fn by_theory(scene: &Scene) -> Option<Expected> {
         };
         Some(Deviation::new(&measured, &exact))
     };
+    let columns = model.physics().columns(&model);
+    let is_said =
+        |mean: &ExactMean| KNOWN.contains(&mean.column) && columns.iter().any(|column| column.name == mean.column);
     let means = model.physics().exact_means(&model).into_iter();
-    let errors: Vec<Deviation> =
-        means.filter(|mean| KNOWN.contains(&mean.column)).map(deviation).collect::<Option<_>>()?;
+    let errors: Vec<Deviation> = means.filter(is_said).map(deviation).collect::<Option<_>>()?;
     (!errors.is_empty()).then(|| Expected {
         scene: scene.title.clone(),
         time_step: scene.time.step,
@@ -167,7 +169,7 @@ fn interpolated(step: f64, below: &Known, above: &Known) -> Expected {
     let ends = [below.step(), above.step()];
     let found = above.expected(Basis::Interpolated(ends));
     let between = |high: &Deviation| {
-        let low = below.choice.error(&high.measure)?;
+        let low = below.choice.error(&high.measure).filter(|low| low.relative == high.relative)?;
         let error = between(step, ends, [low.error, high.error]);
         // As uncertain as the less certain of both.
         let uncertainty = low.uncertainty.zip(high.uncertainty).map(|(low, high)| low.max(high));
@@ -264,7 +266,7 @@ impl fmt::Display for Expected {
         let words: Vec<String> = words.collect();
         let (words, step) = (words.join(", "), three_digits(self.time_step));
         match &self.basis {
-            Basis::Theory => return write!(formatter, "{words} off, as theory knows of this scheme and step"),
+            Basis::Theory => return write!(formatter, "{words} off, known exactly for this scheme and step"),
             Basis::Measured => write!(formatter, "{words} off, as measured with a step of {step}")?,
             Basis::Interpolated(ends) => {
                 let [low, high] = ends.map(three_digits);
@@ -370,7 +372,7 @@ mod tests {
             let known = found.errors.iter().find(|known| known.measure == measure).unwrap();
             assert!((known.error - error).abs() < 1e-12, "{measure}: {known:?}");
         }
-        assert!(found.to_string().ends_with(" off, as theory knows of this scheme and step"), "{found}");
+        assert!(found.to_string().ends_with(" off, known exactly for this scheme and step"), "{found}");
         // Repulsion: nothing is known.
         assert_eq!(load(&[r#"interactions.0={"type":"dpd","repulsion":25}"#]), None);
     }

@@ -17,7 +17,8 @@ struct Point<'a> {
 
 /// The chart of a measure; none where no choice has both a cost and an error.
 pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str) -> Option<Chart> {
-    let relative = !summary.reference(measure)?.is_zero();
+    let reference = summary.reference(measure)?;
+    let relative = !reference.is_zero();
     let is_part = summary.choices.iter().find_map(|choice| choice.error(measure)).is_some_and(Deviation::is_part);
     let scale = if is_part { 100.0 } else { 1.0 };
     let point = |choice| {
@@ -59,11 +60,9 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
         panel.series.push(series.with_labels(labels));
     }
     panel.series.push(Series::compared("Pareto front", front));
-    let target = summary.arguments.targets.iter().find(|target| target.measure == measure);
-    if let Some(most) =
-        target.map(|target| target.most(summary.reference(measure).map_or(0.0, |found| found.value), relative))
-    {
-        panel = panel.with_reference("target", scale * most);
+    let of_this = |target: &&super::Target| target.measure == measure && !target.is_part_of_nothing(reference);
+    if let Some(target) = summary.arguments.targets.iter().find(of_this) {
+        panel = panel.with_reference("target", scale * target.most(reference.value, relative));
     }
     let few = points.iter().any(|point| point.error.from_few_samples);
     let bars = match (points.iter().any(|point| point.bar > 0.0), few) {

@@ -338,13 +338,16 @@ mod tests {
         let request = request(&["time.step=0.02,0.04"]).unwrap();
         let target = |request: &Request, text: &str| request.clone().with_targets(vec![Target::parse(text).unwrap()]);
         let text = target(&request, "momentum_x=1%").unwrap_err().to_string();
-        assert!(text.contains("`momentum_x` should be is 0") && text.contains("--target momentum_x=VALUE"), "{text}");
+        assert!(
+            text.contains("the reference of `momentum_x` is 0") && text.contains("--target momentum_x=VALUE"),
+            "{text}"
+        );
         assert!(target(&request, "momentum_x=0.01").is_ok() && target(&request, "pressure=1%").is_ok());
         let given = request.with_references(References::parse(&["pressure=0".to_owned()]).unwrap()).unwrap();
         assert!(target(&given, "pressure=1%").is_err() && target(&given, "pressure=0.1").is_ok());
         let uncertain = request_with("pressure=0.02+-0.03");
         let text = target(&uncertain, "pressure=1%").unwrap_err().to_string();
-        assert!(text.contains("`pressure` should be cannot be told from 0"), "{text}");
+        assert!(text.contains("the reference of `pressure` cannot be told from 0"), "{text}");
         // More samples make no parts of what should be zero.
         let measures = ["momentum_x", "pressure", "temperature"].map(str::to_owned);
         assert_eq!(uncertain.with_parts(&measures), ["temperature"]);

@@ -82,10 +82,10 @@ impl Target {
     /// What to say where it is one.
     pub(super) fn part_of_nothing(&self, reference: &Reference) -> Option<String> {
         let measure = &self.measure;
-        let is = if reference.value == 0.0 { "is" } else { "cannot be told from" };
+        let reference_is = if reference.value == 0.0 { "is 0" } else { "cannot be told from 0" };
         self.is_part_of_nothing(reference).then(|| {
             format!(
-                "what `{measure}` should be {is} 0, of which there are no parts: give an error in its own units, `--target {measure}=VALUE`"
+                "the reference of `{measure}` {reference_is}, so that a percentage of it means nothing: give an error in its own units, `--target {measure}=VALUE`"
             )
         })
     }
@@ -98,8 +98,8 @@ impl Target {
     /// The largest error allowed, for a reference of this value; as a part of it if `relative`.
     pub(super) fn most(&self, reference: f64, relative: bool) -> f64 {
         let (own, other) = match self.amount {
-            // Drifts and distances are parts of something already.
-            Amount::Relative(part) => (part, if reference == 0.0 { part } else { part * reference.abs() }),
+            // What is no part of the reference is one of something else, as drifts and distances are.
+            Amount::Relative(part) => (part, part),
             Amount::Absolute(amount) => (amount / reference.abs(), amount),
         };
         if relative { own } else { other }

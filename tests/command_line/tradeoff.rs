@@ -493,6 +493,13 @@ fn schemes_err_as_theory_says() {
     assert!(header.lines().next().unwrap().contains("potential_energy_error_of_scheme"), "{header}");
     let page = fs::read_to_string(place.path("out").join(files::PAGE)).unwrap();
     assert!(page.contains("What theory says of the scheme"), "{page}");
+    // A target at the error itself stays open, and asks for more samples also where nothing but what should be zero is measured.
+    let fine = summary.choices.iter().find(|choice| choice.time_step == 0.25).unwrap();
+    let size = fine.error("bath_times_displacement").unwrap().size();
+    let (target, open) = (format!("bath_times_displacement={size}"), place.argument("open"));
+    let further = ["tradeoff", &place.scene(), "--vary", "time.step=0.25", "--quiet", "--out", &open];
+    succeeds(&[&further[..], &["--measure", "bath_times_displacement", "--target", &target]].concat());
+    assert!(TradeoffSummary::load(&place.path("open")).unwrap().extensions > 0);
 }
 
 /// A wave that is in balance, with a loop of tracers: how far fields are from those of the start falls with the square of the spacing of nodes,
@@ -654,7 +661,7 @@ fn parts_of_nothing_are_named() {
     let further =
         ["--vary", "time.step=0.02,0.04", "--target", "center_of_mass_velocity_x=1%", "--measure", "temperature"];
     let said = succeeds(&borrowed(&arguments(&place, &further)));
-    let reason = "What `center_of_mass_velocity_x` should be is 0, of which there are no parts";
+    let reason = "The reference of `center_of_mass_velocity_x` is 0, so that a percentage of it means nothing";
     assert!(said.contains(reason) && said.contains("--target center_of_mass_velocity_x=VALUE"), "{said}");
     let summary = TradeoffSummary::load(&place.path("out")).unwrap();
     assert_eq!((summary.choice(), summary.extensions), (None, 0));
@@ -744,12 +751,12 @@ fn mistakes_are_named_before_anything_runs() {
         (
             &["--vary", "time.step=0.02,0.04", "--target", "momentum_x=1%"],
             2,
-            &["what `momentum_x` should be is 0", "`--target momentum_x=VALUE`"],
+            &["the reference of `momentum_x` is 0", "`--target momentum_x=VALUE`"],
         ),
         (
             &["--vary", "time.step=0.02,0.04", "--reference", "pressure=0", "--target", "pressure=1%"],
             2,
-            &["what `pressure` should be is 0"],
+            &["the reference of `pressure` is 0"],
         ),
         (&["--vary", "time.steps=100,200"], 2, &["`time.steps` cannot be varied"]),
         (&["--vary", "time.step=0.02,0.04", "--finer", "integrator.type=none"], 2, &["variant `finer`"]),

@@ -330,7 +330,7 @@ fn an_interrupted_launcher_leaves_a_checkpoint() {
     }
 }
 
-/// The disk of the first rank is full, once tables have room and pictures have not: files of more than 24 KiB are refused. What others do is
+/// The disk of the first rank is full, once tables have room and pictures have not: files of more than 12 KiB are refused (24 blocks of 512 bytes). What others do is
 /// to no avail, and everything ends.
 #[test]
 fn a_full_disk_of_the_first_rank_ends_all_and_the_run_resumes() {

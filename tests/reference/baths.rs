@@ -49,10 +49,16 @@ fn reports_of_baths_agree_with_the_reference() {
             }
         }
     }
+    // Nothing that can move has a bath.
+    let none =
+        json!({"type": "langevin", "friction": 0, "bath": memory, "species": [{"name": "heavy", "friction": 2}]});
+    let unheeded = document(boxes[1], &json!([tether, none]), true);
     cases.push((document(boxes[1], &json!([tether, some, pushed]), false), true));
     cases.push((document(boxes[1], &json!([tether, all, pairs]), false), true));
     cases.push((document(boxes[2], &json!([pairs]), false), false));
-    for (document, oscillates) in cases {
+    let none_moves = cases.len();
+    cases.push((unheeded, false));
+    for (place, (document, oscillates)) in cases.into_iter().enumerate() {
         let scene = scene(&document.to_string());
         let (model, state) = start(&scene);
         let mut both = SideBySide::new(scene.clone(), model, &state, Options::default());
@@ -64,7 +70,37 @@ fn reports_of_baths_agree_with_the_reference() {
                 (found - expected).abs() < 1e-4 * expected.abs().max(1.0),
                 "{number}: {found}, {expected}\n{document:#}"
             );
-            assert_eq!(found != 0.0, number < 2 || oscillates, "{number}: {found}\n{document:#}");
+            assert_eq!(
+                found != 0.0,
+                place != none_moves && number < 2 || oscillates,
+                "{number}: {found}\n{document:#}"
+            );
         }
     }
+}
+
+/// Before the first step baths and momenta are those that are drawn, whatever else has a bath: so is the mean of their products.
+#[test]
+fn products_are_means_over_the_coordinates_of_oscillators() {
+    let tether = json!({"type": "tether", "stiffness": 7});
+    let langevin = json!({"type": "langevin", "friction": 2, "bath": {"type": "memory", "rate": 3}});
+    let pairs = json!({"type": "dpd", "repulsion": 0, "friction": 3, "bath": {"type": "memory", "rate": 3}});
+    let product = |interactions: Value| {
+        let scene = scene(&document(&[6.0, 5.0], &interactions, false).to_string());
+        let (model, state) = start(&scene);
+        let mut both = SideBySide::new(scene.clone(), model, &state, Options::default());
+        let found = observables(&mut both.device, &scene).bath_products.momentum;
+        let expected = both.reference.observe().bath_products.momentum;
+        assert!((found - expected).abs() < 1e-5 && found != 0.0, "{found}, {expected}");
+        assert_eq!((state.position_baths.len(), state.momenta.len()), (150, 150));
+        let of = |particle: usize, axis: usize| {
+            let bath = f64::from(f32::from_bits(state.position_baths[particle][axis]));
+            bath * f64::from(state.momenta[particle][axis]) * both.model.units.momentum
+        };
+        let sum: f64 = (0..150).flat_map(|particle| [0, 1].map(|axis| of(particle, axis))).sum();
+        assert!((found - sum / 300.0).abs() < 1e-5, "{found}, {}", sum / 300.0);
+        found
+    };
+    let [alone, beside] = [json!([tether, langevin]), json!([tether, langevin, pairs])].map(product);
+    assert!((alone - beside).abs() < 1e-5, "{alone}, {beside}");
 }

@@ -21,8 +21,8 @@ pub use layout::{CoupledLayout, ListLayout, ParticleLayout};
 
 use super::reference::Stepper;
 use super::{
-    Angles, BodyForces, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit, Model,
-    Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, units,
+    Angles, BathStep, BodyForces, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit,
+    Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, units,
 };
 use crate::document::{BondPotential, Integrator, Interaction, PairRelaxation, Problems, Scene, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
@@ -110,6 +110,14 @@ impl Particles {
     /// knows.
     pub(crate) fn oscillates_in_memory(&self) -> bool {
         self.tether.is_some() && self.position_bath.as_ref().is_some_and(|bath| bath.memory)
+    }
+
+    /// The number of coordinates that have such a bath, and can move.
+    pub(crate) fn oscillating_coordinates(&self, model: &Model) -> u64 {
+        let Some(bath) = self.position_bath.as_ref().filter(|_| self.oscillates_in_memory()) else { return 0 };
+        let oscillates = |(species, step): &(&Species, &BathStep)| !species.fixed && step.continuous_coupling > 0.0;
+        let species = model.species.iter().zip(&bath.steps).filter(oscillates);
+        species.map(|(species, _)| species.count * model.units.dimension as u64).sum()
     }
 
     /// Whether a split step relaxes the velocities along bonds.

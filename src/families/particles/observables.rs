@@ -21,11 +21,12 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
         OnWalls::new(model, (0..number).map(|wall| [0, 1, 2].map(|axis| sum(first + 3 * wall + axis))))
     });
     let products = quanta.bath_products;
-    let bath_products = if model.particles().oscillates_in_memory() {
+    let coordinates = model.particles().oscillating_coordinates(model);
+    let bath_products = if coordinates > 0 {
         BathProducts {
-            momentum: sum(12) * products.momentum / sum(11),
-            displacement: sum(13) * products.displacement / sum(11),
-            momentum_displacement: sum(14) * products.momentum_displacement / sum(11),
+            momentum: sum(12) * products.momentum / coordinates as f64,
+            displacement: sum(13) * products.displacement / coordinates as f64,
+            momentum_displacement: sum(14) * products.momentum_displacement / coordinates as f64,
         }
     } else {
         BathProducts::default()
@@ -46,7 +47,7 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
         laplacian: sum(8) * quanta.curvature,
         about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: if remembering { sum(9) * quanta.pair_energy } else { 0.0 },
-        bath_square: if remembering { sum(10) * quanta.bath_squared / sum(11) } else { 0.0 },
+        bath_square: if remembering && sum(11) > 0.0 { sum(10) * quanta.bath_squared / sum(11) } else { 0.0 },
         bath_products,
         put_in,
         on_walls,

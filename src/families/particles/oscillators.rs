@@ -32,7 +32,8 @@ fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
         && particles.angles.is_none()
         && particles.coloured_noise.is_none()
         && particles.body_forces.is_none();
-    let couples = bath.steps.iter().all(|step| step.coupling > 0.0);
+    // A bath that never forgets has no noise either.
+    let couples = bath.steps.iter().all(|step| step.coupling > 0.0 && (!bath.memory || step.persistence.abs() < 1.0));
     if !is_alone || !couples || bath.temperature <= 0.0 || model.mobile_particles() == 0 {
         return None;
     }

@@ -104,17 +104,20 @@ fn quanta(model: &Model) -> Quanta {
     let largest = baths(model).into_iter().fold(0.0, |most: f64, step| most.max(step.coupling));
     if largest > 0.0 {
         quanta.bath_squared = (temperature * largest).log2().ceil().exp2() * 2_f64.powi(-32);
-        quanta.bath_products = products(model, temperature, largest);
+        quanta.bath_products = products(model, temperature);
     }
     quanta
 }
 
 /// Units of the products of typical baths, momenta and displacements of oscillators; none where there are no such.
-fn products(model: &Model, temperature: f64, coupling: f64) -> ProductQuanta {
+fn products(model: &Model, temperature: f64) -> ProductQuanta {
     let particles = model.particles();
-    let Some(stiffness) = particles.tether.filter(|_| particles.oscillates_in_memory()) else {
+    let bath = particles.position_bath.as_ref().filter(|_| particles.oscillates_in_memory());
+    let Some((bath, stiffness)) = bath.zip(particles.tether) else { return ProductQuanta::default() };
+    let coupling = bath.steps.iter().fold(0.0, |most: f64, step| most.max(step.coupling));
+    if coupling == 0.0 {
         return ProductQuanta::default();
-    };
+    }
     let longest = model.units.lengths.into_iter().fold(0.0, f64::max);
     let (bath, momentum) = ((temperature * coupling).sqrt(), model.units.momentum * 2_f64.powi(24));
     let displacement = (temperature / stiffness).sqrt().min(longest);

@@ -79,9 +79,8 @@ pub(super) fn observe(reference: &CouplingsReference, evaluation: &Evaluation) -
 fn products(reference: &CouplingsReference, evaluation: &Evaluation) -> BathProducts {
     let (model, state) = (&reference.model, &reference.state);
     let bath = model.particles().position_bath.as_ref().filter(|_| model.particles().oscillates_in_memory());
-    let count = evaluation.bath_sums.count;
-    let (Some(bath), 1..) = (bath, count) else { return BathProducts::default() };
-    let mut sums = BathProducts::default();
+    let Some(bath) = bath else { return BathProducts::default() };
+    let (mut sums, mut count) = (BathProducts::default(), 0_u64);
     for particle in (0..state.len()).filter(|particle| !is_fixed(model, state, *particle)) {
         if bath.steps[state.species[particle] as usize].continuous_coupling == 0.0 {
             continue;
@@ -90,12 +89,18 @@ fn products(reference: &CouplingsReference, evaluation: &Evaluation) -> BathProd
         for axis in 0..model.units.dimension {
             let value = f64::from(f32::from_bits(evaluation.baths.position_baths[particle][axis]));
             let momentum = evaluation.momenta[particle][axis] as f64 * model.units.momentum;
-            sums.momentum += value * momentum / count as f64;
-            sums.displacement += value * displacement[axis] / count as f64;
-            sums.momentum_displacement += momentum * displacement[axis] / count as f64;
+            sums.momentum += value * momentum;
+            sums.displacement += value * displacement[axis];
+            sums.momentum_displacement += momentum * displacement[axis];
+            count += 1;
         }
     }
-    sums
+    let mean = |sum: f64| sum / count.max(1) as f64;
+    BathProducts {
+        momentum: mean(sums.momentum),
+        displacement: mean(sums.displacement),
+        momentum_displacement: mean(sums.momentum_displacement),
+    }
 }
 
 /// The same with what is observed of the configuration of a state.
