@@ -424,9 +424,13 @@ fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
     ] {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
-    // What was not measured is said, with the command that measures this scene as it was changed.
-    let command = "`mesoscope tradeoff gle-oscillator --set interactions.1.bath.rate=1000 --set output.energies.every=1 \
-                   --vary time.step=";
+    // What theory knows: B/(4 - B - W) with B = .2 and W = .01. What was not measured is said, with the command that measures this scene as it was changed.
+    assert!(
+        said.contains("bath times displacement 0.05277") && said.contains("known exactly for this scheme"),
+        "{said}"
+    );
+    let said = succeeds(&["check", "coloured-noise", "--set", "output.energies.every=1"]);
+    let command = "`mesoscope tradeoff coloured-noise --set output.energies.every=1 --vary time.step=";
     assert!(said.contains("not measured of a scene like this") && said.contains(command), "{said}");
     let quoted = "--set 'output.energies={\"every\":20}'";
     let said = succeeds(&["check", "gle-oscillator", "--set", "output.energies={\"every\":20}"]);
