@@ -65,6 +65,8 @@ struct Reporter {
     /// Whether its pictures are fields: what flows has no temperature to speak of.
     flows: bool,
     particles: u64,
+    /// What they are, and what acts on them, where a file or molecules say it.
+    composition: Vec<Vec<String>>,
     bar: Option<ProgressBar>,
     terminal: bool,
     /// Tenths of the run already reported on lines of their own, and when the last was.
@@ -81,6 +83,10 @@ impl Reporter {
         Self {
             flows: model.picture() == PictureKind::Fields,
             particles: model.particle_count(),
+            composition: {
+                let rows = model.composition(simulation.scene()).into_iter();
+                rows.map(|(name, text)| vec![name.to_owned(), text]).collect()
+            },
             scene: simulation.scene().clone(),
             bar: None,
             terminal: std::io::stderr().is_terminal(),
@@ -116,8 +122,9 @@ impl Reporter {
                 let title = printable::name(&self.scene.title);
                 // A closed standard output will be noticed when the results are printed.
                 let _ = print(&format!(
-                    "{title}: {} {noun} in {dimensions}{begin}, on {name} ({driver})\n",
-                    grouped(particles)
+                    "{title}: {} {noun} in {dimensions}{begin}, on {name} ({driver})\n{}",
+                    grouped(particles),
+                    aligned(&self.composition, "  ")
                 ));
                 self.first_step = first_step;
                 if self.terminal {

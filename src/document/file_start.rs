@@ -20,8 +20,27 @@ pub struct FileStart {
     pub bonds: Vec<Arc<FileLinks<2>>>,
     /// Angles, type by type.
     pub angles: Vec<Arc<FileLinks<3>>>,
+    /// How dense it is around the particles, where there is a pair force.
+    pub surroundings: Option<Surroundings>,
     /// Places and velocities; none where a run continues, whose checkpoint has them.
     pub places: Option<FilePlaces>,
+}
+
+/// Number densities around particles at a start that says where they are.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Surroundings {
+    /// Densities of all species in the densest places of each.
+    pub densest: Vec<Vec<f64>>,
+    /// The density of all particles around one, on average.
+    pub mean: f64,
+}
+
+impl Surroundings {
+    /// The largest density of all species together.
+    #[must_use]
+    pub(crate) fn largest(&self) -> f64 {
+        self.densest.iter().map(|of_all| of_all.iter().sum()).fold(self.mean, f64::max)
+    }
 }
 
 /// Where the particles of a file are in its box, and how fast.
@@ -87,6 +106,8 @@ struct Description {
     fastest: Vec<f64>,
     bonds: Vec<DescribedLinks>,
     angles: Vec<DescribedLinks>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    surroundings: Option<Surroundings>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -118,6 +139,12 @@ impl FileStart {
         scene.has_start()
             && copies == self.copies
             && self.fastest.len() == species
+            && self.surroundings.as_ref().is_none_or(|around| {
+                let is_one = |density: &f64| density.is_finite() && *density >= 0.0;
+                around.densest.len() == species
+                    && around.densest.iter().all(|of_all| of_all.len() == species && of_all.iter().all(is_one))
+                    && is_one(&around.mean)
+            })
             && self.species.iter().all(|index| usize::from(*index) < species)
             && self.bonds.iter().flat_map(|links| links.members.iter().flatten()).all(is_there)
             && self.angles.iter().flat_map(|links| links.members.iter().flatten()).all(is_there)
@@ -149,6 +176,7 @@ impl FileStart {
             fastest: self.fastest.clone(),
             bonds: described(&self.bonds),
             angles: described(&self.angles),
+            surroundings: self.surroundings.clone(),
         };
         // Numbers and text, which can always be written.
         let text = serde_json::to_vec(&description).unwrap_or_default();
@@ -191,7 +219,7 @@ impl FileStart {
         }
         let mut bytes = bytes;
         let length = u64::from_le_bytes(take(&mut bytes, 8)?.try_into().ok()?);
-        let Description { copies, particles, fastest, bonds, angles } =
+        let Description { copies, particles, fastest, bonds, angles, surroundings } =
             serde_json::from_slice(take(&mut bytes, length)?).ok()?;
         let species = take(&mut bytes, particles.into())?.to_vec();
         let bonds = links(&mut bytes, bonds, copies, particles)?;
@@ -202,6 +230,7 @@ impl FileStart {
             fastest,
             bonds,
             angles,
+            surroundings,
             places: None,
         })
     }
@@ -265,6 +294,8 @@ mod tests {
                     links(Vec::new(), Vec::new(), copies),
                 ],
                 angles: vec![links(vec![[0, 1, 4]], vec![[[0; 3], [1; 3], [-1; 3]]; shifts(1)], copies)],
+                surroundings: (copies == [1; 3])
+                    .then(|| Surroundings { densest: vec![vec![0.1; 3]; 3], mean: 1.0 / 3.0 }),
                 places: None,
             };
             let bytes = start.to_bytes();

@@ -3,6 +3,7 @@
 use super::{Axis, Space};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// A group of particles of one species.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -11,6 +12,10 @@ pub struct ParticleGroup {
     /// Name of the species; groups of the same species share their mass.
     #[schemars(length(min = 1))]
     pub species: String,
+    /// The type of its particles in the file of a `state`, by number or name; left out, the one that is called as the species, or where the
+    /// file has numbers only, the one in the place that the species has in the scene.
+    #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
+    pub file_type: Option<FileType>,
     /// Number of particles; give this or `number_density`, or list `placement.positions`. With a `state`, its file knows it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub count: Option<u64>,
@@ -38,6 +43,25 @@ pub struct ParticleGroup {
     /// Their velocities at the start.
     #[serde(default)]
     pub velocities: Velocities,
+}
+
+/// A type of particles in a file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum FileType {
+    /// Its number.
+    Number(u32),
+    /// Its name.
+    Name(String),
+}
+
+impl fmt::Display for FileType {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => number.fmt(formatter),
+            Self::Name(name) => name.fmt(formatter),
+        }
+    }
 }
 
 fn one() -> f64 {

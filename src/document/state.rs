@@ -25,6 +25,13 @@ pub struct StateFile {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 3), extend("items" = serde_json::json!({"type": "integer", "format": "uint32", "minimum": 1})))]
     pub replicate: Vec<u32>,
+    /// The style of the atoms of a LAMMPS data file that does not say it, as in an input script: `atomic`, `bond`, `angle`, `molecular`,
+    /// `charge`, `full`, `mdpd`, or `hybrid` and several of these.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub atom_style: Option<String>,
+    /// What becomes of positions outside the box.
+    #[serde(default, skip_serializing_if = "OutsidePositions::is_default")]
+    pub outside: OutsidePositions,
     /// CRC-32 of what was read, as `run.json` has it; a file with another one is refused.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub checksum: Option<String>,
@@ -32,6 +39,24 @@ pub struct StateFile {
 
 fn last() -> i64 {
     -1
+}
+
+/// What becomes of the positions of a state from a file that lie outside its box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OutsidePositions {
+    /// The file is refused (default).
+    #[default]
+    Refuse,
+    /// They are taken modulo the box, along axes without walls, and the turns are counted, on top of those that the file has.
+    Wrap,
+}
+
+impl OutsidePositions {
+    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// Where the velocities of a state from a file come from.

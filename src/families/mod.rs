@@ -43,6 +43,7 @@ pub use particles::model::{
     Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
     HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SpringChain, Strand,
 };
+pub(crate) use particles::surroundings;
 pub use pictures::PictureKind;
 pub use registry::Family;
 pub(crate) use registry::{check_interactions, complete};
@@ -232,6 +233,11 @@ pub(crate) trait Physics {
 
     /// What `check` says of it, name by name, beside what all families have; `cells` are those of the plan in words.
     fn description(&self, scene: &Scene, model: &Model, plan: &Plan, cells: &str) -> Vec<(&'static str, String)>;
+
+    /// What the particles of a file or of molecules are, and what acts on which of them, name by name.
+    fn composition(&self, _: &Scene, _: &Model) -> Vec<(&'static str, String)> {
+        Vec::new()
+    }
 
     /// The kind of pictures that a run draws.
     fn picture(&self) -> PictureKind {

@@ -21,6 +21,24 @@ pub struct Species {
     pub frozen: bool,
 }
 
+impl Species {
+    /// Those of the groups of a scene.
+    pub(super) fn of(scene: &Scene) -> Vec<Self> {
+        let mut species: Vec<Self> = Vec::new();
+        for group in &scene.particles {
+            let count = group.resolved_count(&scene.space);
+            if let Some(known) = species.iter_mut().find(|known| known.name == group.species) {
+                known.count = known.count.saturating_add(count);
+            } else {
+                let name = group.species.clone();
+                let (fixed, frozen) = (group.is_held(), group.is_frozen());
+                species.push(Self { name, mass: group.mass, count, fixed, frozen });
+            }
+        }
+        species
+    }
+}
+
 /// Everything the equations of motion need.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
@@ -64,17 +82,7 @@ impl Model {
     /// ```
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
-        let mut species: Vec<Species> = Vec::new();
-        for group in &scene.particles {
-            let count = group.resolved_count(&scene.space);
-            if let Some(known) = species.iter_mut().find(|known| known.name == group.species) {
-                known.count = known.count.saturating_add(count);
-            } else {
-                let name = group.species.clone();
-                let (fixed, frozen) = (group.is_held(), group.is_frozen());
-                species.push(Species { name, mass: group.mass, count, fixed, frozen });
-            }
-        }
+        let mut species = Species::of(scene);
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
         let family = Family::of(scene, &mut species);
@@ -224,6 +232,12 @@ impl Model {
     #[must_use]
     pub fn description(&self, scene: &Scene, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
         self.physics().description(scene, self, plan, cells)
+    }
+
+    /// What the particles of a file or of molecules are, and what acts on which of them, name by name.
+    #[must_use]
+    pub fn composition(&self, scene: &Scene) -> Vec<(&'static str, String)> {
+        self.physics().composition(scene, self)
     }
 
     /// The kind of pictures that a run draws.

@@ -41,6 +41,9 @@ pub struct Summary {
     pub ranks: Option<RanksSummary>,
     /// Number of particles.
     pub particles: u64,
+    /// What the particles of a file or of molecules are, and what acts on which of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub composition: Vec<String>,
     /// Step of the last state.
     pub steps: u64,
     /// Wall-clock time of the steps, in seconds.
@@ -213,6 +216,7 @@ impl Summary {
             adapter,
             ranks: None,
             particles,
+            composition: Vec::new(),
             steps: 0,
             wall_seconds: 0.0,
             particle_steps_per_second: 0.0,

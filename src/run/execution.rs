@@ -311,6 +311,8 @@ impl<'a> Run<'a> {
             summary.wall_seconds = earlier.wall_seconds;
             summary.particle_steps_per_second = earlier.particle_steps_per_second;
         }
+        let composition = self.model.composition(self.scene).into_iter();
+        summary.composition = composition.map(|(name, text)| format!("{name}: {text}")).collect();
         summary.warnings = warnings;
         summary.ranks = self.ranks.take();
         self.energies.summarise(&mut summary);

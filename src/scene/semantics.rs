@@ -39,6 +39,10 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
     for (index, group) in scene.particles.iter().enumerate() {
         let path = format!("particles[{index}]");
         check_amount(group, &path, problems);
+        if group.file_type.is_some() && scene.state.is_none() {
+            let accepted = "no `type`, which is one of the file that particles start from";
+            problems.push(Problem::new(format!("{path}.type"), "found without a `state`", accepted));
+        }
         if let Placement::Listed { positions } = &group.placement {
             check_vectors(positions, dimension, &format!("{path}.placement.positions"), problems);
         }

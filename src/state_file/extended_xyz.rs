@@ -1,15 +1,16 @@
 //! Extended XYZ: frames of text, each with its number of particles, a line of `key=value` and a line for every particle:
 //! <https://github.com/libAtoms/extxyz>.
 //!
-//! Columns that are read: `pos`; `species_name`, as this program writes it, else `species`; `velo`, `velocities`, `velocity` or
-//! `vel`, else `momenta` over `masses`; `masses` or `mass`; `map_shift` or `images`; `id`. Without `Properties`, a line is a species
-//! and a position.
+//! Columns that are read: `pos`; `species_name`, as this program writes it, else `species`, else `type`, else the atomic number `Z`;
+//! `velo`, `velocities`, `velocity` or `vel`, else `momenta` over `masses`; `masses` or `mass`; `map_shift` or `images`; `id`. Without
+//! `Properties`, a line is a species and a position.
 
+use super::keys::Keys;
 use super::lines::Lines;
 use super::tally::Tally;
 use super::{
-    FROZEN, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements, frozen_layers, place_of_frame,
-    shortened, triclinic,
+    FROZEN, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements, elements, frozen_layers,
+    place_of_frame, shortened, triclinic,
 };
 use crate::state::MOST_PARTICLES;
 use std::collections::{HashMap, HashSet};
@@ -113,6 +114,8 @@ struct Header {
 struct Columns {
     all: usize,
     species: Option<usize>,
+    /// Whether what names the species is an atomic number.
+    is_atomic_number: bool,
     position: Option<usize>,
     velocity: Option<usize>,
     momentum: Option<usize>,
@@ -124,14 +127,13 @@ struct Columns {
 
 impl Header {
     fn of(comment: &str, place: &str) -> Result<Self, Mistakes> {
-        let keys = keys(comment);
-        let value =
-            |name: &str| keys.iter().find(|(key, _)| key.eq_ignore_ascii_case(name)).map(|(_, value)| value.as_str());
+        let keys = Keys::of(comment, place)?;
+        let value = |name: &str| keys.value(name, place);
         let numbers = |name: &str, count: usize| -> Result<Option<Vec<f64>>, Mistake> {
-            let Some(text) = value(name) else { return Ok(None) };
+            let Some(text) = value(name)? else { return Ok(None) };
             let separators = |letter: char| letter.is_whitespace() || [',', '[', ']'].contains(&letter);
             let parts = text.split(separators).filter(|part| !part.is_empty());
-            let numbers: Option<Vec<f64>> = parts.map(|part| part.parse().ok()).collect();
+            let numbers: Option<Vec<f64>> = parts.map(real).collect();
             match numbers.filter(|numbers| numbers.len() == count) {
                 Some(numbers) => Ok(Some(numbers)),
                 None => Err(Mistake::new(
@@ -141,7 +143,7 @@ impl Header {
                 )),
             }
         };
-        if let Some(count) = value(FROZEN).and_then(|text| text.parse().ok()) {
+        if let Some(count) = value(FROZEN)?.and_then(|text| text.parse().ok()) {
             return Err(frozen_layers(place, count).into());
         }
         let (mut lengths, mut tilts) = (None, [0.0; 3]);
@@ -155,7 +157,7 @@ impl Header {
             let Some(leaning) = leaning else {
                 return Err(triclinic(
                     place,
-                    &format!("Lattice=\"{}\"", shortened(value("Lattice").unwrap_or_default())),
+                    &format!("Lattice=\"{}\"", shortened(value("Lattice")?.unwrap_or_default())),
                 )
                 .into());
             };
@@ -166,7 +168,7 @@ impl Header {
         }
         let origin = numbers("Origin", 3)?.map_or([0.0; 3], |origin| [origin[0], origin[1], origin[2]]);
         let mut periodic = None;
-        if let Some(text) = value("pbc") {
+        if let Some(text) = value("pbc")? {
             let wrong = || {
                 let found = format!("found pbc=\"{}\"", shortened(text));
                 Mistake::new(place, found, "`T` or `F` for each of three axes")
@@ -180,7 +182,7 @@ impl Header {
         });
         // Without a box of its own a file leaves it to the scene.
         let open_axes = periodic.filter(|_| lengths.is_some()).map_or([false; 3], |periodic| periodic.map(|is| !is));
-        let columns = Columns::of(value("Properties").unwrap_or("species:S:1:pos:R:3"), place)?;
+        let columns = Columns::of(value("Properties")?.unwrap_or("species:S:1:pos:R:3"), place)?;
         Ok(Self { lengths, displacements: tilts, origin, dimension, open_axes, columns })
     }
 }
@@ -198,37 +200,6 @@ fn truths(text: &str) -> Option<[bool; 3]> {
     truths?.try_into().ok()
 }
 
-/// Keys and values of a comment line; values may stand in quotes or braces.
-fn keys(comment: &str) -> Vec<(String, String)> {
-    let mut found = Vec::new();
-    let mut rest = comment.trim_start();
-    while !rest.is_empty() {
-        let end = rest.find(|letter: char| letter == '=' || letter.is_whitespace()).unwrap_or(rest.len());
-        let (key, after) = rest.split_at(end);
-        let Some(after) = after.strip_prefix('=') else {
-            rest = after.trim_start();
-            continue;
-        };
-        let close = match after.chars().next() {
-            Some('"') => Some('"'),
-            Some('\'') => Some('\''),
-            Some('{') => Some('}'),
-            _ => None,
-        };
-        let (value, after) = match close {
-            Some(close) => {
-                let inner = &after[1..];
-                let end = inner.find(close).unwrap_or(inner.len());
-                (&inner[..end], inner.get(end + 1..).unwrap_or_default())
-            }
-            None => after.split_at(after.find(char::is_whitespace).unwrap_or(after.len())),
-        };
-        found.push((key.to_owned(), value.to_owned()));
-        rest = after.trim_start();
-    }
-    found
-}
-
 impl Columns {
     fn of(properties: &str, place: &str) -> Result<Self, Mistakes> {
         let wrong = |accepted: &str| {
@@ -239,7 +210,7 @@ impl Columns {
             return Err(wrong("a name, a kind and a number of columns for each, divided by colons"));
         }
         let mut columns = Self::default();
-        let mut names = [None; 2];
+        let mut names = [None; 4];
         for triple in parts.chunks_exact(3) {
             let first = columns.all;
             let Some(width) = triple[2].parse::<usize>().ok().filter(|width| (1..=10_000).contains(width)) else {
@@ -248,7 +219,9 @@ impl Columns {
             columns.all += width;
             let (place, needed) = match triple[0] {
                 "species_name" => (&mut names[0], 1),
-                "species" | "type" => (&mut names[1], 1),
+                "species" => (&mut names[1], 1),
+                "type" => (&mut names[2], 1),
+                "Z" => (&mut names[3], 1),
                 "pos" => (&mut columns.position, 3),
                 "velo" | "velocities" | "velocity" | "vel" => (&mut columns.velocity, 3),
                 "momenta" => (&mut columns.momentum, 3),
@@ -263,14 +236,23 @@ impl Columns {
             if width != needed {
                 return Err(wrong(&format!("{needed} columns of `{}`", triple[0])));
             }
-            *place = Some(first);
+            match place {
+                None => *place = Some(first),
+                Some(_) => columns.unused.push(format!("the column `{}`, which says it again", triple[0])),
+            }
         }
-        columns.species = names[0].or(names[1]);
+        columns.species = names.into_iter().flatten().next();
+        columns.is_atomic_number = columns.species.is_some() && columns.species == names[3];
+        for (name, place) in [("type", names[2]), ("Z", names[3])] {
+            if place.is_some() && place != columns.species {
+                columns.unused.push(format!("the column `{name}`, beside names of species"));
+            }
+        }
         if columns.position.is_none() {
             return Err(wrong("a column `pos` of positions"));
         }
         if columns.species.is_none() {
-            return Err(wrong("a column `species`"));
+            return Err(wrong("a column `species`, or `Z` of atomic numbers"));
         }
         if columns.velocity.is_none() && columns.momentum.is_some() && columns.mass.is_none() {
             columns.momentum = None;
@@ -280,9 +262,14 @@ impl Columns {
     }
 }
 
+/// A real number, whose exponent may be marked as Fortran does.
+fn real(word: &str) -> Option<f64> {
+    word.parse().ok().or_else(|| word.replace(['d', 'D'], "e").parse().ok())
+}
+
 /// Three numbers of a line.
-fn vector<T: std::str::FromStr>(words: &[&str], first: usize) -> Option<[T; 3]> {
-    let mut numbers = words.get(first..first + 3)?.iter().map(|word| word.parse().ok());
+fn vector<T>(words: &[&str], first: usize, read: impl Fn(&str) -> Option<T>) -> Option<[T; 3]> {
+    let mut numbers = words.get(first..first + 3)?.iter().map(|word| read(word));
     Some([numbers.next()??, numbers.next()??, numbers.next()??])
 }
 
@@ -319,12 +306,12 @@ fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleF
             }
             continue;
         }
-        let number = |first: usize| words[first].parse::<f64>().ok();
-        let read = |first: Option<usize>| first.map(|first| (first, vector::<f64>(&words, first)));
+        let number = |first: usize| real(words[first]);
+        let read = |first: Option<usize>| first.map(|first| (first, vector(&words, first, real)));
         let (position, velocity) = (read(columns.position), read(columns.velocity));
         let momentum = if columns.velocity.is_none() { read(columns.momentum) } else { None };
         let mass = columns.mass.map(|first| (first, number(first)));
-        let image = columns.image.map(|first| (first, vector::<i64>(&words, first)));
+        let image = columns.image.map(|first| (first, vector(&words, first, |word| word.parse::<i64>().ok())));
         let id = columns.id.map(|first| (first, words[first].parse::<u64>().ok()));
         let bad = [position, velocity, momentum].into_iter().flatten().find(|(_, value)| value.is_none());
         let bad = bad.map(|(first, _)| (first, 3, "three numbers"));
@@ -342,6 +329,15 @@ fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleF
             continue;
         }
         let name = words[columns.species.unwrap_or(0)];
+        if columns.is_atomic_number && name.parse::<u32>().is_err() {
+            let column = columns.species.unwrap_or(0) + 1;
+            let found = format!("found `{}` in column {column}", shortened(name));
+            mistakes.push(Mistake::new(place, found, "an atomic number"));
+            if mistakes.are_enough() {
+                break;
+            }
+            continue;
+        }
         let species = match known.get(name) {
             Some(species) => *species,
             None if known.len() >= MOST_SPECIES => {
@@ -388,27 +384,12 @@ fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleF
             "a number of its own for every particle",
         ));
     }
+    if columns.is_atomic_number {
+        let symbol = |number: &String| number.parse().ok().and_then(elements::symbol);
+        let symbols = file.species.iter().map(|number| symbol(number).map_or_else(|| number.clone(), str::to_owned));
+        let symbols = symbols.collect();
+        file.numerals = std::mem::replace(&mut file.species, symbols);
+    }
     file.masses = masses.finish(&file.species, &mut mistakes);
     if mistakes.is_empty() { Ok(file) } else { Err(mistakes) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_may_be_quoted() {
-        let found = keys(r#"Lattice="1 0 0" a='x y' b={1 2} plain=3 alone Properties=species:S:1 end="#);
-        let found: Vec<(&str, &str)> = found.iter().map(|(key, value)| (key.as_str(), value.as_str())).collect();
-        let expected = [
-            ("Lattice", "1 0 0"),
-            ("a", "x y"),
-            ("b", "1 2"),
-            ("plain", "3"),
-            ("Properties", "species:S:1"),
-            ("end", ""),
-        ];
-        assert_eq!(found, expected);
-        assert_eq!(keys("open=\"no end").len(), 1);
-    }
 }

@@ -1,8 +1,9 @@
 //! LAMMPS data files: <https://docs.lammps.org/read_data.html>.
 //!
-//! Atoms of the styles `atomic`, `bond`, `angle` and `molecular`, with or without image flags; Masses, Velocities, Bonds, Angles and
-//! labels of types. Other sections are skipped, and named. Atoms are put in the order of their ids, as LAMMPS writes them in any.
+//! Atoms of the styles that [`AtomStyle`] knows, with or without image flags; Masses, Velocities, Bonds, Angles and labels of types. Other
+//! sections are skipped, and named. Atoms are put in the order of their ids, as LAMMPS writes them in any.
 
+use super::atom_style::AtomStyle;
 use super::lines::Lines;
 use super::tally::Tally;
 use super::{FORMATS, Links, Mistake, Mistakes, ParticleFile, box_mistake, shortened, triclinic};
@@ -130,10 +131,12 @@ struct Atom {
 }
 
 /// Everything that has been read of a file.
-struct Reader {
+struct Reader<'a> {
     lines: Lines,
     header: Header,
     mistakes: Mistakes,
+    /// The style of atoms where the file does not say it.
+    style: Option<&'a AtomStyle>,
     /// A line that begins the next section.
     ahead: Option<(String, String)>,
     kinds: [Types; 3],
@@ -144,11 +147,12 @@ struct Reader {
     angles: Vec<([u64; 3], u32)>,
 }
 
-pub(super) fn read(file: File, length: u64) -> Result<ParticleFile, Mistakes> {
+pub(super) fn read(file: File, length: u64, style: Option<&AtomStyle>) -> Result<ParticleFile, Mistakes> {
     let mut reader = Reader {
         lines: Lines::of(file),
         header: Header::default(),
         mistakes: Mistakes::default(),
+        style,
         ahead: None,
         kinds: Default::default(),
         masses: Vec::new(),
@@ -171,7 +175,7 @@ fn section_of(line: &str) -> Option<(&'static str, Option<Section>, String)> {
     read.or_else(skipped).map(|(name, section)| (name, section, comment))
 }
 
-impl Reader {
+impl Reader<'_> {
     fn refuse(&mut self, found: String, accepted: impl Into<String>) {
         let place = self.lines.place();
         self.mistakes.push(Mistake::new(place, found, accepted));
@@ -318,19 +322,10 @@ impl Reader {
             Section::BondLabels => header.bond_types,
             Section::AngleLabels => header.angle_types,
         };
-        let style = match comment.split_ascii_whitespace().next() {
-            Some("atomic") if section == Section::Atoms => Some(0),
-            Some("bond" | "angle" | "molecular") if section == Section::Atoms => Some(1),
-            Some(other) if section == Section::Atoms => {
-                let found = format!("found atoms of the style `{}`", shortened(other));
-                self.refuse(
-                    found,
-                    "the styles `atomic`, `bond`, `angle` and `molecular`: others have more than a place and a type",
-                );
-                return Err(std::mem::take(&mut self.mistakes));
-            }
-            _ => None,
-        };
+        let mut style = None;
+        if section == Section::Atoms {
+            style = self.announced(comment).map_err(|mistake| self.refusal(mistake))?;
+        }
         for line in 0..count {
             let Some(text) = self.body_line()? else {
                 let found = format!("the section `{name}` ends after {line} of {count} lines");
@@ -338,22 +333,22 @@ impl Reader {
                 return Ok(());
             };
             let words: Vec<&str> = text.split_ascii_whitespace().collect();
-            if section == Section::Atoms && style.is_none() && [6, 8, 9].contains(&words.len()) {
-                let accepted = format!(
-                    "the style of the atoms in that line, such as `Atoms # molecular`: {} columns are those of several styles",
-                    words.len()
-                );
-                self.refuse("found `Atoms` without a style".to_owned(), accepted);
-                return Err(std::mem::take(&mut self.mistakes));
-            }
-            let accepted = self.read_line(section, style, &words);
-            if let Err(accepted) = accepted {
+            let read = match (section, &style) {
+                (Section::Atoms, None) => {
+                    let found = AtomStyle::of_columns(words.len()).map_err(|mistake| self.refusal(mistake))?;
+                    self.read_atom(style.insert(found), &words)
+                }
+                (Section::Atoms, Some(style)) => self.read_atom(style, &words),
+                _ => self.read_line(section, &words),
+            };
+            if let Err(accepted) = read {
                 self.refuse(format!("found `{}`", shortened(&text)), accepted);
                 if self.mistakes.are_enough() {
                     return Ok(());
                 }
             }
         }
+        self.header.unused.extend(style.iter().flat_map(AtomStyle::unused));
         if self.ahead.is_none()
             && let Some(text) = self.body_line()?
         {
@@ -364,8 +359,8 @@ impl Reader {
         Ok(())
     }
 
-    /// Takes a line of a section; else says what would be accepted.
-    fn read_line(&mut self, section: Section, style: Option<usize>, words: &[&str]) -> Result<(), String> {
+    /// Takes a line of a section but that of atoms; else says what would be accepted.
+    fn read_line(&mut self, section: Section, words: &[&str]) -> Result<(), String> {
         let whole = |word: &str| word.parse::<u64>().ok();
         match section {
             Section::Masses => {
@@ -378,7 +373,7 @@ impl Reader {
                 }
                 self.masses[place as usize] = Some(mass.ok_or("a mass greater than zero")?);
             }
-            Section::Atoms => return self.read_atom(style, words),
+            Section::Atoms => {}
             Section::Velocities => {
                 let read = || Some((whole(words[0])?, vector(&words[1..])?));
                 let read = if words.len() == 4 { read() } else { None };
@@ -425,32 +420,42 @@ impl Reader {
         format!("a type from 1 to {}{labels}", types.count)
     }
 
-    fn read_atom(&mut self, style: Option<usize>, words: &[&str]) -> Result<(), String> {
-        let accepted =
-            "an id, a type and a position (style `atomic`), or a molecule before the type (styles `bond`, `angle` and \
-                        `molecular`), and three images or none"
-                .to_owned();
-        // A line of the second kind has one column more, with images or without; without a style it has five, which are of the first.
-        let shift = match words.len() {
-            5 | 8 => 0,
-            6 | 9 => 1,
-            _ => return Err(accepted),
-        };
-        if style.is_some_and(|style| style != shift) {
-            return Err(accepted);
-        }
-        let id = words[0].parse::<u64>().map_err(|_| accepted.clone())?;
-        let kind = self.kinds[0].place(words[1 + shift]).ok_or_else(|| self.accepted_type(0))?;
-        let position = vector(&words[2 + shift..5 + shift]).ok_or(accepted)?;
-        let image = match words.get(5 + shift..8 + shift) {
-            None => None,
-            Some(words) => {
-                let turns: Option<Vec<i32>> = words.iter().map(|word| word.parse().ok()).collect();
-                match turns.as_deref() {
-                    Some([x, y, z]) => Some([*x, *y, *z]),
-                    _ => return Err("images, whole numbers from -2147483648 to 2147483647".to_owned()),
+    /// The style of atoms that the comment behind the name of their section says, else the one that the scene says, if any does.
+    fn announced(&self, comment: &str) -> Result<Option<AtomStyle>, Mistake> {
+        match (AtomStyle::in_comment(comment, self.style.is_some()), self.style) {
+            (None, given) => Ok(given.cloned()),
+            // LAMMPS writes nothing of the styles that a hybrid one is made of.
+            (Some("hybrid"), Some(given)) if given.is_hybrid() => Ok(Some(given.clone())),
+            (Some(named), given) => {
+                let style = AtomStyle::of(named)?;
+                match given.filter(|given| !given.has_columns_of(&style)) {
+                    None => Ok(Some(style)),
+                    Some(given) => Err(Mistake::new(
+                        "",
+                        format!("found atoms of the style `{named}`, and the `atom_style` \"{given}\" in `state`"),
+                        "the style that the file says, or no `atom_style`",
+                    )),
                 }
             }
+        }
+    }
+
+    /// All mistakes, with one more in the last line.
+    fn refusal(&mut self, mistake: Mistake) -> Mistakes {
+        self.refuse(mistake.found, mistake.accepted);
+        std::mem::take(&mut self.mistakes)
+    }
+
+    fn read_atom(&mut self, style: &AtomStyle, words: &[&str]) -> Result<(), String> {
+        let atom = style.split(words).ok_or_else(|| style.accepted())?;
+        let id = atom.id.parse::<u64>().map_err(|_| style.accepted())?;
+        let kind = self.kinds[0].place(atom.kind).ok_or_else(|| self.accepted_type(0))?;
+        let position = vector(atom.position).ok_or_else(|| style.accepted())?;
+        let turns: Option<Vec<i32>> = atom.images.iter().map(|word| word.parse().ok()).collect();
+        let image = match turns.as_deref() {
+            Some([]) => None,
+            Some([x, y, z]) => Some([*x, *y, *z]),
+            _ => return Err("images, whole numbers from -2147483648 to 2147483647".to_owned()),
         };
         self.atoms.push(Atom { id, kind, position, image });
         Ok(())

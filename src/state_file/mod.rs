@@ -3,9 +3,12 @@
 //! Every format has a file of its own. The first three become one [`ParticleFile`], with what the file says in its own units and
 //! order. A length that a file announces is compared with its size before anything is allocated.
 
+mod atom_style;
 pub mod checkpoint;
+pub(crate) mod elements;
 mod extended_xyz;
 mod gsd;
+mod keys;
 mod lammps;
 mod lines;
 mod tally;
@@ -16,6 +19,8 @@ use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use tally::Tally;
 
+pub(crate) use atom_style::AtomStyle;
+
 /// What a file says of particles, in the order and with the units of the file.
 ///
 /// ```
@@ -25,11 +30,11 @@ use tally::Tally;
 /// # let path = directory.path().join("two.xyz");
 /// let text = "2\nLattice=\"4 0 0 0 5 0 0 0 6\" Properties=species:S:1:pos:R:3:velo:R:3\nA 1 1 1 0 0 2\nB 2 2 2 0 1 0\n";
 /// std::fs::write(&path, text)?;
-/// let file = state_file::read(&path, -1)?;
+/// let file = state_file::read(&path, -1, None)?;
 /// assert_eq!((file.len(), file.lengths), (2, Some([4.0, 5.0, 6.0])));
 /// assert_eq!((file.species[1].as_str(), file.velocities[1]), ("B", [0.0, 1.0, 0.0]));
 ///
-/// let error = state_file::read(&path, 7).unwrap_err();
+/// let error = state_file::read(&path, 7, None).unwrap_err();
 /// assert!(error.to_string().contains("found frame 7; accepted: 0, or -1 from the end: the file has 1 frame"), "{error}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -37,6 +42,8 @@ use tally::Tally;
 pub struct ParticleFile {
     /// Names of the species.
     pub species: Vec<String>,
+    /// Other names of the species: where the file has atomic numbers, these beside the symbols of elements; else empty.
+    pub numerals: Vec<String>,
     /// Whether these are names; otherwise they are the numbers of types, from 1.
     pub labelled: bool,
     /// The species of every particle, as an index of `species`.
@@ -177,13 +184,15 @@ const FORMATS: &str =
 /// Names of axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Reads the particles of a frame, from 0, or from the end where it is negative. The format is recognised by the content.
+/// Reads the particles of a frame, from 0, or from the end where it is negative. The format is recognised by the content. `atom_style` is
+/// that of a LAMMPS data file which does not say it, as in an input script.
 ///
 /// # Errors
 /// [`StateFileError`] says all that is wrong with the file, with lines or frames.
-pub fn read(path: &Path, frame: i64) -> Result<ParticleFile, StateFileError> {
+pub fn read(path: &Path, frame: i64, atom_style: Option<&str>) -> Result<ParticleFile, StateFileError> {
     let error = |mistakes: Mistakes| StateFileError { path: path.to_path_buf(), mistakes: mistakes.into_list() };
-    read_any(path, frame).map_err(error)
+    let style = atom_style.map(AtomStyle::of).transpose().map_err(|mistake| error(mistake.into()))?;
+    read_any(path, frame, style.as_ref()).map_err(error)
 }
 
 /// Opens a file that ends: a device may not, and a pipe is not even opened before somebody writes to it.
@@ -194,17 +203,21 @@ pub(crate) fn open_regular_file(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-fn read_any(path: &Path, frame: i64) -> Result<ParticleFile, Mistakes> {
+fn read_any(path: &Path, frame: i64, style: Option<&AtomStyle>) -> Result<ParticleFile, Mistakes> {
     let mut file = open_regular_file(path)?;
     let mut start = Vec::new();
     file.by_ref().take(START).read_to_end(&mut start)?;
     file.seek(SeekFrom::Start(0))?;
     let length = file.metadata()?.len();
+    let is_of_lammps = !gsd::is_one(&start) && lammps::is_one(&start);
+    if !is_of_lammps {
+        no_atom_style(style.map(ToString::to_string).as_deref())?;
+    }
     if gsd::is_one(&start) {
         gsd::read(file, length, frame)
-    } else if lammps::is_one(&start) {
+    } else if is_of_lammps {
         only_frame(frame)?;
-        lammps::read(file, length)
+        lammps::read(file, length, style)
     } else if extended_xyz::is_one(&start) {
         extended_xyz::read(file, length, frame)
     } else {
@@ -228,6 +241,14 @@ const START: u64 = 1 << 14;
 /// Refuses a frame of a file that has one.
 pub(crate) fn only_frame(frame: i64) -> Result<(), Mistake> {
     place_of_frame(frame, 1).map(|_| ())
+}
+
+/// Refuses a style of atoms of what is no data file of LAMMPS.
+pub(crate) fn no_atom_style(style: Option<&str>) -> Result<(), Mistake> {
+    style.map_or(Ok(()), |style| {
+        let found = format!("found the `atom_style` \"{style}\" in `state`, and no data file of LAMMPS");
+        Err(Mistake::new("", found, "no `atom_style`"))
+    })
 }
 
 /// Which frame of so many is meant.
@@ -272,12 +293,19 @@ impl ParticleFile {
     /// What is wrong with the particles in a box of so many dimensions, but for their velocities: axes beyond are not looked at.
     #[must_use]
     pub fn mistakes(&self, dimension: usize, lengths: [f64; 3]) -> Vec<Mistake> {
-        self.mistakes_between(dimension, lengths, [false; 3])
+        self.mistakes_between(dimension, lengths, [false; 3], false)
     }
 
-    /// The same in a box with walls across some axes, along which nothing is periodic.
+    /// The same in a box with walls across some axes, along which nothing is periodic; where positions are wrapped, along the others they may be
+    /// anywhere.
     #[must_use]
-    pub fn mistakes_between(&self, dimension: usize, lengths: [f64; 3], walled: [bool; 3]) -> Vec<Mistake> {
+    pub fn mistakes_between(
+        &self,
+        dimension: usize,
+        lengths: [f64; 3],
+        walled: [bool; 3],
+        wraps: bool,
+    ) -> Vec<Mistake> {
         let mut mistakes = Mistakes::default();
         let mut nowhere = Tally::default();
         let mut outside = Tally::default();
@@ -299,7 +327,12 @@ impl ParticleFile {
             if place.iter().any(|value| !value.is_finite()) {
                 nowhere.add(|| self.number(particle).to_string());
             } else if (0..dimension).any(|axis| {
-                !is_inside(position[axis] - self.origin[axis] + slack(axis), lengths[axis] + 2.0 * slack(axis))
+                let place = position[axis] - self.origin[axis];
+                if wraps && !walled[axis] {
+                    (place / lengths[axis]).abs() > MOST_TURNS
+                } else {
+                    !is_inside(place + slack(axis), lengths[axis] + 2.0 * slack(axis))
+                }
             }) {
                 let shown = place.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
                 outside.add(|| format!("{} at ({shown})", self.number(particle)));
@@ -316,10 +349,12 @@ impl ParticleFile {
             let upper: Vec<String> = (0..dimension)
                 .map(|axis| format!("{} to {}", self.origin[axis], self.origin[axis] + lengths[axis]))
                 .collect();
-            let accepted = format!(
-                "positions inside the box, {}: take them modulo the box, and keep the turns in images",
-                upper.join(" × ")
-            );
+            let remedy = if wraps {
+                "nothing wraps positions across walls, nor those whose digits end before the box, a million boxes away"
+            } else {
+                "or `\"outside\": \"wrap\"` in `state`, which takes them modulo the box and counts the turns in images"
+            };
+            let accepted = format!("positions inside the box, {}; {remedy}", upper.join(" × "));
             mistakes.push(Mistake::new("", format!("found {particles} outside the box"), accepted));
         }
         self.check_links(&self.bonds, "bond", &mut mistakes);
@@ -384,6 +419,9 @@ impl ParticleFile {
 
 /// What lengths and masses may differ by, as parts of themselves: files in single precision round.
 pub(crate) const ROUNDING: f64 = 1e-6;
+
+/// Boxes from which on a position of double precision has fewer digits than one in the box.
+const MOST_TURNS: f64 = (1 << 20) as f64;
 
 /// Whether a place lies on an edge of a box from 0 to `length`.
 fn is_inside(place: f64, length: f64) -> bool {

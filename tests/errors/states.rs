@@ -335,8 +335,8 @@ fn species_that_the_scene_lacks() {
         &replaced(XYZ, "B 2", "AA 2"),
         &[],
         &[
-            "state.file: `init`: found 1 particles of the species `AA`; did you mean `A`? accepted: the species of some particle \
-           group: `A`, `B`",
+            "state.file: `init`: found 1 particle of the species `AA`; did you mean `A`? accepted: the species of some particle \
+           group: `A`, `B`; or a group with that `type`",
         ],
     );
     refused(
@@ -351,7 +351,7 @@ fn species_that_the_scene_lacks() {
         &[("/particles", json!([{"species": "A"}]))],
         &[
             "state.file: `init`: found 2 particles of type `2`; accepted: types 1 to 1, which are the species of the scene in their \
-           order: `A`; or labels of types",
+           order: `A`; or labels of types, or a `type` in every group",
         ],
     );
 }
@@ -454,7 +454,7 @@ fn ids_and_numbers() {
         &[],
         &[
             "state.file: `init`: found particle 1 at (2, 7, 2) outside the box; accepted: positions inside the box, 0 to 4 × 0 to 5 × \
-           0 to 6: take them modulo the box, and keep the turns in images",
+           0 to 6; or `\"outside\": \"wrap\"` in `state`, which takes them modulo the box and counts the turns in images",
         ],
     );
     refused(
@@ -469,17 +469,14 @@ fn ids_and_numbers() {
         &replaced(LAMMPS, "2 1 B 1.5 1.5 0 0 0 0", "2 1 B 1.5 1.5x 0 0 0 0"),
         &[],
         &[
-            "state.file: `init`, line 33: found `2 1 B 1.5 1.5x 0 0 0 0`; accepted: an id, a type and a position (style `atomic`), \
-           or a molecule before the type (styles `bond`, `angle` and `molecular`), and three images or none",
+            "state.file: `init`, line 33: found `2 1 B 1.5 1.5x 0 0 0 0`; accepted: an id, a molecule, a type, a position (style \
+           `molecular`), and three images or none",
         ],
     );
     refused(
-        &replaced(LAMMPS, "# molecular", "# full"),
+        &replaced(LAMMPS, "# molecular", "# sphere"),
         &[],
-        &[
-            "state.file: `init`, line 28: found atoms of the style `full`; accepted: the styles `atomic`, `bond`, `angle` and \
-           `molecular`: others have more than a place and a type",
-        ],
+        &[&format!("state.file: `init`, line 28: found atoms of the style `sphere`; {STYLES}")],
     );
     let heavy = replaced(XYZ, "velo:R:3", "velo:R:3:masses:R:1");
     let heavy = heavy.replace("0 0 1\n", "0 0 1 2\n").replace("0.5 0 0\n", "0.5 0 0 1\n");
@@ -521,31 +518,302 @@ fn masses_of_lammps() {
     assert_eq!(said(LAMMPS, json!([none, heavy])), [""; 0]);
 }
 
-/// Six columns are a molecule, a charge or a temperature; only five are of one style.
+/// What is accepted in place of other styles of atoms.
+const STYLES: &str = "accepted: the styles `atomic`, `bond`, `angle`, `molecular`, `charge`, `full`, `mdpd`, and `hybrid` of these: others \
+                      have more than a place, a type and a charge";
+
+/// Four atoms of two types, whose lines have so many columns between the type and the place or, where there is a molecule, around it.
+fn atoms(heading: &str, lines: [&str; 4]) -> String {
+    format!(
+        "title\n\n4 atoms\n2 atom types\n0 8 xlo xhi\n0 8 ylo yhi\n0 8 zlo zhi\n\n{heading}\n\n{}\n",
+        lines.join("\n")
+    )
+}
+
+/// Six columns are a molecule, a charge or a density; only five are of one style. The scene may say which it is.
 #[test]
 fn styles_of_lammps_are_not_guessed() {
-    for (name, columns) in [("charge, whole", 6), ("molecule and images", 9), ("images", 8)] {
-        let mut unhinted = replaced(LAMMPS, "Atoms # molecular", "Atoms");
-        if columns == 6 {
-            unhinted = unhinted.replace(" 0 0 1\n", "\n").replace(" 0 0 0\n", "\n").replace(" -1 0 2\n", "\n");
-        } else if columns == 8 {
-            unhinted = unhinted.replace(" 1 A", " A").replace(" 1 B", " B");
+    let plain = ["1 1 1 1 1", "2 2 2 2 2", "3 1 3 3 3", "4 2 4 4 4"];
+    let charged = ["1 1 0.0 1 1 1", "2 2 0.5 2 2 2", "3 1 -0.5 3 3 3", "4 2 0.0 4 4 4"];
+    let full = ["1 1 1 0.0 1 1 1", "2 1 2 0.5 2 2 2", "3 2 1 -0.5 3 3 3", "4 2 2 0.0 4 4 4"];
+    let hybrid = ["1 1 1 1 1 1 0.0", "2 2 2 2 2 1 0.5", "3 1 3 3 3 2 -.5", "4 2 4 4 4 2 0"];
+    let thermal = ("/state/velocities", json!("thermal"));
+    let read = |content: &str, style: Option<&str>| {
+        let place = Place::of("init", content);
+        let style = style.map(|style| ("/state/atom_style", json!(style)));
+        let changes: Vec<_> = [thermal.clone()].into_iter().chain(style).collect();
+        fs::write(place.path().join("scene.json"), text("init", &changes)).unwrap();
+        match scene::load_for(place.path().join("scene.json").to_str().unwrap(), &[], None) {
+            Ok((scene, notices)) => {
+                let model = mesoscope::families::Model::new(&scene);
+                let state = mesoscope::families::initial_state(&scene, &model);
+                let unit = 1_u32 << 29;
+                assert_eq!(state.positions, [1, 2, 3, 4].map(|place| [place * unit; 3]), "{content}");
+                assert_eq!(state.species, [0, 1, 0, 1], "{content}");
+                let notices = notices.iter().map(ToString::to_string).filter(|notice| notice.contains("not used"));
+                Ok(notices.collect::<Vec<_>>())
+            }
+            Err(SceneError::Invalid { problems, .. }) => Err(problems.iter().map(ToString::to_string).collect()),
+            Err(error) => panic!("{error}"),
         }
-        let place = Place::of("init", unhinted);
-        let found = place.problems("init", &[]);
-        let expected =
-            format!("; accepted: the style of the atoms in that line, such as `Atoms # molecular`: {columns} columns");
-        assert!(found.len() == 1 && found[0].contains(&expected), "{name}: {found:?}");
-        assert!(
-            found[0].starts_with("state.file: `init`, line 30: found `Atoms` without a style"),
-            "{name}: {found:?}"
-        );
+    };
+    let unused = |what: &str| Ok(vec![format!("state.file: not used of `init`: {what}")]);
+    for (heading, lines, style, expected) in [
+        ("Atoms", plain, None, Ok(Vec::new())),
+        ("Atoms # charge", charged, None, unused("charges")),
+        ("Atoms", charged, Some("charge"), unused("charges")),
+        ("Atoms # of my own", charged, Some("mdpd"), unused("densities")),
+        ("Atoms # mdpd", charged, None, unused("densities")),
+        ("Atoms #full", full, None, unused("charges")),
+        ("Atoms", full, Some("full"), unused("charges")),
+        ("Atoms # hybrid", hybrid, Some("hybrid molecular charge"), unused("charges")),
+        ("Atoms # hybrid bond charge", hybrid, None, unused("charges")),
+        ("Atoms # atomic", plain, Some("atomic"), Ok(Vec::new())),
+    ] {
+        assert_eq!(read(&atoms(heading, lines), style), expected, "{heading} {style:?}");
     }
-    let five = replaced(LAMMPS, "Atoms # molecular", "Atoms");
-    let five = five.replace(" 1 A", " A").replace(" 1 B", " B");
-    let five = five.replace(" 0 0 1\n", "\n").replace(" 0 0 0\n", "\n").replace(" -1 0 2\n", "\n");
-    let loaded = Place::of("init", five).load("init", &[]);
-    assert!(loaded.is_ok(), "{loaded:?}");
+    let example = |style: &str| {
+        format!(
+            "`\"atom_style\": \"{style}\"` in `state`, or `Atoms # {style}` in the file, with the style that its lines are of"
+        )
+    };
+    for (heading, lines, style, expected) in [
+        (
+            "Atoms",
+            charged,
+            None,
+            format!(
+                "state.file: `init`, line 11: found `Atoms` without a style, and 6 columns, as `bond`, `angle`, `molecular`, `charge`, \
+                 `mdpd` have, and others; accepted: {}",
+                example("bond")
+            ),
+        ),
+        (
+            "Atoms",
+            full,
+            None,
+            format!(
+                "state.file: `init`, line 11: found `Atoms` without a style, and 7 columns, as `full` has, and others; accepted: {}",
+                example("full")
+            ),
+        ),
+        (
+            "Atoms # hybrid",
+            hybrid,
+            None,
+            "state.file: `init`, line 9: found atoms of the style `hybrid`, and not which styles it is made of; accepted: `atom_style` in \
+             `state` with all of them, in the order of the input script, such as \"hybrid full mdpd\""
+                .to_owned(),
+        ),
+        (
+            "Atoms # charge",
+            charged,
+            Some("full"),
+            "state.file: `init`, line 9: found atoms of the style `charge`, and the `atom_style` \"full\" in `state`; accepted: the style \
+             that the file says, or no `atom_style`"
+                .to_owned(),
+        ),
+        ("Atoms # body", plain, None, format!("state.file: `init`, line 9: found atoms of the style `body`; {STYLES}")),
+        ("Atoms # mine", plain, None, format!("state.file: `init`, line 9: found atoms of the style `mine`; {STYLES}")),
+        ("Atoms", plain, Some("fulll"), format!("state.atom_style: found atoms of the style `fulll`; {STYLES}")),
+    ] {
+        assert_eq!(read(&atoms(heading, lines), style), Err(vec![expected]), "{heading} {style:?}");
+    }
+    // A style that lines are not of is found out where a column is none of what it should be.
+    let wrong = read(&atoms("Atoms", charged), Some("molecular")).unwrap_err();
+    assert!(
+        wrong.len() == 4 && wrong[0].contains("line 11: found `1 1 0.0 1 1 1`; accepted: a type from 1 to 2"),
+        "{wrong:?}"
+    );
+    refused(
+        XYZ,
+        &[("/state/atom_style", json!("full"))],
+        &[
+            "state.file: `init`: found the `atom_style` \"full\" in `state`, and no data file of LAMMPS; accepted: no `atom_style`",
+        ],
+    );
+}
+
+/// Positions outside the box are taken modulo the box where the scene asks for it, with the turns that they have made, but not across walls.
+#[test]
+fn positions_outside_are_wrapped() {
+    let lines = ["1 1 1 9 1", "2 2 -7.5 2 2", "3 1 3 3 20", "4 2 4 4 4"];
+    let turned = ["1 1 1 9 1 0 2 0", "2 2 -7.5 2 2 1 0 0", "3 1 3 3 20 0 0 -1", "4 2 4 4 4 5 0 0"];
+    let wrap = |space: Value| {
+        let output = json!({"trajectory": {"every": 1}});
+        vec![
+            ("/state/velocities", json!("thermal")),
+            ("/state/outside", json!("wrap")),
+            ("/output", output),
+            ("/space", space),
+        ]
+    };
+    let whole = json!({"box": [8, 8, 8]});
+    let counted = [[0, 1, 0], [-1, 0, 0], [0, 0, 2], [0, 0, 0]];
+    let kept = [[0, 3, 0], [0, 0, 0], [0, 0, 1], [5, 0, 0]];
+    for (lines, images) in [(lines, counted), (turned, kept)] {
+        let scene = Place::of("init", atoms("Atoms # atomic", lines)).load("init", &wrap(whole.clone())).unwrap();
+        let state = mesoscope::families::initial_state(&scene, &mesoscope::families::Model::new(&scene));
+        let unit = 1_u32 << 28;
+        let expected = [[2, 2, 2], [1, 4, 4], [6, 6, 8], [8, 8, 8]];
+        assert_eq!(state.positions, expected.map(|place| place.map(|part: u32| part * unit)));
+        assert_eq!(state.images, images);
+    }
+    let place = Place::of("init", atoms("Atoms # atomic", lines));
+    let walled = place.problems("init", &wrap(json!({"box": [8, 8, 8], "walls": {"z": {}}})));
+    assert!(
+        walled.len() == 1
+            && walled[0].contains("found particle 3 at (3, 3, 20) outside the box; accepted: positions inside"),
+        "{walled:?}"
+    );
+    let sheared = place.problems("init", &wrap(json!({"box": [8, 8, 8], "shear": {"rate": 1, "gradient": "y"}})));
+    assert!(sheared[0].starts_with("state.outside: found \"wrap\" in a scene whose boundaries shear"), "{sheared:?}");
+    let far = Place::of("init", atoms("Atoms # atomic", ["1 1 1e9 1 1", "2 2 2 2 2", "3 1 3 3 3", "4 2 4 4 4"]));
+    let far = far.problems("init", &wrap(whole));
+    assert!(far[0].contains("found particle 1 at (1000000000, 1, 1) outside the box"), "{far:?}");
+}
+
+/// Types of a file are those of species by name or, where they are numbers, in their order; a `type` says otherwise.
+#[test]
+fn types_of_a_file_are_mapped() {
+    let numbered = atoms("Atoms # atomic", ["1 1 1 1 1", "2 2 2 2 2", "3 2 3 3 3", "4 2 4 4 4"]);
+    let named = XYZ.replace("B 2", "C 2");
+    let thermal = ("/state/velocities", json!("thermal"));
+    let species = |content: &str, groups: &Value| {
+        let place = Place::of("init", content);
+        let scene = place.load("init", &[("/particles", groups.clone()), thermal.clone()]);
+        scene.map(|scene| {
+            let model = mesoscope::families::Model::new(&scene);
+            let rows = model.composition(&scene);
+            // The resolved scene says it again, and is the same.
+            let text = serde_json::to_string(&scene).unwrap();
+            fs::write(place.path().join("again.json"), text).unwrap();
+            let again = scene::load(place.path().join("again.json").to_str().unwrap(), &[]).unwrap();
+            assert_eq!((&again.particles, again.start()), (&scene.particles, scene.start()));
+            rows[0].1.clone()
+        })
+    };
+    for (content, groups, expected) in [
+        (&numbered, json!([{"species": "H"}, {"species": "W"}]), "H 1 (type 1), W 3 (type 2)"),
+        (&numbered, json!([{"species": "W"}, {"species": "H"}]), "W 1 (type 1), H 3 (type 2)"),
+        (&numbered, json!([{"species": "W", "type": 2}, {"species": "H", "type": "1"}]), "W 3 (type 2), H 1 (type 1)"),
+        (&named, json!([{"species": "A"}, {"species": "B", "type": "C"}]), "A 2, B 1 (type C)"),
+    ] {
+        assert_eq!(species(content, &groups).unwrap(), expected, "{groups}");
+    }
+    let problems = |content: &str, groups: Value| match species(content, &groups) {
+        Err(SceneError::Invalid { problems, .. }) => problems.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        other => panic!("{other:?}"),
+    };
+    for (groups, expected) in [
+        (
+            json!([{"species": "W", "type": 3}, {"species": "H", "type": 1}]),
+            "particles[0].type: found `3`; accepted: a type of `init`: `1`, `2`",
+        ),
+        (
+            json!([{"species": "W", "type": 1}, {"species": "H", "type": 1}]),
+            "particles[1].type: found the type `1` for `W` and for `H`; accepted: a type of its own for every species",
+        ),
+        (
+            json!([{"species": "W", "type": 2}, {"species": "H"}]),
+            "particles[1].type: missing, and found in another group; accepted: a type of `init` in all groups, or in none: `1`, `2`",
+        ),
+        (
+            json!([{"species": "W", "count": 1, "type": 2}, {"species": "H", "type": 1}]),
+            "particles[0].count: found 1 particle; accepted: 3, the number of particles of `W` in `init`, or no `count`",
+        ),
+    ] {
+        assert!(problems(&numbered, groups)[0].starts_with(expected), "{expected}");
+    }
+    let alone =
+        text("init", &[("/state", Value::Null), ("/particles", json!([{"species": "A", "count": 1, "type": 1}]))]);
+    let told = scene::parse("test", &alone, &[]).unwrap_err().to_string();
+    assert!(told.contains("particles[0].type: found without a `state`"), "{told}");
+}
+
+/// The line of keys is read by the specification of the format: what a quote or bracket holds is no key, and what readers do not agree on is
+/// refused.
+#[test]
+fn keys_of_extended_xyz() {
+    let frame = |comment: &str| format!("2\n{comment}\nA 1 1 1\nB 5 5 5\n");
+    let rest = "Properties=species:S:1:pos:R:3";
+    let changes = [("/state/velocities", json!("thermal"))];
+    for comment in [
+        format!(
+            r#"comment="he said \" Lattice='3 0 0 0 3 0 0 0 3' \" twice" Lattice="8 0 0 0 8 0 0 0 8" {rest} pbc="T T T""#
+        ),
+        format!(
+            r#""my Lattice"="2 0 0 0 2 0 0 0 2" "x y"="Properties=pos:R:3" Lattice="8 0 0 0 8 0 0 0 8" {rest} pbc="T T T""#
+        ),
+        format!(r#"meta={{"cell": {{"a": 1}}, "b": [1,2]}} Lattice="8 0 0 0 8 0 0 0 8" {rest} pbc="T T T""#),
+        format!("Lattice=[[8, 0, 0], [0, 8.0, 0], [0, 0, 8d0]] {rest} pbc=[T, T, T]"),
+        format!("lattice = {{8 0 0 0 8 0 0 0 8}} {rest} PBC = 1,1,1"),
+        format!(r#"note= empty="" Lattice="8 0 0 0 8 0 0 0 8" Lattice="8 0 0 0 8 0 0 0 8" {rest}"#),
+        // As ASE 3.29 writes it.
+        format!(
+            r#"Lattice="8.0 0.0 0.0 0.0 8.0 0.0 0.0 0.0 8.0" {rest} note="made \"by hand\" pbc=F,F,F Lattice=\"2 0 0 0 2 0 0 0 2\""
+            empty= nothing "my Lattice"="2 0 0 0 2 0 0 0 2" person="O'Brien" nested="_JSON [[1, 2], [3, 4]]"
+            table="_JSON {{\"cell\": {{\"pbc\": [false, true]}}, \"Properties\": \"pos:R:3\"}}" flags="T F" energy=-1.5 pbc="T T T""#
+        )
+        .replace('\n', " "),
+    ] {
+        let loaded = Place::of("init", frame(&comment)).load("init", &changes);
+        let loaded = loaded.unwrap_or_else(|error| panic!("{comment}: {error}"));
+        assert_eq!(loaded.space.lengths, [8.0; 3], "{comment}");
+    }
+    let place = Place::of("init", frame(r#"a remark "without end, and {brackets"#));
+    assert!(place.load("init", &[changes[0].clone(), ("/space", json!({"box": [8, 8, 8]}))]).is_ok());
+    for (comment, expected) in [
+        (
+            format!(r#"Lattice="8 0 0 0 8 0 0 0 8" {rest} note="made \"by hand\" pbc=T,T,T was meant" pbc="F F F""#),
+            "state.file: `init`: found a box that is not periodic along x, y and z",
+        ),
+        (
+            format!(r#"Lattice="8 0 0 0 8 0 0 0 8 {rest} pbc="T T T""#),
+            "state.file: `init`, line 2: found no blank after ",
+        ),
+        (
+            format!("Lattice=[[8 0 0 0 8 0 0 0 8] {rest}"),
+            "state.file: `init`, line 2: found quotes or brackets that do not close",
+        ),
+        (
+            format!(r#"Lattice="8 0 0 0 8 0 0 0 8" {rest} Lattice="3 0 0 0 3 0 0 0 3""#),
+            "state.file: `init`, line 2: found Lattice twice, as \"8 0 0 0 8 0 0 0 8\" and as \"3 0 0 0 3 0 0 0 3\"",
+        ),
+        (
+            format!(r#"a='b Lattice="3 0 0 0 3 0 0 0 3"' Lattice="8 0 0 0 8 0 0 0 8" {rest}"#),
+            "state.file: `init`, line 2: found Lattice within the value a=",
+        ),
+    ] {
+        let found = Place::of("init", frame(&comment)).problems("init", &changes);
+        assert!(found.len() == 1 && found[0].starts_with(expected), "{comment}: {found:?}");
+    }
+}
+
+/// Species may be named by atomic numbers, which are elements or what the scene calls them.
+#[test]
+fn atomic_numbers() {
+    let numbered = "2\nLattice=\"8 0 0 0 8 0 0 0 8\" Properties=Z:I:1:pos:R:3 pbc=\"T T T\"\n6 1 1 1\n200 2 2 2\n";
+    let thermal = ("/state/velocities", json!("thermal"));
+    for names in [["C", "200"], ["6", "200"]] {
+        let groups = json!([{"species": names[1]}, {"species": names[0]}]);
+        let loaded = Place::of("init", numbered).load("init", &[("/particles", groups), thermal.clone()]).unwrap();
+        let state = mesoscope::families::initial_state(&loaded, &mesoscope::families::Model::new(&loaded));
+        assert_eq!(state.species, [1, 0], "{names:?}");
+    }
+    refused(
+        numbered,
+        &[thermal.clone(), ("/particles", json!([{"species": "O"}, {"species": "200"}]))],
+        &[
+            "state.file: `init`: found 1 particle of the species `C`; accepted: the species of some particle group: `O`, `200`; or a group \
+           with that `type`",
+        ],
+    );
+    refused(
+        &numbered.replace("6 1 1 1", "C 1 1 1"),
+        &[thermal],
+        &["state.file: `init`, line 3: found `C` in column 1; accepted: an atomic number"],
+    );
 }
 
 /// Velocities of some atoms, or of one twice, matter where they are used.
@@ -880,6 +1148,39 @@ fn frames_of_gsd() {
             "state.file: `init.gsd`: found the schema `other` in version 1; accepted: a GSD file of the schema `hoomd` in version 1 or 2"
         ]
     );
+}
+
+/// Two frames of six particles, of which the second takes what does not change from the first: `tests/data/README.md`.
+#[test]
+fn a_file_of_gsd_5() {
+    let place = Place::of("five.gsd", include_bytes!("../data/gsd-5.gsd"));
+    for frame in [0, 1] {
+        let output = json!({"trajectory": {"every": 1}});
+        let bonds = json!({"type": "bonds", "potential": {"type": "harmonic", "stiffness": 4}});
+        let changes = [("/state/frame", json!(frame)), ("/output", output), ("/interactions/-", bonds)];
+        let scene = place.load("five.gsd", &changes).unwrap();
+        let model = mesoscope::families::Model::new(&scene);
+        let state = mesoscope::families::initial_state(&scene, &model);
+        assert_eq!(scene.space.lengths, [4.0, 5.0, 6.0]);
+        assert_eq!(state.species, [0, 1, 0, 1, 0, 1]);
+        assert_eq!(model.species.iter().map(|species| species.mass).collect::<Vec<_>>(), [1.5, 1.0]);
+        assert_eq!(
+            model.particles().bonds.as_ref().unwrap().iter().map(|bond| bond.ends).collect::<Vec<_>>(),
+            [[0, 1], [2, 3]]
+        );
+        for particle in 0..6 {
+            let (at, step, mass) = (particle as f64, f64::from(frame), model.species[particle % 2].mass);
+            let expected = [0.5 * at + 0.75, 0.25 * step + 1.5, 5.0 - 0.5 * at];
+            let found = model.units.position(state.positions[particle]);
+            assert!(
+                found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-8),
+                "{particle}: {found:?}, {expected:?}"
+            );
+            let velocity = [0.125 * at, -0.25, step];
+            assert_eq!(model.units.momentum(state.momenta[particle]), velocity.map(|part| mass * part), "{particle}");
+            assert_eq!(state.images[particle], [particle as i32, 0, -frame]);
+        }
+    }
 }
 
 /// The file with some bytes changed, taken out, put in or cut off; numbers and lengths among them become extreme.

@@ -73,6 +73,19 @@ def of_ase():
     atoms = ase.Atoms(numpy.array(["C", "H"])[kinds], positions=positions, cell=lengths, pbc=True)
     atoms.set_masses(masses[kinds])
     atoms.set_momenta(velocities * masses[kinds][:, None])
+    # Texts in which keys are mentioned, and all kinds of values.
+    atoms.info = {
+        "note": 'made "by hand" pbc=F,F,F Lattice="2 0 0 0 2 0 0 0 2"',
+        "empty": "",
+        "nothing": None,
+        "my Lattice": "2 0 0 0 2 0 0 0 2",
+        "person": "O'Brien",
+        "nested": [[1, 2], [3, 4]],
+        "table": {"cell": {"pbc": [False, True]}, "Properties": "pos:R:3"},
+        "stress": numpy.eye(3),
+        "flags": numpy.array([True, False]),
+        "energy": -1.5,
+    }
     ase.io.write(root / "ase.xyz", [atoms, atoms], format="extxyz", columns=["symbols", "positions", "momenta", "masses"])
     # Eight digits behind the point.
     say("ase.xyz", positions, velocities, [], 0.5e-8 / lengths.min(), False)

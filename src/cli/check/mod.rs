@@ -160,8 +160,9 @@ fn overview(
     let cells =
         plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × ");
     let dimensions = dimensions(lengths.len());
-    let mut rows =
-        vec![("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × "))), ("memory", memory)];
+    let mut rows = vec![("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × ")))];
+    rows.extend(model.composition(scene));
+    rows.push(("memory", memory));
     rows.extend(time.map(|time| ("time", time)));
     rows.extend([
         ("files", format!("about {}", bytes(sizes.total()))),

@@ -2,6 +2,7 @@
 
 pub(crate) mod chains;
 pub(crate) mod checks;
+mod composition;
 mod conservation;
 mod description;
 pub(crate) mod layers;
@@ -24,10 +25,12 @@ use super::{
     Angles, BathStep, BodyForces, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit,
     Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, units,
 };
-use crate::document::{BondPotential, Integrator, Interaction, PairRelaxation, Problems, Scene, Warning};
+use crate::document::{
+    BondPotential, FileStart, Integrator, Interaction, PairRelaxation, Problems, Scene, Surroundings, Warning,
+};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
 use crate::state::State;
-use model::topology;
+use model::{surroundings, topology};
 use reference::{CouplingsReference, Reference};
 
 /// What acts on particles.
@@ -35,6 +38,8 @@ use reference::{CouplingsReference, Reference};
 pub struct Particles {
     /// The pair force, if the scene has one.
     pub pair_force: Option<PairForce>,
+    /// How dense it is around particles, where there is one and the start says where they are.
+    pub surroundings: Option<Surroundings>,
     /// A heat bath on the coordinates of particles.
     pub position_bath: Option<PositionBath>,
     /// A random force on every particle that is constant for random times.
@@ -64,6 +69,7 @@ pub struct Particles {
 /// What acts on the particles of other families.
 pub(super) static NONE: Particles = Particles {
     pair_force: None,
+    surroundings: None,
     position_bath: None,
     coloured_noise: None,
     tether: None,
@@ -170,6 +176,7 @@ impl Particles {
             force.skin = force.skin.min(0.5 * scene.space.shortest_length() - force.cutoff).max(0.0);
         }
         Self {
+            surroundings: pair_force.as_ref().and_then(|force| surroundings::of(scene, species, force)),
             pair_force,
             position_bath,
             coloured_noise,
@@ -366,6 +373,10 @@ impl Physics for Particles {
         rows
     }
 
+    fn composition(&self, scene: &Scene, model: &Model) -> Vec<(&'static str, String)> {
+        composition::rows(scene, model)
+    }
+
     fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {
         observables::observables(step, sums, plan, model)
     }
@@ -432,6 +443,24 @@ impl Physics for Particles {
             Box::new(Reference::new(model, state))
         })
     }
+}
+
+/// How dense it is around the particles of a file or of molecules in a box of these edges; nothing without a pair force.
+pub(crate) fn surroundings(scene: &Scene, start: &FileStart, lengths: &[f64]) -> Option<Surroundings> {
+    let places = start.places.as_ref()?;
+    let species = Species::of(scene);
+    let mut interactions = scene.interactions.iter().filter(|interaction| checks::acts(interaction));
+    let force = interactions.find_map(|interaction| match interaction {
+        Interaction::Dpd(dpd) => Some(PairForce::new(dpd, &species, scene.temperature, lengths.len())),
+        _ => None,
+    });
+    let crowd = surroundings::Crowd {
+        places: &places.positions,
+        species: &start.species,
+        lengths,
+        even: vec![0.0; species.len()],
+    };
+    force.map(|force| crowd.surroundings(force.cutoff))
 }
 
 /// The index of a species by its name.

@@ -298,11 +298,10 @@ fn of_pairs_on_average(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
         return strains;
     };
     let place = place_of(scene, |interaction| matches!(interaction, Interaction::Dpd(_)));
-    let volume = model.units.volume();
     for (index, species) in model.species.iter().enumerate().filter(|(_, species)| species.count > 0) {
-        let others = model.species.iter().enumerate().map(|(other, species)| {
+        let others = model.densities(index).map(|(other, density)| {
             let weight = force.weight_volume(index, other, model.units.dimension);
-            force.bath_step(index, other, step).coupling * species.count as f64 / volume * weight
+            force.bath_step(index, other, step).coupling * density * weight
         });
         let mean = others.sum::<f64>() * step * step * inverse_mass(model, index) / model.units.dimension as f64;
         let what = format!("the bath of pairs of `{}` with their neighbours", species.name);

@@ -13,11 +13,11 @@
 //! The comment line has the id of the run. All numbers are in the units of the scene. `Lattice` has three vectors in any
 //! dimension, and `pbc` says which are real.
 
-use super::{Description, Format, Frames, elements};
+use super::{Description, Format, Frames};
 use crate::output::records::RecordFile;
 use crate::output::{Extent, Id, OutputError, files, id};
 use crate::state::State;
-use crate::state_file::FROZEN;
+use crate::state_file::{FROZEN, elements};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;

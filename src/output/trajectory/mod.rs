@@ -1,6 +1,5 @@
 //! Positions and velocities for other tools: OVITO, freud, `MDAnalysis`, ASE.
 
-mod elements;
 mod extended_xyz;
 mod gsd;
 

@@ -42,8 +42,7 @@ fn acceleration_scale(model: &Model) -> f64 {
     let step = model.time_step;
     let squares = model.species.iter().enumerate().filter(|(_, species)| species.count > 0).map(|(a, species)| {
         let sum = |coefficient: &dyn Fn(usize) -> f64| -> f64 {
-            let others = model.species.iter().enumerate();
-            others.map(|(b, other)| coefficient(b) * other.count as f64 / model.units.volume()).sum()
+            model.densities(a).map(|(b, density)| coefficient(b) * density).sum()
         };
         // In units of what particles of the species have among themselves.
         let axes = model.units.dimension;

@@ -6,12 +6,13 @@ mod molecules;
 mod places;
 
 use super::{
-    FileStart, Interaction, KeptStart, Placement, Problem, Problems, Scene, SceneError, SpeciesNames, StateFile,
-    StateFiles, StateVelocities, Velocities, Warning, nearest,
+    FileStart, FileType, Interaction, KeptStart, OutsidePositions, Placement, Problem, Problems, Scene, SceneError,
+    SpeciesNames, StateFile, StateFiles, StateVelocities, Velocities, Warning, nearest,
 };
 use crate::document::number_of_copies;
+use crate::families;
 use crate::state::MOST_PARTICLES;
-use crate::state_file::{self, Links, Mistake, ParticleFile, ROUNDING, StateFileError};
+use crate::state_file::{self, AtomStyle, Links, Mistake, ParticleFile, ROUNDING, StateFileError};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
@@ -39,7 +40,7 @@ pub(super) fn read(
     }
     let Some(state) = scene.state.clone() else { return Ok(of_molecules(scene, masses, problems, notices)) };
     let path = files.path(name, &state.file);
-    let file = match particles(&path, state.frame) {
+    let file = match particles(&path, &state) {
         Ok(file) => file,
         Err(error) if files.known(&state).is_some() => {
             let found = error.mistakes.first().map(|mistake| mistake.found.clone()).unwrap_or_default();
@@ -65,6 +66,8 @@ fn of_molecules(scene: &mut Scene, masses: &[bool], mut problems: Problems, noti
         frame: -1,
         velocities: StateVelocities::Thermal,
         replicate: Vec::new(),
+        atom_style: None,
+        outside: OutsidePositions::Refuse,
         checksum: None,
     };
     let mut reader = Reader { state: &state, file: &file, problems, notices: Vec::new() };
@@ -79,13 +82,15 @@ pub(super) fn path(name: &str, file: &str) -> PathBuf {
 }
 
 /// The particles of a file or of a run.
-fn particles(path: &Path, frame: i64) -> Result<ParticleFile, StateFileError> {
+fn particles(path: &Path, state: &StateFile) -> Result<ParticleFile, StateFileError> {
+    let style = state.atom_style.as_deref();
     match checkpoint::of(path) {
         Some(checkpoint) => {
-            let all = state_file::only_frame(frame).and_then(|()| checkpoint::particles(&checkpoint));
+            let all = state_file::only_frame(state.frame).and_then(|()| state_file::no_atom_style(style));
+            let all = all.and_then(|()| checkpoint::particles(&checkpoint));
             all.map_err(|mistake| StateFileError { path: path.to_path_buf(), mistakes: vec![mistake] })
         }
-        None => state_file::read(path, frame),
+        None => state_file::read(path, state.frame, style),
     }
 }
 
@@ -114,6 +119,16 @@ fn check_scene(scene: &Scene, problems: &mut Problems) {
              more than a place and a velocity, such as masses of their own or energies"
         );
         problems.push(Problem::new(path, found, accepted));
+    }
+    if let Some(style) = scene.state.as_ref().and_then(|state| state.atom_style.as_deref())
+        && let Err(mistake) = AtomStyle::of(style)
+    {
+        problems.push(Problem::new("state.atom_style", mistake.found, mistake.accepted));
+    }
+    if scene.space.shear.is_some() && scene.state.as_ref().is_some_and(|state| state.outside == OutsidePositions::Wrap)
+    {
+        let accepted = "positions inside the box, and no `outside`: whoever crosses boundaries that shear is displaced and gets their velocity";
+        problems.push(Problem::new("state.outside", "found \"wrap\" in a scene whose boundaries shear", accepted));
     }
     if scene.state.is_some() && !scene.molecules.is_empty() {
         let accepted = "one of the two: molecules are placed anew, and a file says where all particles are";
@@ -158,6 +173,16 @@ fn shared(start: FileStart) -> Arc<FileStart> {
     start
 }
 
+/// A number of particles.
+fn particles_in_words(count: u64) -> String {
+    format!("{count} particle{}", if count == 1 { "" } else { "s" })
+}
+
+/// The first group of a species.
+fn group_of(scene: &Scene, species: &str) -> usize {
+    scene.particles.iter().position(|group| group.species == species).unwrap_or(0)
+}
+
 /// A file on its way into a scene.
 struct Reader<'a> {
     state: &'a StateFile,
@@ -181,7 +206,8 @@ impl Reader<'_> {
         let walled = scene.space.walls.of_axes().map(|walls| walls.is_some());
         let sheared = scene.space.shear.as_ref();
         let sheared = sheared.map(|shear| (shear.gradient as usize, shear.first_shift(&scene.space.lengths)));
-        refuse(self.state, self.file.mistakes_between(dimension, lengths, walled), &mut self.problems);
+        let wraps = self.state.outside == OutsidePositions::Wrap;
+        refuse(self.state, self.file.mistakes_between(dimension, lengths, walled, wraps), &mut self.problems);
         if self.state.velocities == StateVelocities::File {
             refuse(self.state, self.file.mistakes_of_velocities(dimension), &mut self.problems);
         }
@@ -204,6 +230,7 @@ impl Reader<'_> {
             );
         }
         let Some(species) = self.species(scene) else { return };
+        self.adopt_types(scene, &species);
         self.adopt_counts(scene, &species);
         self.adopt_masses(scene, masses, &species);
         self.check_types(scene);
@@ -213,8 +240,9 @@ impl Reader<'_> {
         self.note_what_is_not_used(scene, dimension);
         self.note_missing_masses(scene, masses, &species);
         let species_of_scene = SpeciesNames::of(scene).count();
-        let start =
+        let mut start =
             places::start(self.file, self.state, &species, (dimension, walled, sheared), lengths, species_of_scene);
+        start.surroundings = families::surroundings(scene, &start, &lengths[..dimension]);
         self.check_order(scene, &start);
         self.adopt_checksum(scene);
         scene.kept = KeptStart::of(shared(start));
@@ -291,38 +319,104 @@ impl Reader<'_> {
         self.problems.is_empty()
     }
 
-    /// The species of the scene for each one of the file that has particles.
+    /// The species of the scene for each type of the file; all that have particles have one.
     fn species(&mut self, scene: &Scene) -> Option<Vec<Option<u8>>> {
-        let names = SpeciesNames::of(scene);
-        let mut counts = vec![0_u64; self.file.species.len().max(1)];
-        for kind in &self.file.types {
+        let (file, names) = (self.file, SpeciesNames::of(scene));
+        let types = self.types(scene, &names)?;
+        let mut counts = vec![0_u64; file.species.len().max(1)];
+        for kind in &file.types {
             counts[*kind as usize] += 1;
         }
-        let mut found = Vec::with_capacity(counts.len());
-        let mut lacking = Vec::new();
-        for (kind, name) in self.file.species.iter().enumerate() {
-            let place = if self.file.labelled { names.place(name) } else { (kind < names.count()).then_some(kind) };
-            if place.is_none() && counts[kind] > 0 {
-                lacking.push((name.clone(), counts[kind]));
+        let mut found = vec![None; file.species.len()];
+        for (place, kind) in types.iter().enumerate().filter_map(|(place, kind)| Some((place, (*kind)?))) {
+            if let Some(other) = found[kind].replace(place as u8) {
+                let [first, second] = [other.into(), place].map(|place: usize| names.names()[place]);
+                let path = format!("particles[{}].type", group_of(scene, second));
+                let text = format!("found the type `{}` for `{first}` and for `{second}`", file.species[kind]);
+                self.push(path, text, "a type of its own for every species");
             }
-            found.push(place.map(|place| place as u8));
         }
-        for (name, count) in &lacking {
-            let what = if self.file.labelled { "the species" } else { "type" };
-            let found = format!("`{}`: found {count} particles of {what} `{name}`", self.state.file);
+        for kind in (0..counts.len()).filter(|kind| counts[*kind] > 0 && found.get(*kind).is_none_or(Option::is_none)) {
+            let (name, count) = (file.species.get(kind).map_or("", String::as_str), counts[kind]);
+            let what = if file.labelled { "the species" } else { "type" };
+            let found = format!("`{}`: found {} of {what} `{name}`", self.state.file, particles_in_words(count));
             let known = names.names().iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-            let accepted = if self.file.labelled {
-                format!("the species of some particle group: {known}")
+            let accepted = if file.labelled {
+                format!("the species of some particle group: {known}; or a group with that `type`")
             } else {
                 format!(
-                    "types 1 to {}, which are the species of the scene in their order: {known}; or labels of types",
+                    "types 1 to {}, which are the species of the scene in their order: {known}; or labels of types, or a `type` in every \
+                     group",
                     names.count()
                 )
             };
-            let suggestion = nearest(name, names.names().iter().copied()).filter(|_| self.file.labelled);
+            let suggestion = nearest(name, names.names().iter().copied()).filter(|_| file.labelled);
             self.problems.push(Problem::new("state.file", found, accepted).suggest(suggestion));
         }
-        lacking.is_empty().then_some(found)
+        self.problems.is_empty().then_some(found)
+    }
+
+    /// The type of every species of the scene, if the file has it: the one that its groups say, else the one of its name, else, of types without
+    /// names, the one in its place.
+    fn types(&mut self, scene: &Scene, names: &SpeciesNames<'_>) -> Option<Vec<Option<usize>>> {
+        let file = self.file;
+        let called = |name: &str| {
+            let is_called = |kind: &usize| {
+                file.species[*kind] == name || file.numerals.get(*kind).is_some_and(|numeral| numeral == name)
+            };
+            (0..file.species.len()).find(is_called)
+        };
+        let known = || file.species.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let mut found: Vec<Option<usize>> = vec![None; names.count()];
+        let (mut are_said, mut is_wrong) = (false, false);
+        for (index, group) in scene.particles.iter().enumerate() {
+            let Some(wanted) = group.file_type.as_ref().map(ToString::to_string) else { continue };
+            let kind = &mut found[names.place(&group.species)?];
+            are_said = true;
+            let accepted = match called(&wanted) {
+                None => format!("a type of `{}`: {}", self.state.file, known()),
+                Some(said) if kind.is_some_and(|known| known != said) => {
+                    format!("`{}`, as in another group of `{}`", file.species[kind.unwrap_or(said)], group.species)
+                }
+                Some(said) => {
+                    *kind = Some(said);
+                    continue;
+                }
+            };
+            is_wrong = true;
+            let problem = Problem::new(format!("particles[{index}].type"), format!("found `{wanted}`"), accepted);
+            self.problems.push(problem.suggest(nearest(&wanted, file.species.iter().map(String::as_str))));
+        }
+        if is_wrong {
+            return None;
+        }
+        for (place, name) in names.names().iter().enumerate() {
+            if found[place].is_some() {
+                continue;
+            }
+            if !file.labelled && are_said {
+                let path = format!("particles[{}].type", group_of(scene, name));
+                let accepted = format!("a type of `{}` in all groups, or in none: {}", self.state.file, known());
+                self.push(path, "missing, and found in another group", accepted);
+                return None;
+            }
+            found[place] =
+                if file.labelled { called(name) } else { Some(place).filter(|place| *place < file.species.len()) };
+        }
+        Some(found)
+    }
+
+    /// Says of every group which type its particles are of, where the order of groups has said it.
+    fn adopt_types(&self, scene: &mut Scene, species: &[Option<u8>]) {
+        if self.file.labelled {
+            return;
+        }
+        let names: Vec<String> = SpeciesNames::of(scene).names().iter().map(|name| (*name).to_owned()).collect();
+        for group in &mut scene.particles {
+            let is_its_own = |place: &Option<u8>| place.is_some_and(|place| names[usize::from(place)] == group.species);
+            let kind = species.iter().position(is_its_own);
+            group.file_type = kind.map(|kind| FileType::Number(kind as u32 + 1)).or(group.file_type.take());
+        }
     }
 
     /// Numbers of particles; those that the scene gives have to be the same.
@@ -351,7 +445,8 @@ impl Reader<'_> {
             let sum = found.iter().fold(0, |sum: u64, count| sum.saturating_add(*count));
             let first = groups[0];
             if groups.len() > 1 && !groups.iter().all(given) {
-                let accepted = format!("a `count` in each of the groups of `{name}`, {count} particles in all");
+                let accepted =
+                    format!("a `count` in each of the groups of `{name}`, {} in all", particles_in_words(count));
                 self.push(
                     format!("particles[{first}]"),
                     format!("found `{name}` in {} groups", groups.len()),
@@ -361,7 +456,7 @@ impl Reader<'_> {
                 let key = if scene.particles[first].count.is_some() { "count" } else { "number_density" };
                 let accepted =
                     format!("{count}, the number of particles of `{name}` in `{}`, or no `{key}`", self.state.file);
-                self.push(format!("particles[{first}].{key}"), format!("found {sum} particles"), accepted);
+                self.push(format!("particles[{first}].{key}"), format!("found {}", particles_in_words(sum)), accepted);
             }
             for (group, found) in groups.iter().zip(found) {
                 let group = &mut scene.particles[*group];

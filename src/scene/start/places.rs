@@ -1,6 +1,6 @@
 //! Real positions of a file as integers, its bonds and angles with the copies that they reach, and a checksum of it all.
 
-use super::{FileStart, StateFile, StateVelocities};
+use super::{FileStart, OutsidePositions, StateFile, StateVelocities};
 use crate::document::{FileLinks, FilePlaces};
 use crate::state::{crossings, sheared_copy};
 use crate::state_file::{Links, ParticleFile};
@@ -40,12 +40,13 @@ pub(super) fn start(
             *most = velocity.iter().fold(*most, |most: f64, part: &f64| most.max(part.abs()));
         }
     }
-    let image = |(image, position): (&[i32; 3], &[f64; 3])| -> [i32; 3] {
-        let folded = folded(position);
+    let image = |(particle, position): (usize, &[f64; 3])| -> [i32; 3] {
+        let (image, folded) = (file.images.get(particle).copied().unwrap_or_default(), folded(position));
         std::array::from_fn(|axis| if axis < dimension { image[axis].saturating_add(folded[axis].1) } else { 0 })
     };
-    let images =
-        if copies == [1; 3] { file.images.iter().zip(&file.positions).map(image).collect() } else { Vec::new() };
+    let are_counted = !file.images.is_empty() || state.outside == OutsidePositions::Wrap;
+    let counted = file.positions.iter().filter(|_| are_counted && copies == [1; 3]);
+    let images = counted.enumerate().map(image).collect();
     let of_box = Cell { positions: &positions, species: &species, lengths, dimension, copies, sheared };
     let bonds = file.bonds.iter().map(|links| of_box.links(links)).collect();
     let angles = file.angles.iter().map(|links| of_box.links(links)).collect();
@@ -56,6 +57,7 @@ pub(super) fn start(
         fastest,
         bonds,
         angles,
+        surroundings: None,
         places: Some(FilePlaces { positions, velocities, images, tethers }),
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::f64::consts::PI;
 
-use super::PairForce;
+use super::{PairForce, surroundings};
 use crate::document::{
     AnglesInteraction, BondPotential, BondsInteraction, Chain, FileLinks, Interaction, ParticleGroup, Placement, Scene,
     SpeciesNames,
@@ -25,9 +25,12 @@ pub(crate) fn momentum(scene: &Scene, species: &[Species], pair_force: Option<&P
             moved([mass(a), mass(b)]) * energy
         });
         let of_pairs = squares.fold(0.0, f64::max).sqrt();
-        let density = species.iter().map(|species| species.count).sum::<u64>() as f64 / scene.space.volume();
         // Of a crowd all forces of half a step have to fit, though most of them cancel.
-        of_pairs.max(force.many_body.map_or(0.0, |force| 0.5 * scene.time.step * force.strain(density)))
+        of_pairs.max(force.many_body.map_or(0.0, |many_body| {
+            let in_box = species.iter().map(|species| species.count).sum::<u64>() as f64 / scene.space.volume();
+            let around = surroundings::of(scene, species, force).map_or(0.0, |around| around.largest());
+            0.5 * scene.time.step * many_body.strain(in_box.max(around))
+        }))
     });
     for interaction in &scene.interactions {
         most = most.max(match interaction {

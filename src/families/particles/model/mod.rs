@@ -12,6 +12,7 @@ mod many_body;
 mod position;
 mod pulse;
 mod shear;
+pub(crate) mod surroundings;
 mod thermal_start;
 mod time_scales;
 pub(crate) mod topology;

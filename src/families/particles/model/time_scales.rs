@@ -19,7 +19,7 @@ pub(crate) const FREQUENCY_LIMIT: f64 = 1.0;
 const CROWDING: f64 = 0.75;
 
 impl Model {
-    /// The largest mean friction rate of any species that has particles, and its index: Γ = Σ γρ \[ω\] / (d·m), with \[ω\]
+    /// The largest mean friction rate of any species that has particles, and its index: Γ = Σ γρ \[ω\] / (d·m) at the densities ρ around it, with \[ω\]
     /// the weight integrated over the sphere (disc).
     pub(crate) fn largest_friction_rate(&self, force: &PairForce) -> (f64, usize) {
         let dimension = self.units.dimension;
@@ -29,7 +29,7 @@ impl Model {
             let of_pair = |(other, density): (usize, f64)| {
                 force.friction(index, other) * density * (force.weight_volume(index, other, dimension) / unit)
             };
-            self.densities().map(of_pair).sum::<f64>() * unit / (dimension as f64 * self.species[index].mass)
+            self.densities(index).map(of_pair).sum::<f64>() * unit / (dimension as f64 * self.species[index].mass)
         })
     }
 
@@ -58,7 +58,7 @@ impl Model {
                 let relative = force.cutoff_between(index, other) / length;
                 force.stiffness(index, other) * density * relative.powi(dimension as i32 - 1)
             };
-            let stiffness: f64 = self.densities().map(of_pair).sum();
+            let stiffness: f64 = self.densities(index).map(of_pair).sum();
             let of_pairs = crowded * (stiffness * unit / (dimension as f64 * length * self.species[index].mass)).sqrt();
             of_pairs.hypot(self.many_body_stiffness(force).map_or(0.0, |[stiffness, neighbours]| {
                 let crowded = 1.0 + CROWDING * (2.0 * dimension as f64 / neighbours).sqrt();
@@ -75,7 +75,7 @@ impl Model {
     pub(crate) fn many_body_stiffness(&self, force: &PairForce) -> Option<[f64; 2]> {
         let many_body = force.many_body?;
         let (dimension, range) = (self.units.dimension as i32, many_body.cutoff);
-        let mean: f64 = self.densities().map(|(_, density)| density).sum();
+        let mean = self.largest(|index| self.densities(index).map(|(_, density)| density).sum()).0;
         let attraction =
             force.largest_attraction(self.units.dimension) / (2.0 * many_body.repulsion * range.powi(dimension + 1));
         let liquid = if attraction > 0.0 { attraction + 4.16 * (0.75 / range).powi(dimension) } else { 0.0 };
@@ -101,15 +101,31 @@ impl Model {
     fn neighbours(&self, force: &PairForce, index: usize) -> f64 {
         let dimension = self.units.dimension;
         let unit = force.sphere(index, index, dimension);
-        self.densities().map(|(other, density)| density * (force.sphere(index, other, dimension) / unit)).sum::<f64>()
+        self.densities(index)
+            .map(|(other, density)| density * (force.sphere(index, other, dimension) / unit))
+            .sum::<f64>()
             * unit
     }
 
-    /// Number densities of the species in the box, in which no frozen ones are.
-    fn densities(&self) -> impl Iterator<Item = (usize, f64)> {
+    /// Number densities of the species around one, in which no frozen ones are: where the start says where particles are, those of the densest
+    /// places there, and not less than in the box.
+    pub(crate) fn densities(&self, index: usize) -> impl Iterator<Item = (usize, f64)> {
         let volume = self.units.volume();
-        let density = move |species: &Species| if species.frozen { 0.0 } else { species.count as f64 / volume };
-        self.species.iter().map(density).enumerate()
+        let in_box = move |species: &Species| if species.frozen { 0.0 } else { species.count as f64 / volume };
+        let around = self.particles().surroundings.as_ref().and_then(|around| around.densest.get(index));
+        let all: f64 = self.species.iter().map(in_box).sum();
+        let found = around.map_or(0.0, |around| around.iter().sum());
+        let around = around.filter(|_| found > 0.0);
+        self.species.iter().enumerate().map(move |(other, species)| {
+            let density = around.and_then(|around| around.get(other)).map(|density| density * (all / found).max(1.0));
+            (other, density.unwrap_or_else(|| in_box(species)))
+        })
+    }
+
+    /// The number density of all particles around one, on average at the start.
+    pub(crate) fn density_around(&self) -> f64 {
+        let around = self.particles().surroundings.as_ref().map_or(0.0, |around| around.mean);
+        around.max(self.particle_count() as f64 / self.units.volume())
     }
 
     /// The largest value of a property among the species that have particles which are not frozen, and the first species that has it.

@@ -19,7 +19,7 @@ pub(super) fn capacity(model: &Model, force: &PairForce, options: Options) -> u6
         2 => PI * range * range,
         _ => 4.0 / 3.0 * PI * range.powi(3),
     };
-    let owned = 0.5 * ball * particles as f64 / model.units.volume();
+    let owned = 0.5 * ball * model.density_around();
     let room = (1.5 * owned + 12.0).ceil() * f64::from(options.list_growth.min(31)).exp2();
     (room as u64).min(particles.saturating_sub(1)).max(1)
 }

@@ -28,7 +28,7 @@ impl Builder<'_> {
             let stressed = law.with(couplings::PairReport::Stress).with_if(memory, baths::PairReport::Observed);
             self.stress_kernel("stress", Entry::VisitListedPairs, &stressed, groups);
         }
-        let density = self.particles as f64 / self.model.units.volume();
+        let density = self.model.density_around();
         let (listed, met) = match self.model.units.dimension {
             1 => (density * (self.force.cutoff + self.force.skin), density * self.force.cutoff),
             2 => (

@@ -597,20 +597,20 @@ impl Builder<'_> {
         }
     }
 
-    /// Arithmetic of a particle and step: the prefilter of the candidates of 27 (9) cells, then the pairs inside the cutoff, as
+    /// Arithmetic of a particle and step: the prefilter of the candidates of up to 27 (9) cells, then the pairs inside the cutoff, as
     /// often as they are visited, with the forces that there are.
     fn operations(&self) -> f64 {
         const MOTION: f64 = 60.0;
         if self.traversal == Traversal::Alone {
             return MOTION;
         }
-        let density = self.particles as f64 / self.model.units.volume();
-        let cutoff = self.force.cutoff;
-        let (candidates, pairs) = if self.grid.dimension == 3 {
-            (27.0 * density * cutoff.powi(3), 4.18879 * density * cutoff.powi(3))
-        } else {
-            (9.0 * density * cutoff.powi(2), std::f64::consts::PI * density * cutoff.powi(2))
-        };
+        let (density, cutoff) = (self.model.density_around(), self.force.cutoff);
+        let ball =
+            if self.grid.dimension == 3 { 4.18879 * cutoff.powi(3) } else { std::f64::consts::PI * cutoff.powi(2) };
+        // Where few particles are in a large box, cells are wider than the cutoff, and a crowd may be in one of them.
+        let searched = self.grid.cells.iter().map(|cells| f64::from(*cells).recip() * f64::from((*cells).min(3)));
+        let searched = searched.product::<f64>() * self.model.units.lengths.iter().product::<f64>();
+        let (candidates, pairs) = ((density * searched).min(self.particles as f64), density * ball);
         let relaxations = if self.relaxes_in_two_stages() { 2.0 } else { 1.0 };
         let visits = self.visits();
         let cost = |there: bool, operations: f64| if there { operations } else { 0.0 };

@@ -1,4 +1,4 @@
-//! Chemical symbols for species, for programs that know nothing else.
+//! Chemical symbols, the names of species in files of programs that know nothing else.
 
 /// The symbols of all elements by their number, from 1.
 const SYMBOLS: [&str; 118] = [
@@ -16,10 +16,15 @@ const UNKNOWN: &str = "X";
 
 /// A symbol for every species: its own name where that is one, else the next that no species is named by; `X` if all are
 /// taken.
-pub(super) fn symbols(names: &[&str]) -> Vec<&'static str> {
+pub(crate) fn symbols(names: &[&str]) -> Vec<&'static str> {
     let own = |name: &str| SYMBOLS.iter().copied().find(|symbol| *symbol == name);
     let mut free = SYMBOLS.iter().copied().filter(|symbol| !names.contains(symbol));
     names.iter().map(|name| own(name).or_else(|| free.next()).unwrap_or(UNKNOWN)).collect()
+}
+
+/// The symbol of an element by its number.
+pub(super) fn symbol(number: u32) -> Option<&'static str> {
+    SYMBOLS.get(number.checked_sub(1)? as usize).copied()
 }
 
 #[cfg(test)]
@@ -34,5 +39,6 @@ mod tests {
         let many: Vec<&str> = many.iter().map(String::as_str).collect();
         let found = symbols(&many);
         assert_eq!((found[0], found[117], found[118]), ("H", "Og", "X"));
+        assert_eq!([0, 1, 6, 118, 119].map(symbol), [None, Some("H"), Some("C"), Some("Og"), None]);
     }
 }

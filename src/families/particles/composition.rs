@@ -1,0 +1,154 @@
+//! What particles from a file or of molecules are, and what acts on which of them, in words: a file knows its types by numbers, and nothing but
+//! this tells whether they are what the scene takes them for.
+
+use crate::document::{FileLinks, Interaction, Scene, SpeciesNames};
+use crate::families::Model;
+use crate::numbers::grouped;
+use crate::printable;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Names of what is there, and what is to be said of it; nothing of particles that the scene places itself.
+pub(super) fn rows(scene: &Scene, model: &Model) -> Vec<(&'static str, String)> {
+    if !scene.has_start() {
+        return Vec::new();
+    }
+    let names = SpeciesNames::of(scene);
+    let of_species = model.species.iter().map(|species| {
+        let group = scene.particles.iter().find(|group| group.species == species.name);
+        let kind = group.and_then(|group| group.file_type.as_ref());
+        let kind = kind.map_or_else(String::new, |kind| format!(" (type {kind})"));
+        format!("{} {}{kind}", species.name, grouped(species.count))
+    });
+    let mut rows = vec![("species", of_species.collect::<Vec<_>>().join(", "))];
+    rows.extend(scene.interactions.iter().filter_map(|interaction| of_interaction(scene, &names, interaction)));
+    // Names may be those of a file.
+    rows.into_iter().map(|(name, text)| (name, printable::name(&text).into_owned())).collect()
+}
+
+/// What an interaction acts on.
+fn of_interaction(
+    scene: &Scene,
+    names: &SpeciesNames<'_>,
+    interaction: &Interaction,
+) -> Option<(&'static str, String)> {
+    let some = |species: Option<&[String]>| match species {
+        None => format!("all particles: {}", names.names().join(", ")),
+        Some(species) => species.join(", "),
+    };
+    let own = |species: Vec<String>| match species.as_slice() {
+        [] => String::new(),
+        species => format!("; {} as given for them", species.join(", ")),
+    };
+    let of_types = |types: Option<&[String]>| {
+        scene
+            .links_are_from_file(types)
+            .then(|| types.map_or_else(String::new, |types| format!(" of type {}", types.join(", "))))
+    };
+    Some(match interaction {
+        Interaction::Dpd(dpd) => {
+            let pairs = dpd.pairs.iter().map(|pair| pair.between.join("-"));
+            ("dpd", format!("pairs of {}{}", names.names().join(", "), own(pairs.collect())))
+        }
+        Interaction::Langevin(langevin) => {
+            let species = langevin.species.iter().map(|entry| entry.name.clone());
+            ("langevin", format!("{}{}", some(None), own(species.collect())))
+        }
+        Interaction::ColouredNoise(_) => ("coloured-noise", some(None)),
+        Interaction::Tether(_) => ("tether", some(None)),
+        Interaction::BodyForce(force) => ("body-force", some(force.species.as_deref())),
+        Interaction::Bonds(bonds) => {
+            let types = bonds.types.as_deref();
+            let text = match of_types(types).filter(|_| bonds.pairs.is_empty()) {
+                Some(of_types) => format!("{}{of_types}", counted(scene, names, scene.file_bonds(types))),
+                None => along(bonds.pairs.len(), bonds.species.as_deref()),
+            };
+            ("bonds", text)
+        }
+        Interaction::Angles(angles) => {
+            let types = angles.types.as_deref();
+            let text = match of_types(types).filter(|_| angles.triples.is_empty()) {
+                Some(of_types) => format!("{}{of_types}", counted(scene, names, scene.file_angles(types))),
+                None => along(angles.triples.len(), angles.species.as_deref()),
+            };
+            ("angles", text)
+        }
+        Interaction::HarmonicChain(_) | Interaction::ShallowWater(_) | Interaction::Voronoi(_) => return None,
+    })
+}
+
+/// Bonds or angles that are listed, or else along chains.
+fn along(listed: usize, species: Option<&[String]>) -> String {
+    match (listed, species) {
+        (0, None) => "along all chains".to_owned(),
+        (0, Some(species)) => format!("along chains of {}", species.join(", ")),
+        _ => format!("{} that are listed", grouped(listed as u64)),
+    }
+}
+
+/// Bonds or angles of a file, counted by the species of their ends.
+fn counted<'a, const LENGTH: usize>(
+    scene: &Scene,
+    names: &SpeciesNames<'_>,
+    all: impl Iterator<Item = &'a Arc<FileLinks<LENGTH>>>,
+) -> String {
+    let Some(start) = scene.start() else { return String::new() };
+    let copies: u64 = start.copies.iter().map(|copies| u64::from(*copies)).product();
+    let mut counts: BTreeMap<[usize; LENGTH], u64> = BTreeMap::new();
+    for members in all.flat_map(|links| &links.members) {
+        let kinds = members.map(|member| start.species_of(member).unwrap_or(0));
+        let backward = std::array::from_fn(|at| kinds[LENGTH - 1 - at]);
+        *counts.entry(kinds.min(backward)).or_default() += copies;
+    }
+    let of_kinds = counts.iter().map(|(kinds, count)| {
+        let ends = kinds.map(|kind| names.names().get(kind).copied().unwrap_or_default());
+        format!("{} {}", ends.join("-"), grouped(*count))
+    });
+    let of_kinds = of_kinds.collect::<Vec<_>>().join(", ");
+    let total = grouped(counts.values().sum());
+    if counts.len() > 1 {
+        format!("{total}: {of_kinds}")
+    } else if counts.is_empty() {
+        total
+    } else {
+        of_kinds
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use crate::families::Model;
+    use crate::scene;
+    use serde_json::json;
+
+    #[test]
+    fn what_acts_on_whom_is_counted() {
+        let text = json!({
+            "title": "composed", "space": {"box": [6, 6, 6]}, "time": {"step": 0.01, "steps": 1}, "temperature": 1,
+            "particles": [{"species": "H"}, {"species": "T"}, {"species": "W"}],
+            "molecules": [
+                {"count": 5, "beads": ["H", "T", "T"], "bonds": [[0, 1], [1, 2]], "angles": [[0, 1, 2]]},
+                {"count": 7, "beads": ["W"]},
+            ],
+            "interactions": [
+                {"type": "dpd", "pairs": [{"between": ["H", "W"], "repulsion": 40}]},
+                {"type": "bonds", "potential": {"type": "harmonic", "stiffness": 9}},
+                {"type": "angles", "stiffness": 2},
+                {"type": "body-force", "force": [1, 0, 0], "species": ["W"]},
+            ],
+        });
+        let scene = scene::parse("composed", &text.to_string(), &[]).unwrap();
+        let rows = Model::new(&scene).composition(&scene);
+        let expected = [
+            ("species", "H 5, T 10, W 7"),
+            ("dpd", "pairs of H, T, W; H-W as given for them"),
+            ("bonds", "10: H-T 5, T-T 5"),
+            ("angles", "H-T-T 5"),
+            ("body-force", "W"),
+        ];
+        assert_eq!(rows, expected.map(|(name, text)| (name, text.to_owned())));
+        let plain = scene::load("binary-mixture", &[]).unwrap();
+        assert_eq!(Model::new(&plain).composition(&plain), []);
+    }
+}
