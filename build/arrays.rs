@@ -49,6 +49,7 @@ pub const ARRAYS: &[Array] = &[
     either("particles", "particles in the order in which they are stored"),
     array("demands", "array<u32>", "workgroups of kernels that depend on the step, as they are and as needed"),
     array("paths", "array<Path>", "where each particle was last, and times round the box"),
+    stand_in("gathered_paths", "paths", "the same of the particles of all ranks at a sample"),
     // The grid of cells.
     either("cells", "where each cell begins, or in an ordered mesh ends"),
     array("counts", "array<u32>", "particles in each cell"),
@@ -119,7 +120,7 @@ pub const ARRAYS: &[Array] = &[
     array("histogram", "array<u32>", "pairs by distance, low and high word of each bin"),
     stand_in("histogram_samples", "samples", "histograms of pairs waiting to be read"),
     array("dispatches_done", "u32", "dispatches of a histogram that have run"),
-    array("trackers", "array<Tracker>", "each particle's way since the window began"),
+    array("trackers", "array<Tracker>", "each particle as it was when the window began"),
     stand_in("diffusion_sums", "partial_sums", "sums of displacements of each workgroup"),
     stand_in("diffusion_samples", "samples", "rows of sums of displacements waiting to be read"),
     stand_in("mode_sums", "partial_sums", "sums of transverse modes of each workgroup"),

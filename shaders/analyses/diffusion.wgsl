@@ -2,15 +2,15 @@
 override DISPLACEMENT: f32;  // squared length over its quantum
 override VELOCITY: f32;      // square of momentum per mass over its quantum
 
+// Each particle when the window began.
 struct Tracker {
-    last: vec4<u32>,     // position at the last sample
-    turns: vec4<i32>,    // boxes crossed since the window began
-    origin: vec4<u32>,   // position when the window began
-    momentum: vec4<i32>, // momentum when the window began
+    origin: vec4<u32>,   // position
+    images: vec4<i32>,   // boxes crossed until then
+    momentum: vec4<i32>,
 }
 
 // Sums the squared displacements of all particles, and the products of their velocities now and at the origin. One invocation a
-// particle, by id; keeps `trackers`, writes rows of `partial_sums`.
+// particle, by id; reads `paths`, keeps `trackers`, writes rows of `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
 fn track_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -20,16 +20,15 @@ fn track_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     if (id < PARTICLES) {
         let particle = stored_particle(id);
         var tracker = trackers[id];
+        let images = paths[id].images + crossings(paths[id].last, particle.position);
         if (samples[0].y % WINDOW == 0u) {
-            tracker = Tracker(particle.position, vec4<i32>(0), particle.position, particle.momentum);
+            tracker = Tracker(particle.position, images, particle.momentum);
+            trackers[id] = tracker;
         }
-        tracker.turns += crossings(tracker.last, particle.position);
-        tracker.last = particle.position;
-        trackers[id] = tracker;
         // 64-bit difference from the origin, as a real number.
         let low = particle.position - tracker.origin;
         let borrow = select(vec4<i32>(0), vec4<i32>(1), particle.position < tracker.origin);
-        let high = tracker.turns - borrow;
+        let high = images - tracker.images - borrow;
         let parts = vec4<f32>(high) * 4294967296.0 + vec4<f32>(low);
         let travelled = component_lengths(parts);
         squared = sum64_of_f32(dot(travelled, travelled) * DISPLACEMENT);

@@ -167,10 +167,6 @@ impl Reporter {
     }
 }
 
-fn flows(scene: &Scene) -> bool {
-    Model::new(scene).picture() == PictureKind::Fields
-}
-
 fn describe(progress: &Progress, flows: bool) -> String {
     let mut parts = Vec::new();
     if progress.particle_steps_per_second > 0.0 {
@@ -197,9 +193,10 @@ pub fn duration(seconds: u64) -> String {
 fn results(outcome: &Outcome, directory: &str) -> String {
     let summary = &outcome.summary;
     let mut rows = Vec::new();
-    let flows = flows(&summary.scene);
+    let model = Model::new(&summary.scene);
+    let flows = model.picture() == PictureKind::Fields;
     // What flows has no temperature to speak of.
-    let columns = if flows {
+    let mut columns = if flows {
         vec![
             ("kinetic_energy", "kinetic energy"),
             ("potential_energy", "potential energy"),
@@ -210,9 +207,12 @@ fn results(outcome: &Outcome, directory: &str) -> String {
             ("temperature", "temperature"),
             ("internal_temperature", "internal temperature"),
             ("configurational_temperature", "configurational temperature"),
+            ("pressure_conservative", "pressure, conservative part"),
             ("pressure", "pressure"),
         ]
     };
+    // Friction and noise have no part in the pressure where nothing flows, and widen its error.
+    columns.retain(|(column, _)| *column != "pressure_conservative" || !model.is_driven());
     for (column, label) in columns {
         if let Some(value) = summary.means.get(column).and_then(run::printed_mean) {
             let spoilt = summary.unequilibrated.as_ref().is_some_and(|found| found.includes(column));

@@ -159,7 +159,7 @@ fn check_place(path: &Path, request: &Request) -> Result<(), Failure> {
 fn write(summary: &TradeoffSummary, path: &Path) -> Result<(), Failure> {
     let Some(scene) = summary.chosen_scene()? else {
         return Err(Failure::usage(format!(
-            "no choice meets the targets, so `{}` was not written",
+            "no choice is known to meet the targets, so `{}` was not written",
             printable::path(path)
         )));
     };

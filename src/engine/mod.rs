@@ -25,7 +25,7 @@ use std::ops::Range;
 
 use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
-use crate::plan::{Failure, FailureKind, Hardware, Misfit, Paths, Plan, TIDYING};
+use crate::plan::{Failure, FailureKind, Hardware, Misfit, PARTICLE_WORDS, Paths, Plan, TIDYING};
 use crate::shaders::Array;
 use crate::state::{State, crossings};
 use exchange::Exchange;
@@ -144,13 +144,14 @@ fn pack_paths(state: &State) -> Result<Vec<u32>, EngineError> {
     if state.images.len() != state.len() && (state.step > 0 || !state.images.is_empty()) {
         return Err(EngineError::State { reason: "the times round the box are missing".to_owned() });
     }
-    let mut words = Vec::with_capacity(PATH_WORDS * state.len());
-    for (id, position) in state.positions.iter().enumerate() {
-        let image = state.images.get(id).copied().unwrap_or_default();
-        words.extend([position[0], position[1], position[2], 0]);
-        words.extend([image[0] as u32, image[1] as u32, image[2] as u32, 0]);
-    }
-    Ok(words)
+    let images = state.images.iter().copied().chain(std::iter::repeat([0; 3]));
+    Ok(state.positions.iter().zip(images).flat_map(|(position, image)| path(*position, image)).collect())
+}
+
+/// The words of what is kept of a particle on its path.
+fn path([x, y, z]: [u32; 3], image: [i32; 3]) -> [u32; PATH_WORDS] {
+    let [across_x, across_y, across_z] = image.map(|boxes| boxes as u32);
+    [x, y, z, 0, across_x, across_y, across_z, 0]
 }
 
 /// Batches that may wait on the device while the host continues.
@@ -550,13 +551,21 @@ impl<'a> Engine<'a> {
         self.with_sums(particles)
     }
 
-    /// Takes the samples of the current step that are measured of the particles of all ranks, which are given in the order of their ids.
-    pub(crate) fn measure_gathered(&mut self, particles: &[u32]) -> Result<(), EngineError> {
-        let buffer = self.buffers.get(&Array::Reported).filter(|buffer| buffer.size() == 4 * particles.len() as u64);
-        let Some(buffer) = buffer else {
-            return Err(EngineError::State { reason: "the plan gathers other particles".to_owned() });
+    /// Takes the samples of the current step that are measured of the particles of all ranks, which are given in the order of their ids,
+    /// with how often each has crossed the box where a sampler needs that.
+    pub(crate) fn measure_gathered(&mut self, particles: &[u32], images: &[[i32; 3]]) -> Result<(), EngineError> {
+        let each = particles.chunks_exact(PARTICLE_WORDS as usize).zip(images);
+        let paths: Vec<u32> = each.flat_map(|(words, image)| path([words[0], words[1], words[2]], *image)).collect();
+        let write = |array: Array, words: &[u32]| {
+            let buffer = self.buffers.get(&array).filter(|buffer| buffer.size() == 4 * words.len() as u64);
+            let problem = || EngineError::State { reason: "the plan gathers other particles".to_owned() };
+            self.gpu.queue.write_buffer(buffer.ok_or_else(problem)?, 0, bytemuck::cast_slice(words));
+            Ok::<(), EngineError>(())
         };
-        self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(particles));
+        write(Array::Reported, particles)?;
+        if self.plan.has_buffer(Array::GatheredPaths) {
+            write(Array::GatheredPaths, &paths)?;
+        }
         let mut recording = Recording::new(self.gpu, "samples of all ranks");
         for (number, sampler) in self.plan.samplers.iter().enumerate() {
             if sampler.gathered && sampler.due(self.step) {

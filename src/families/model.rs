@@ -1,7 +1,7 @@
 //! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
 
 use super::{Family, Particles, Physics, PictureKind, ShallowWater, Voronoi, particles, speeds};
-use crate::document::{Distribution, Generator, Integrator, Scene, Warning};
+use crate::document::{Distribution, Generator, Integrator, Output, Scene, Warning};
 use crate::noise;
 use crate::plan::{Plan, Quanta, StateLayout};
 use crate::state::Units;
@@ -130,10 +130,20 @@ impl Model {
         self.species.iter().any(|species| species.fixed && !species.frozen && species.count > 0)
     }
 
-    /// Whether it is counted how often particles go round the box: not where boundaries shear, for then that is no whole number.
+    /// Whether it is counted how often particles go round the box: for trajectories and displacements, and not where boundaries shear,
+    /// for then that is no whole number.
     #[must_use]
-    pub fn follows_paths(&self) -> bool {
-        self.particles().shear.is_none()
+    pub fn follows_paths(&self, output: &Output) -> bool {
+        (output.trajectory.is_some() || output.diffusion.is_some()) && self.particles().shear.is_none()
+    }
+
+    /// Whether something drives a flow of particles: boundaries that shear, walls that move, or forces from outside.
+    #[must_use]
+    pub fn is_driven(&self) -> bool {
+        let particles = self.particles();
+        particles.shear.is_some_and(|shear| shear.velocity != 0.0)
+            || particles.walls_move()
+            || particles.body_forces.is_some()
     }
 
     /// Number of frozen particles behind walls.

@@ -60,7 +60,7 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
 /// Completes a state whose particles have places and momenta; `thermal` are those whose momenta were drawn.
 fn complete(mut state: State, scene: &Scene, model: &Model, thermal: &[usize]) -> State {
     model.physics().complete_start(&mut state, scene, model, thermal);
-    if scene.output.trajectory.is_none() || !model.follows_paths() {
+    if !model.follows_paths(&scene.output) {
         state.images = Vec::new();
     } else if state.images.is_empty() {
         state.images = images(&state, model);

@@ -184,7 +184,7 @@ mod tests {
         (0..samples).for_each(|sample| sums.add(&[noise::gaussian(noise::step_key(3, 99, sample / 2))]));
         let mean = sums.mean(|row| row[0]).unwrap();
         let (error, exact) = (mean.standard_error.unwrap(), (2.0 / samples as f64).sqrt());
-        // 313 blocks of 64, of which blocking joins 16: 20 give a standard error to 1/√(2 · 19), 16 %.
+        // 313 blocks of 64, of which hardly one knows of the next.
         assert!(mean.converged && (error / exact - 1.0).abs() < 0.64, "{error} against {exact}");
         assert!(mean.mean.abs() < 4.0 * exact, "{}", mean.mean);
     }

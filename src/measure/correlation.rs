@@ -70,15 +70,24 @@ impl WindowedAverage {
     /// both share drops out: at lag 0 it is zero.
     #[must_use]
     pub fn normalised(&self) -> Vec<LagAverage> {
-        let average = self.average();
-        let Some(first) = average.first().map(|first| first.mean) else { return average };
-        let at = |(lag, average): (usize, &LagAverage)| {
-            let mean = average.mean / first;
-            let deviations: Vec<f64> = self.windows().map(|window| (window[lag] - mean * window[0]) / first).collect();
-            let standard_error = statistics::independent(&deviations).and_then(|(_, error)| error);
-            LagAverage { mean, standard_error }
-        };
-        average.iter().enumerate().map(at).collect()
+        (0..self.lags).filter_map(|lag| self.ratio(|window| window[lag])).collect()
+    }
+
+    /// The mean over all lags from one on, over the mean at lag 0, in the same way; none before the first window is full, or without a lag.
+    #[must_use]
+    pub fn normalised_mean(&self, from: usize) -> Option<LagAverage> {
+        let count = self.lags.checked_sub(from).filter(|count| *count > 0)? as f64;
+        self.ratio(|window| window[from..].iter().sum::<f64>() / count)
+    }
+
+    /// The mean over the windows of a number that is linear in them, over that of lag 0.
+    fn ratio(&self, of: impl Fn(&[f64]) -> f64) -> Option<LagAverage> {
+        let count = self.windows().len() as f64;
+        let first = self.windows().map(|window| window[0]).sum::<f64>() / count;
+        let mean = self.windows().map(&of).sum::<f64>() / count / first;
+        let deviations: Vec<f64> = self.windows().map(|window| (of(window) - mean * window[0]) / first).collect();
+        let (_, standard_error) = statistics::independent(&deviations)?;
+        Some(LagAverage { mean, standard_error })
     }
 }
 
@@ -103,6 +112,7 @@ pub struct Coefficient {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use super::statistics::student;
     use super::*;
 
     #[test]
@@ -118,10 +128,11 @@ mod tests {
         average.push(4.0);
         average.push(4.0);
         // Ratio 10/16; deviations (y - 10/16 x)/4 of the four windows, (-1, -3, -8, 12)/32, whose mean has the error
-        // √(Σ²/12) = √(218/12)/32.
+        // √(Σ²/12) = √(218/12)/32, and Student's factor of four values.
         let found = average.normalised();
         assert_eq!(found[1].mean, 0.625);
-        assert!((found[1].standard_error.unwrap() - (218.0_f64 / 12.0).sqrt() / 32.0).abs() < 1e-15);
+        let error = (218.0_f64 / 12.0).sqrt() / 32.0 * student(3.0);
+        assert!((found[1].standard_error.unwrap() - error).abs() < 1e-15);
         assert!(WindowedAverage::new(2).normalised().is_empty());
     }
 
@@ -133,7 +144,7 @@ mod tests {
             average.push(sample);
         }
         let expected =
-            [LagAverage { mean: 0.0, standard_error: Some(0.0) }, LagAverage { mean: 2.0, standard_error: Some(1.0) }];
+            [(0.0, 0.0), (2.0, student(1.0))].map(|(mean, error)| LagAverage { mean, standard_error: Some(error) });
         assert_eq!(average.average(), expected);
         let bytes = serde_json::to_vec(&average).unwrap();
         assert_eq!(serde_json::from_slice::<WindowedAverage>(&bytes).unwrap(), average);

@@ -21,7 +21,7 @@ pub struct Transient {
 /// after the first (and after the second, the third) a process y' = c + φy + ξ is fitted, which says where the series
 /// is stationary, and how far it strays from there. A block that lies further out than that by a limit, which grows with φ,
 /// begins a transient. Beside that, the means of the first eighth, quarter and half are compared with that of the second
-/// half, whose blocking error has to have converged.
+/// half, which has to be 90 times as long as its correlation.
 ///
 /// Of stationary autoregressive series that are ten or more correlation times long, fewer than 2 in 1000 are taken for a transient,
 /// and of shorter ones fewer than 6 in 1000: one shorter than its correlation begins somewhere as well. Series of fewer than 10
@@ -71,8 +71,11 @@ const STARTS: usize = 3;
 /// The largest difference of the means of parts, in errors of the difference.
 const LARGEST_DIFFERENCE: f64 = 5.0;
 
-/// Fewest blocks that a blocking error rests on.
+/// Fewest samples of a half that says how much it varies.
 const ENOUGH: usize = 64;
+
+/// Fewest of its own correlations.
+const ENOUGH_CORRELATIONS: f64 = 90.0;
 
 fn is_transient(series: &[f64]) -> bool {
     let begins_far_out = LEVELS.iter().any(|(blocks, limit, slope)| {
@@ -122,8 +125,11 @@ fn deviation(values: &[f64]) -> Option<(f64, f64)> {
 /// standard errors from the scatter and the correlation of the second half; zero where these are not known.
 fn largest_difference(series: &[f64]) -> f64 {
     let second = &series[series.len().div_ceil(2)..];
-    let Some(half) = estimate(second).filter(|half| half.converged && second.len() >= ENOUGH) else { return 0.0 };
-    let (Some(error), Some(_)) = (half.standard_error, half.correlation_samples) else { return 0.0 };
+    let Some(half) = estimate(second).filter(|_| second.len() >= ENOUGH) else { return 0.0 };
+    let (Some(error), Some(correlation)) = (half.standard_error, half.correlation_samples) else { return 0.0 };
+    if correlation * ENOUGH_CORRELATIONS > second.len() as f64 {
+        return 0.0;
+    }
     let variance_of_one = error * error * second.len() as f64;
     let difference = |part: usize| {
         let first = &series[..series.len() / part];

@@ -38,6 +38,16 @@ pub enum FitError {
     /// The points do not fall by as much as a tenth within the window.
     #[error("it does not decay within the window")]
     NoDecay,
+    /// The points fall to a tenth before there is one for every parameter.
+    #[error(
+        "it falls to a tenth within {points} samples, fewer than the {parameters} parameters of the curve; sample it more often"
+    )]
+    Coarse {
+        /// Number of parameters.
+        parameters: usize,
+        /// Samples before it has fallen to a tenth.
+        points: usize,
+    },
     /// The search does not end, or ends where a parameter is not determined.
     #[error("the points do not determine the parameters of the curve")]
     Undetermined,
@@ -145,6 +155,10 @@ fn fit(points: &[[f64; 2]], shape: DecayFit) -> Result<Vec<f64>, FitError> {
     // NaN, of windows that hold nothing, does not decay either.
     if !points.iter().any(|[_, found]| *found < 0.9 * first) {
         return Err(FitError::NoDecay);
+    }
+    let before = points.iter().take_while(|[_, found]| *found > 0.1 * first).count();
+    if before < parameters {
+        return Err(FitError::Coarse { parameters, points: before });
     }
     let fits = starts(points, shape).into_iter().filter_map(|start| least_squares(points, shape, &start));
     let ranked = fits.map(|found| (sum_of_squares(points, shape, &found), found));

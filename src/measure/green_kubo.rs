@@ -3,6 +3,12 @@
 use super::correlation::{Coefficient, LagAverage};
 use super::statistics::independent;
 
+/// The least of the autocorrelation that a sample may leave, where samples are not those of every step: of an exponential 1 % is then missing.
+const KEPT_BY_A_SAMPLE: f64 = 0.7;
+/// The most that the second half of the lags may add, as a part of the viscosity, and how many of its standard errors more.
+const GROWTH: f64 = 0.1;
+const GROWTH_ERRORS: f64 = 4.0;
+
 /// Blocks of time whose scatter gives the errors.
 const BLOCKS: usize = 20;
 /// Fewest blocks that give an error.
@@ -15,13 +21,58 @@ pub struct StressCorrelation {
     pub autocorrelation: Vec<LagAverage>,
     /// The viscosity that its sum up to a lag gives.
     pub viscosity: Vec<LagAverage>,
+    /// What the second half of the lags adds to it.
+    pub growth: Option<LagAverage>,
+}
+
+/// Why no viscosity comes out.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GreenKuboError {
+    /// There are not twice as many samples as lags.
+    #[error("the run is shorter than the longest lag")]
+    Few,
+    /// The stress decays within a sample.
+    #[error(
+        "{:.0} % of the autocorrelation of the stress are left after one sample, too few for its integral; sample more often (smaller \
+         `output.stress.every`)", 100.0 * kept
+    )]
+    Coarse {
+        /// What is left of it.
+        kept: f64,
+    },
+    /// The integral still grows.
+    #[error(
+        "the second half of the lags adds {:.0} % to the viscosity: they are too short (larger `output.stress.window`)", 100.0 * part
+    )]
+    Short {
+        /// What it adds, as a part of the viscosity.
+        part: f64,
+    },
 }
 
 impl StressCorrelation {
-    /// The viscosity at the longest lag.
-    #[must_use]
-    pub fn longest(&self) -> Option<Coefficient> {
-        self.viscosity.last().map(|last| Coefficient { value: last.mean, standard_error: last.standard_error })
+    /// The viscosity at the longest lag; `every_step` says whether the samples are those of every step.
+    ///
+    /// # Errors
+    /// [`GreenKuboError`] where samples that are further apart forget the stress, or the second half of the lags adds more than a tenth and
+    /// than statistics explain.
+    pub fn longest(&self, every_step: bool) -> Result<Coefficient, GreenKuboError> {
+        let Some(LagAverage { mean: value, standard_error }) = self.viscosity.last().copied() else {
+            return Err(GreenKuboError::Few);
+        };
+        if let [first, second, ..] = self.autocorrelation[..]
+            && !every_step
+            && second.mean < KEPT_BY_A_SAMPLE * first.mean
+        {
+            return Err(GreenKuboError::Coarse { kept: (second.mean / first.mean).max(0.0) });
+        }
+        if let Some(LagAverage { mean: growth, standard_error: Some(error) }) = self.growth
+            && growth.abs() - GROWTH_ERRORS * error > GROWTH * value.abs()
+        {
+            return Err(GreenKuboError::Short { part: growth / value });
+        }
+        Ok(Coefficient { value, standard_error })
     }
 }
 
@@ -63,11 +114,11 @@ pub fn shear_stresses(pressure: &[f64; 6], dimension: usize) -> Vec<f64> {
 /// });
 /// let series: Vec<[f64; 6]> = (0..20_000).map(tensor).collect();
 /// let found = stress_correlation(&series, 3, 2.0, 0.1, 4);
-/// let viscosity = found.longest().ok_or("too few samples")?;
+/// let viscosity = found.longest(true)?;
 /// assert_eq!(found.viscosity.len(), 5);
 /// // The sum of four products of independent numbers scatters by 2 · .1 · 6 · √(4/100 000).
 /// assert!((viscosity.value - 0.6).abs() < 4.0 * 0.0076, "{viscosity:?}");
-/// # Ok::<(), &str>(())
+/// # Ok::<(), mesoscope::measure::green_kubo::GreenKuboError>(())
 /// ```
 #[must_use]
 pub fn stress_correlation(
@@ -81,13 +132,14 @@ pub fn stress_correlation(
     let wanted = (series.len() / (2 * lags)).min(BLOCKS);
     let blocks = if wanted < FEWEST_BLOCKS { 1 } else { wanted };
     let length = series.len() / blocks;
-    let mut found = StressCorrelation { autocorrelation: Vec::new(), viscosity: Vec::new() };
+    let mut found = StressCorrelation { autocorrelation: Vec::new(), viscosity: Vec::new(), growth: None };
     if length < lags {
         return found;
     }
     let correlations: Vec<Vec<f64>> =
         series.chunks_exact(length).take(blocks).map(|block| autocorrelation(block, dimension, lags)).collect();
     let mut sums = vec![0.0; correlations.len()];
+    let mut half = sums.clone();
     for lag in 0..lags {
         let weight = if lag == 0 { 0.5 } else { 1.0 };
         let here: Vec<f64> = correlations.iter().map(|correlation| factor * correlation[lag]).collect();
@@ -95,7 +147,12 @@ pub fn stress_correlation(
         for (values, averages) in [(&here, &mut found.autocorrelation), (&sums, &mut found.viscosity)] {
             averages.extend(independent(values).map(|(mean, standard_error)| LagAverage { mean, standard_error }));
         }
+        if lag == longest_lag / 2 {
+            half.clone_from(&sums);
+        }
     }
+    let growth: Vec<f64> = sums.iter().zip(&half).map(|(all, half)| all - half).collect();
+    found.growth = independent(&growth).map(|(mean, standard_error)| LagAverage { mean, standard_error });
     found
 }
 
@@ -135,7 +192,7 @@ mod tests {
             .collect();
         let found = stress_correlation(&series, 3, 1.0, interval, 80);
         let exact = 0.5 * interval * (1.0 + memory) / (1.0 - memory);
-        let viscosity = found.longest().unwrap();
+        let viscosity = found.longest(false).unwrap();
         // The sum up to a lag t scatters by 2√(t/T) of itself, T = 4000 for each of five components.
         let scatter = 2.0 * (8.0_f64 / (5.0 * 4000.0)).sqrt();
         assert!((viscosity.value - exact).abs() < 4.0 * scatter, "{viscosity:?} against {exact}");
@@ -144,13 +201,22 @@ mod tests {
         assert!(error < 1.64 * scatter && error > 0.2 * scatter, "{error} against {scatter}");
         assert!((found.autocorrelation[0].mean - 1.0).abs() < 0.1);
         assert!((found.autocorrelation[10].mean - (-1.0_f64).exp()).abs() < 0.1);
+        // Of a lag of one relaxation time, e^(-1/2) - e^(-1) of 1 - e^(-1) comes from the second half; samples ten times as far apart forget.
+        let short = stress_correlation(&series, 3, 1.0, interval, 10);
+        let part = ((-0.5_f64).exp() - (-1.0_f64).exp()) / (1.0 - (-1.0_f64).exp());
+        let error = short.longest(true).unwrap_err();
+        assert!(matches!(error, GreenKuboError::Short { part: found } if (found - part).abs() < 0.04), "{error}");
+        let coarse: Vec<[f64; 6]> = series.iter().step_by(10).copied().collect();
+        let coarse = stress_correlation(&coarse, 3, 1.0, 10.0 * interval, 8);
+        assert!(matches!(coarse.longest(false), Err(GreenKuboError::Coarse { kept }) if (kept - 0.37).abs() < 0.05));
+        assert!(coarse.longest(true).is_ok());
     }
 
     #[test]
     fn short_series() {
         let series = vec![[1.0; 6]; 10];
-        assert!(stress_correlation(&series, 2, 1.0, 1.0, 10).longest().is_none());
+        assert_eq!(stress_correlation(&series, 2, 1.0, 1.0, 10).longest(true), Err(GreenKuboError::Few));
         let one = stress_correlation(&series, 2, 1.0, 1.0, 4);
-        assert_eq!((one.viscosity.len(), one.longest().unwrap().standard_error), (5, None));
+        assert_eq!((one.viscosity.len(), one.longest(true).unwrap().standard_error), (5, None));
     }
 }

@@ -16,6 +16,8 @@ pub struct WaveDecay {
 const LAG: f64 = 0.2;
 /// Parts of the series, one of which is left out at a time for the error.
 const BLOCKS: usize = 20;
+/// The largest exponent of a decay over one sample: of faster ones little but noise is left.
+const FASTEST: f64 = 1.5;
 /// Fewer samples determine no rate.
 const FEWEST: usize = 8;
 
@@ -28,7 +30,7 @@ impl WaveDecay {
     /// where the wave stands out, little to the noise at the end. A lag in which the wave decays a little keeps the faster
     /// fluctuations of single cells out of it.
     ///
-    /// None where the amplitudes do not decay, or are too few. The error is that of the jackknife over 20 parts.
+    /// None where the amplitudes do not decay, do so by more than a factor of 4.5 within a sample, or are too few. The error is that of the jackknife over 20 parts.
     ///
     /// ```
     /// use mesoscope::measure::shear_wave::WaveDecay;
@@ -37,6 +39,8 @@ impl WaveDecay {
     /// let decay = WaveDecay::of(&amplitudes, 0.1);
     /// assert!(decay.is_some_and(|decay| (decay.rate.value - 0.2).abs() < 1e-9 && decay.amplitude == 0.3));
     /// assert_eq!(WaveDecay::of(&amplitudes[..5], 0.1), None);
+    /// let coarse: Vec<f64> = amplitudes.into_iter().step_by(80).chain([0.0; 8]).collect();
+    /// assert_eq!(WaveDecay::of(&coarse, 8.0), None);
     /// ```
     #[must_use]
     pub fn of(amplitudes: &[f64], interval: f64) -> Option<Self> {
@@ -44,7 +48,7 @@ impl WaveDecay {
             return None;
         }
         let pairs = |lag: usize| amplitudes.len() - lag;
-        let short = rate(amplitudes, 0..pairs(1), 1, interval)?;
+        let short = rate(amplitudes, 0..pairs(1), 1, interval).filter(|rate| rate * interval < FASTEST)?;
         let lag = ((LAG / (short.abs() * interval)).round().max(1.0) as usize).min(amplitudes.len() / 4);
         let value = rate(amplitudes, 0..pairs(lag), lag, interval).filter(|rate| *rate > 0.0)?;
         // The sums of each part, so that leaving one out is a subtraction.

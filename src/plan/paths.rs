@@ -1,10 +1,10 @@
-//! How often particles cross the periodic box: counted on the device, only for trajectories.
+//! How often particles cross the periodic box: counted on the device, only for trajectories and displacements.
 
 use super::{Kernel, Plan};
 use crate::shaders::Array;
 
 /// Bytes kept for each particle.
-const PATH: u64 = 32;
+pub(crate) const PATH: u64 = 32;
 
 /// The most steps between two counts.
 const LONGEST: f64 = 1024.0;
@@ -15,7 +15,7 @@ pub(crate) const PATH_WORDS: usize = PATH as usize / 4;
 /// The kernels that count.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Paths {
-    /// Kernels in order, as indices into [`Plan::kernels`]; empty unless a trajectory is written.
+    /// Kernels in order, as indices into [`Plan::kernels`]; empty unless paths are asked for.
     pub kernels: Vec<usize>,
     /// Steps between two counts: no particle crosses half the box in between, or the run ends.
     pub every: u64,

@@ -49,7 +49,7 @@ pub(crate) struct PhysicsPlan {
     pub ordered: Option<Ordered>,
     /// Buffers that kernels load lane by lane and often, and may find in textures where that is dear.
     pub texture_candidates: Vec<Array>,
-    /// Kernels that follow the particles, for trajectories.
+    /// Kernels that follow the particles, for trajectories and displacements.
     pub followers: Vec<Kernel>,
     /// The farthest that a particle goes in a step along any axis, as a share of the box.
     pub stride: f64,

@@ -25,7 +25,7 @@ const COLUMNS: [(&str, &str, usize); 11] = [
     ("pressure_conservative", "conservative part", 1),
 ];
 
-/// A mean is a lower bound of its error where it comes from few samples; its name in a legend ends in this.
+/// The name of a mean from few samples, whose error may be larger, ends in this in a legend.
 pub(super) const FEW_SAMPLES: &str = "*";
 /// The name of a mean that includes the way to equilibrium ends in this.
 pub(crate) const UNEQUILIBRATED: &str = "†";

@@ -63,7 +63,7 @@ pub fn diffusion_chart(
 }
 
 /// The line of a slope through the second half of mean squared displacements, with weights 1/t² as in
-/// [`diffusion_from_displacement`](crate::measure::diffusion::diffusion_from_displacement).
+/// [`DiffusionWindows::einstein`](crate::measure::diffusion::DiffusionWindows::einstein).
 fn displacement_line(points: &[[f64; 2]], slope: f64) -> Vec<[f64; 2]> {
     let late = &points[points.len().div_ceil(2).max(1).min(points.len())..];
     let weigh = |sums: [f64; 2], [time, value]: &[f64; 2]| {

@@ -226,8 +226,12 @@ impl<'a> Team<'a> {
         if !due || self.measured == Some(step) {
             return Ok(());
         }
-        let begin = |team: &Self, _: &Contents| Ok(vec![u32::MAX; WORDS * team.engine.plan().particles as usize]);
-        let gathered = self.gather((Command::Report, self.shared()), begin, |gathered, particles| {
+        let begin = |team: &Self, contents: &Contents| {
+            let plan = team.engine.plan();
+            let images = if plan.has_buffer(Array::GatheredPaths) { images(contents) } else { Vec::new() };
+            Ok((vec![u32::MAX; WORDS * plan.particles as usize], images))
+        };
+        let (gathered, images) = self.gather((Command::Report, self.shared()), begin, |(gathered, _), particles| {
             for particle in particles.chunks_exact(WORDS) {
                 if let Some(place) = gathered.chunks_exact_mut(WORDS).nth(particle[3] as usize) {
                     place.copy_from_slice(particle);
@@ -239,7 +243,7 @@ impl<'a> Team<'a> {
             return Err(EngineError::Ranks { reason: LOST.to_owned() });
         }
         self.measured = Some(step);
-        self.engine.measure_gathered(&gathered)
+        self.engine.measure_gathered(&gathered, &images)
     }
 
     /// How many ranks add to a row of a sampler.
@@ -286,16 +290,13 @@ impl<'a> Team<'a> {
             _ => plan.layout.clone(),
         };
         let problem = |reason: String| EngineError::Ranks { reason };
-        let begin = |team: &Self, contents: &Contents| {
+        let begin = |team: &Self, given: &Contents| {
             let plan = team.engine.plan();
-            let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
+            let contents: Vec<&[u32]> = given.iter().map(Vec::as_slice).collect();
             let count = plan.particles as usize;
             let mut state = layout.begin(team.engine.step(), &contents, count).map_err(problem)?;
             if plan.paths.are_followed() {
-                let counted = contents.last().copied().unwrap_or_default();
-                // The high words are of the sign only.
-                let image = |words: &[u32]| [0, 2, 4].map(|axis| words[axis].cast_signed());
-                state.images = counted.chunks_exact(6).map(image).collect();
+                state.images = images(given);
             }
             Ok((state, Places::of(count)))
         };
@@ -338,6 +339,13 @@ impl<'a> Team<'a> {
         }
         Ok(Shown { state: State { step, positions, momenta, species, ..State::default() }, numbers: Some(numbers) })
     }
+}
+
+/// How often each particle has crossed the box, which all ranks have counted together: the last of what goes with particles that are
+/// followed. The high words are of the sign only.
+fn images(contents: &Contents) -> Vec<[i32; 3]> {
+    let counted = contents.last().map(Vec::as_slice).unwrap_or_default();
+    counted.chunks_exact(6).map(|words| [0, 2, 4].map(|axis| words[axis].cast_signed())).collect()
 }
 
 impl Stepper for Team<'_> {

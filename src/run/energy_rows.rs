@@ -91,7 +91,7 @@ impl EnergyRows {
     }
 }
 
-/// ⟨a⟩/⟨b⟩. Its error to first order is that of the mean of (a - ⟨a⟩b/⟨b⟩)/⟨b⟩, which blocking gives.
+/// ⟨a⟩/⟨b⟩. Its error to first order is that of the mean of (a - ⟨a⟩b/⟨b⟩)/⟨b⟩, which is [`estimate`]d.
 fn ratio_of_means(pairs: &[[f64; 2]]) -> Option<Estimate> {
     let total = |index: usize| pairs.iter().map(|pair| pair[index]).sum::<f64>();
     let mean_below = total(1) / pairs.len() as f64;

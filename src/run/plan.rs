@@ -26,7 +26,7 @@ use crate::scene::Output;
 #[must_use]
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let range = output.radial_distribution.as_ref().map_or(0.0, |asked| asked.range);
-    let follows = output.trajectory.is_some() && model.follows_paths();
+    let follows = model.follows_paths(output);
     let measured = Measured { every: output.energies.every, needs: needs(output), range, follows };
     let mut physics = model.physics().plan(model, &measured, hardware, options);
     add_samplers(&mut Planner::new(model, output, equilibration, options, &mut physics));

@@ -72,45 +72,46 @@ pub(super) fn laws_outside(summary: &StabilitySummary) -> Vec<String> {
     found.into_iter().map(words).collect()
 }
 
-/// Where laws and measurement part, law by law: of stability and the first unstable runs, of accuracy and the first biased ones.
+/// Where laws and measurement part, law by law: the first law of stability and the first unstable runs, the first law of all and the first biased
+/// ones: a law of accuracy says nothing where runs end before it.
 fn differences<'s>(summary: &'s StabilitySummary) -> Vec<String> {
-    let mut found: Vec<(&'s Bound, Vec<f64>)> = Vec::new();
+    let mut found: Vec<(&'s Bound, &'static str, Vec<f64>)> = Vec::new();
     for row in &summary.rows {
-        let mut parts = |bound: &'s Bound, edge: Option<f64>| {
+        let mut parts = |bound: &'s Bound, kind: &'static str, edge: Option<f64>| {
             let Some(ratio) = edge.map(|edge| edge / bound.at) else { return };
             if (1.0 / APART..=APART).contains(&ratio) {
                 return;
             }
-            match found.iter_mut().find(|(known, _)| known.law == bound.law) {
-                Some((_, ratios)) => ratios.push(ratio),
-                None => found.push((bound, vec![ratio])),
+            match found.iter_mut().find(|(known, of, _)| (&known.law, *of) == (&bound.law, kind)) {
+                Some((.., ratios)) => ratios.push(ratio),
+                None => found.push((bound, kind, vec![ratio])),
             }
         };
         let middle = |low: f64, high: f64| summary.spacing.middle(low, high);
-        let first = |is_of_stability: bool| {
+        let first = |counts: &dyn Fn(&Bound) -> bool| {
             let all = row.bounds.iter().chain(&row.outside);
-            all.filter(|bound| bound.is_of_stability == is_of_stability).min_by(|a, b| a.at.total_cmp(&b.at))
+            all.filter(|bound| counts(bound)).min_by(|a, b| a.at.total_cmp(&b.at))
         };
-        if let Some(bound) = first(true) {
-            parts(bound, row.unstable_from().and_then(|(low, high)| Some(middle(low?, high))));
+        if let Some(bound) = first(&|bound| bound.is_of_stability) {
+            parts(bound, "unstable", row.unstable_from().and_then(|(low, high)| Some(middle(low?, high))));
         }
-        // What is biased beyond a law of accuracy, and right before.
-        if let Some(bound) = first(false) {
+        // What is biased beyond a law, and right before.
+        if let Some(bound) = first(&|_| true) {
             let edges = row.edges();
             let bias = edges.iter().find(|edge| (edge.below, edge.above) == (Verdict::Right, Verdict::Biased));
-            parts(bound, bias.map(|edge| middle(edge.low, edge.high)));
+            parts(bound, "biased", bias.map(|edge| middle(edge.low, edge.high)));
         }
     }
-    let words = |(bound, mut ratios): (&Bound, Vec<f64>)| {
+    let words = |(bound, kind, mut ratios): (&Bound, &str, Vec<f64>)| {
         ratios.sort_by(f64::total_cmp);
         let (least, most) = (three_digits(ratios[0]), three_digits(ratios[ratios.len() - 1]));
-        let kind = if bound.is_of_stability { "unstable" } else { "biased" };
         let (place, rows) = if ratios.len() == 1 {
             (least, "runs".to_owned())
         } else {
             (format!("{least} to {most}"), format!("in {} rows runs", ratios.len()))
         };
-        format!("{rows} become {kind} at {place} times what the law {} says", bound.law)
+        let says = if bound.is_of_stability && kind == "biased" { ", the edge of stability," } else { "" };
+        format!("{rows} become {kind} at {place} times what the law {}{says} says", bound.law)
     };
     found.into_iter().map(words).collect()
 }
@@ -265,5 +266,42 @@ impl StabilitySummary {
     #[must_use]
     pub fn findings(&self) -> Vec<String> {
         findings(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::study::Record as _;
+
+    /// A row that is biased from .04 and unstable from .09.
+    fn findings_with(laws: &[(&str, bool, f64)]) -> Vec<String> {
+        let request = Request::load("dpd-fluid", &[], &["time.step=0.02..0.1/3".to_owned()]).unwrap();
+        let mut summary = StabilitySummary::before(&request);
+        for (value, verdict) in [(0.03, Verdict::Right), (0.05, Verdict::Biased), (0.1, Verdict::Unstable)] {
+            summary.rows[0].add(Cell { verdict, ..Cell::refused(value, String::new()) });
+        }
+        let law = |(law, is_of_stability, at): &(&str, bool, f64)| Bound {
+            law: (*law).to_owned(),
+            is_of_stability: *is_of_stability,
+            at: *at,
+        };
+        (summary.rows[0].bounds, summary.rows[0].outside) = (laws.iter().map(law).collect(), Vec::new());
+        differences(&summary)
+    }
+
+    /// A law of accuracy whose bound lies beyond that of stability is none of what acts.
+    #[test]
+    fn bias_is_put_beside_the_first_law() {
+        let stability = ("B + W = 4", true, 0.08);
+        assert_eq!(
+            findings_with(&[stability, ("friction", false, 0.3)]),
+            ["runs become biased at 0.484 times what the law B + W = 4, the edge of stability, says"]
+        );
+        assert_eq!(
+            findings_with(&[("friction", false, 0.02), stability]),
+            ["runs become biased at 1.94 times what the law friction says"]
+        );
     }
 }

@@ -2,7 +2,7 @@
 
 use super::observables::{Observable, observables};
 use super::variant::{VariantState, VariantSummary};
-use crate::measure::statistics::Estimate;
+use crate::measure::statistics::{Estimate, independent};
 use crate::study::{Setting, ShortKeys};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -67,26 +67,11 @@ impl Group<'_> {
             let all = || std::iter::once(&observable).chain(rest.iter().copied());
             let values: Vec<f64> = all().map(|observable| observable.value).collect();
             let unequilibrated = all().any(|observable| observable.unequilibrated);
-            let (value, error) = mean(&values);
-            Some(Observable {
-                name: observable.name,
-                value,
-                error: Some(error),
-                from_few_samples: false,
-                unequilibrated,
-            })
+            let (value, error) = independent(&values)?;
+            Some(Observable { name: observable.name, value, error, from_few_samples: false, unequilibrated })
         };
         observables(first).into_iter().filter_map(average).collect()
     }
-}
-
-/// The mean of independent values, at least two, and its standard error.
-fn mean(values: &[f64]) -> (f64, f64) {
-    let count = values.len() as f64;
-    // Differences from one of them lose no digits where the mean is large and the scatter small.
-    let mean = values[0] + values.iter().map(|value| value - values[0]).sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
-    (mean, (squares / (count * (count - 1.0))).sqrt())
 }
 
 /// The averages of all variants of which there is more than one seed.
@@ -152,7 +137,7 @@ mod tests {
         assert_eq!(found.iter().map(|average| average.seeds).collect::<Vec<_>>(), [3, 2]);
         let temperature = &found[0].means["temperature"];
         assert_eq!(temperature["mean"], json!(3.0));
-        assert_eq!(temperature["standard_error"].as_f64(), Some((14.0_f64 / 6.0).sqrt()));
+        assert_eq!(temperature["standard_error"].as_f64(), independent(&[1.0, 2.0, 6.0]).and_then(|(_, error)| error));
         assert_eq!((&temperature["samples"], &found[0].means["diffusion.windows"]["mean"]), (&json!(3), &json!(3.0)));
         assert_eq!(found[0].means["diffusion.einstein"]["mean"], json!(3.0));
         assert_eq!(found[1].means["temperature"]["standard_error"], json!(0.0));

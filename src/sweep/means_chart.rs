@@ -178,6 +178,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::super::variant::VariantState;
     use super::*;
+    use crate::measure::statistics::student;
     use crate::plot::Scale;
     use crate::study::Record;
     use serde_json::json;
@@ -262,9 +263,10 @@ mod tests {
         let charts = drawn(&["interactions.0.friction=1,10,100", "seed=1,2"], &[], |number| (number * number) as f64);
         let panel = &charts[0].panels[0];
         assert_eq!((panel.series.len(), panel.x.scale), (1, Scale::Log));
-        // 0 and 1, 4 and 9, 16 and 25: half the difference is the error of the mean of two.
+        // 0 and 1, 4 and 9, 16 and 25: half the difference is the error of the mean of two, but for Student's factor.
         assert_eq!(panel.series[0].points, [[1.0, 0.5], [10.0, 6.5], [100.0, 20.5]]);
-        assert_eq!(panel.series[0].errors.as_deref(), Some(&[0.5, 2.5, 4.5][..]));
+        let errors = [0.5, 2.5, 4.5].map(|error| error * student(1.0));
+        assert_eq!(panel.series[0].errors.as_deref(), Some(&errors[..]));
         assert!(charts[0].subtitle.contains("2 seeds"), "{}", charts[0].subtitle);
         assert!(drawn(&["seed=1,2,3"], &[], |number| number as f64).is_empty());
     }

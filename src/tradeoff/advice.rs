@@ -221,14 +221,18 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
         }
         return;
     }
-    // One that `run` refuses may.
-    let whose = if summary.choices.iter().any(|choice| choice.verdict == Some(Verdict::Meets)) {
-        "No choice that `mesoscope run` takes"
-    } else {
-        "No choice"
-    };
-    let _ = write!(text, "{bold}{whose} meets the targets.{bold} ");
     let of_nothing = parts_of_nothing(summary);
+    let any = |verdict: Verdict| summary.choices.iter().any(|choice| choice.verdict == Some(verdict));
+    let is_open = of_nothing.is_empty() && any(Verdict::Open);
+    let found = if is_open {
+        "Undecided: no choice is known to meet the targets, and of some it is open."
+    } else if any(Verdict::Meets) {
+        // One that `run` refuses may.
+        "No choice that `mesoscope run` takes meets the targets."
+    } else {
+        "No choice meets the targets."
+    };
+    let _ = write!(text, "{bold}{found}{bold} ");
     if !of_nothing.is_empty() {
         for reason in of_nothing {
             let _ = write!(text, "{}. ", capitalised(&reason));
@@ -247,8 +251,9 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
             with_error(factor, None)
         );
     }
-    if summary.choices.iter().any(|choice| choice.verdict == Some(Verdict::Open)) {
-        text.push_str("Of some it is open: a smaller --error or a larger --budget decides it. ");
+    if is_open {
+        text.push_str("A smaller --error or a larger --budget decides it.\n\n");
+        return;
     }
     let further = nearest.and_then(|(choice, target, _)| what_to_vary(summary, choice, target));
     text.push_str(&further.unwrap_or_default());
@@ -519,6 +524,16 @@ mod tests {
         let alike = [(4.0, 20.6, 0.02), (3.0, 20.6, 0.02), (2.0, 20.6, 0.02), (1.0, 20.6, 0.02)].map(Some);
         let text = made_up::summary(&keys, "1%", &alike).1.advice();
         assert!(text.starts_with("No choice meets") && !text.contains("matters most"), "{text}");
+        // An error within two of its own errors of the target may meet it.
+        let open = [Some((4.0, 20.15, 0.1)), Some((1.0, 23.0, 0.02))];
+        let text = made_up::summary(&["time.step=0.02,0.04"], "1%", &open).1.advice();
+        let undecided =
+            "Undecided: no choice is known to meet the targets, and of some it is open. step = 0.02 comes nearest";
+        assert!(
+            text.starts_with(undecided) && text.contains("A smaller --error or a larger --budget decides it."),
+            "{text}"
+        );
+        assert!(!text.contains("No choice meets") && !text.contains("Vary other keys"), "{text}");
         // Nothing is near where all became unstable.
         let text = made_up::summary(&keys, "1%", &[None; 4]).1.advice();
         assert!(text.starts_with("No choice meets the targets. Vary other keys"), "{text}");

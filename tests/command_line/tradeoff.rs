@@ -157,7 +157,7 @@ fn a_step_that_a_run_refuses_is_a_choice_that_is_never_chosen() {
     let target = ["--vary", strong, "--measure", "temperature", "--target", "temperature=60%"];
     let new = place.argument("new.json");
     let written = [&target[..], &["--write", &new]].concat();
-    let said = fails(&borrowed(&arguments(&place, &written)), 2, &["no choice meets the targets, so"]);
+    let said = fails(&borrowed(&arguments(&place, &written)), 2, &["no choice is known to meet the targets, so"]);
     assert!(!place.path("new.json").exists(), "{said}");
     let summary = TradeoffSummary::load(&place.path("out")).unwrap();
     let [choice] = &summary.choices[..] else { panic!("{:?}", summary.choices) };

@@ -154,7 +154,7 @@ fn free_particles_go_straight_on() {
 }
 
 #[test]
-fn only_a_trajectory_pays_for_images() {
+fn only_what_asks_for_images_pays_for_them() {
     for (name, scene, options) in scenes() {
         let mut without = scene.clone();
         without.output.trajectory = None;

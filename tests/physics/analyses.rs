@@ -35,6 +35,28 @@ fn gas(changes: &[&str]) -> Scene {
     fluid(&[&["interactions=[]", "particles.0.count=400", "particles.0.number_density=null"], changes].concat())
 }
 
+/// Free flights: the squared displacement is the squared velocity times t², to a thousandth of the rounding of single precision, though particles
+/// cross the box up to ten times between two samples.
+#[test]
+fn displacements_count_every_crossing_between_samples() {
+    let directory = tempfile::tempdir().unwrap();
+    let scene = gas(&[
+        "time.step=0.05",
+        "time.steps=800",
+        "time.equilibration=0",
+        r#"output.diffusion={"every":200,"window":4}"#,
+    ]);
+    let edge = scene.space.lengths[0];
+    run(scene, directory.path());
+    let table = table(directory.path(), "diffusion.csv");
+    let square = table.rows[0][3];
+    assert!(square > 2.5 && table.rows[3][1] > 25.0 * edge * edge, "{table:?}");
+    for row in &table.rows {
+        let expected = square * row[0] * row[0];
+        assert!((row[1] - expected).abs() <= 1e-5 * expected, "{} at {}: {expected}", row[1], row[0]);
+    }
+}
+
 /// Two hundred samples of a fluid at kT = 1, some time apart: velocities, speeds, and their autocorrelation.
 #[test]
 fn velocities_of_a_thermal_fluid_are_those_of_maxwell() {

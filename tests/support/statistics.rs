@@ -17,7 +17,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// The mean of a correlated series, with the error of the blocking method.
+    /// The mean of a correlated series, with its error.
     pub fn of(series: &[f64]) -> Self {
         let estimate = mesoscope::measure::statistics::estimate(series).expect("a series");
         Self { mean: estimate.mean, error: estimate.standard_error.expect("more than one sample") }

@@ -5,6 +5,7 @@
 mod support;
 
 mod channels;
+mod errors;
 mod many_body;
 mod micelles;
 mod phases;

@@ -7,8 +7,9 @@ use super::{
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::correlation::WindowedAverage;
-use crate::measure::diffusion::{diffusion_from_displacement, diffusion_from_velocity};
-use crate::plan::{Need, Window};
+use crate::measure::diffusion::DiffusionWindows;
+use crate::plan::paths::PATH;
+use crate::plan::{Need, Paths, Window};
 use crate::plot::{Chart, diffusion_chart};
 use crate::scene::{self, AnalysisId, Output, Scene};
 use crate::shaders::{Array, Choices, Constant, Entry};
@@ -40,7 +41,11 @@ impl Descriptor for Diffusion {
         let unit = planner.model.units.momentum;
         let measured = planner.measured();
         let plan = &mut *planner.plan;
-        plan.add_buffer(TRACKERS, 64 * measured);
+        plan.add_buffer(TRACKERS, 48 * measured);
+        let of_all_ranks = plan.part.is_some();
+        if of_all_ranks {
+            plan.add_buffer(Array::GatheredPaths, PATH * measured);
+        }
         let constants = vec![
             (Constant::Window, asked.window as f64),
             (Constant::Displacement, 1.0 / plan.quanta.length_squared),
@@ -51,7 +56,7 @@ impl Descriptor for Diffusion {
             entry: Entry::TrackParticles,
             choices: Choices::new(),
             constants,
-            renamed: Vec::new(),
+            renamed: of_all_ranks.then_some((Paths::BUFFER, Array::GatheredPaths)).into_iter().collect(),
             before: Vec::new(),
             sums: Array::DiffusionSums,
             samples: Array::DiffusionSamples,
@@ -149,16 +154,16 @@ impl Analysis for Averages {
             "velocity_autocorrelation_error",
         ];
         let table = Table::new(columns, rows.collect());
-        let result = windows_missing(&displacement, self.particles).map_or_else(
-            || {
-                Ok(json!({
-                    "windows": displacement.windows().len(),
-                    EINSTEIN: diffusion_from_displacement(&displacement, self.interval, self.dimension),
-                    GREEN_KUBO: diffusion_from_velocity(&velocity, self.interval, self.dimension),
-                }))
-            },
-            Err,
-        );
-        Conclusion::new(table, result)
+        if let Some(missing) = windows_missing(&displacement, self.particles) {
+            return Conclusion::new(table, Err(missing));
+        }
+        let mut result = json!({ "windows": displacement.windows().len() });
+        let windows = DiffusionWindows { displacement, velocity, interval: self.interval, dimension: self.dimension };
+        let mut warnings = Vec::new();
+        for (name, found) in [(EINSTEIN, windows.einstein()), (GREEN_KUBO, windows.green_kubo())] {
+            result[name] = json!(found.as_ref().ok());
+            warnings.extend(found.err().map(|error| format!("no `{name}`: {error}")));
+        }
+        Conclusion { warnings, ..Conclusion::new(table, Ok(result)) }
     }
 }

@@ -392,7 +392,7 @@ impl Analysis for Layers {
         } else {
             let names = unsettled.join(", ");
             vec![format!(
-                "the errors in the profiles of {names} are lower bounds: the run is short against correlations"
+                "the errors in the profiles of {names} are known to more than a quarter of themselves, and may be larger: the run is short against correlations"
             )]
         };
         Conclusion { warnings, ..Conclusion::new(table, result) }

@@ -37,7 +37,7 @@ pub(in crate::run) fn mean(result: &Value) -> Option<Mean> {
     Some(Mean { value: result["mean"].as_f64()?, standard_error, from_few_samples, ..Mean::default() })
 }
 
-/// A mean of a result or a summary with its error; an error that has not settled, a lower bound, is marked by `*`.
+/// A mean of a result or a summary with its error; an error that is not known to a quarter of itself is marked by `*`.
 ///
 /// ```
 /// use mesoscope::run::printed_mean;

@@ -86,7 +86,7 @@ impl Analysis for Decay {
     fn conclude(&self) -> Conclusion {
         let decay = self.decay();
         let result = decay.as_ref().map(|decay| self.result(decay));
-        let missing = || "its samples are too few, or the wave does not decay".to_owned();
+        let missing = || "its samples are too few or too far apart, or the wave does not decay".to_owned();
         Conclusion::new(self.table(decay.as_ref()), result.ok_or_else(missing))
     }
 }

@@ -20,6 +20,10 @@ use serde_json::{Map, Value, json};
 const PRESSURE: &str = "pressure";
 const PARTS: [&str; 3] = ["kinetic", "conservative", "frictional"];
 const SURFACE_TENSION: &str = "surface_tension";
+/// The same of the conservative part alone: where nothing flows, the others are isotropic and add noise.
+const CONSERVATIVE_TENSION: &str = "surface_tension_conservative";
+/// The place of the conservative part.
+const CONSERVATIVE: usize = 1;
 const VISCOSITY: &str = "shear_viscosity";
 /// Of the stress in a box whose boundaries shear.
 const SHEARED: &str = "viscosity_in_shear";
@@ -73,10 +77,14 @@ impl Descriptor for Stress {
     }
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        let tension = printed_mean(&result[SURFACE_TENSION]);
-        let tension = tension.map(|mean| ("surface tension".to_owned(), mean));
-        let sheared = printed_mean(&result[SHEARED]).map(|mean| ("viscosity in shear".to_owned(), mean));
-        tension.into_iter().chain(sheared).chain(printed("shear viscosity (Green–Kubo)", &result[VISCOSITY])).collect()
+        let means = [
+            ("surface tension, conservative part", CONSERVATIVE_TENSION),
+            ("surface tension", SURFACE_TENSION),
+            ("viscosity in shear", SHEARED),
+        ];
+        let means =
+            means.into_iter().filter_map(|(label, name)| Some((label.to_owned(), printed_mean(&result[name])?)));
+        means.chain(printed("shear viscosity (Green–Kubo)", &result[VISCOSITY])).collect()
     }
 
     fn kept_bytes(&self, scene: &Scene, _: &Model) -> u64 {
@@ -88,6 +96,7 @@ impl Descriptor for Stress {
     fn finds(&self, scene: &Scene, model: &Model) -> Vec<&'static str> {
         let Some(asked) = &scene.output.stress else { return Vec::new() };
         let found = [
+            (CONSERVATIVE_TENSION, asked.normal.is_some() && !model.is_driven()),
             (SURFACE_TENSION, asked.normal.is_some()),
             (SHEARED, sheared(model).is_some()),
             (VISCOSITY, asked.window.is_some()),
@@ -107,6 +116,8 @@ struct Tensors {
     volume: f64,
     temperature: f64,
     length: f64,
+    /// Whether something drives a flow.
+    is_driven: bool,
     /// The shear rate, and the component of the stress that it makes.
     shear: Option<(f64, usize)>,
     /// The value of a unit of the sums of each part.
@@ -131,6 +142,7 @@ impl Tensors {
             volume: model.units.volume(),
             temperature: model.temperature,
             length: asked.normal.map_or(0.0, |axis| model.units.lengths[axis as usize]),
+            is_driven: model.is_driven(),
             shear: sheared(model),
             units: [plan.quanta.energy, plan.stress_unit, plan.stress_unit],
             samples: Vec::new(),
@@ -225,21 +237,30 @@ impl Analysis for Tensors {
         }
         if let Some(normal) = self.asked.normal {
             let dimension = self.components.dimension();
-            let tension =
-                |sample: &[f64; KEPT]| surface_tension(&Self::whole(sample), normal as usize, dimension, self.length);
-            let series: Vec<f64> = self.samples.iter().map(tension).collect();
-            result[SURFACE_TENSION] = json!(estimate(&series));
+            let tension = |of: &dyn Fn(&[f64; KEPT]) -> [f64; 6]| {
+                let samples = self.samples.iter();
+                let series =
+                    samples.map(|sample| surface_tension(&of(sample), normal as usize, dimension, self.length));
+                json!(estimate(&series.collect::<Vec<f64>>()))
+            };
+            if !self.is_driven {
+                result[CONSERVATIVE_TENSION] = tension(&|sample| Self::part(sample, CONSERVATIVE));
+            }
+            result[SURFACE_TENSION] = tension(&Self::whole);
         }
         if let Some((rate, component)) = self.shear {
             let series: Vec<f64> = self.samples.iter().map(|sample| -Self::whole(sample)[component] / rate).collect();
             result[SHEARED] = json!(estimate(&series));
         }
         let correlation = self.correlation();
+        let mut warnings = Vec::new();
         if let Some(correlation) = &correlation {
-            result[VISCOSITY] = json!(correlation.longest());
+            let found = correlation.longest(self.asked.every == 1);
+            result[VISCOSITY] = json!(found.as_ref().ok());
+            warnings.extend(found.err().map(|error| format!("no `{VISCOSITY}`: {error}")));
         }
         let more = correlation.iter().map(|correlation| self.correlation_table(correlation));
         let tables = std::iter::once(table).chain(more).collect();
-        Conclusion { tables, result: Ok(result), warnings: Vec::new() }
+        Conclusion { tables, result: Ok(result), warnings }
     }
 }

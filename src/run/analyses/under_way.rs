@@ -209,6 +209,7 @@ fn window_name(id: AnalysisId) -> String {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::measure::statistics::student;
     use crate::plan::{Hardware, Options};
     use crate::run::analyses::histogram;
     use crate::run::plan;
@@ -311,11 +312,11 @@ mod tests {
         };
         let correlated = scene(r#"{"autocorrelations": [{"quantity": "velocity", "every": 2, "window": 2}]}"#);
         let conclusion = gathered(&correlated, &[&[8], &[4], &[16], &[4]]);
-        // Ratio 8/24; deviations (4 - 8/3)/12 and (4 - 16/3)/12, ±1/9, whose mean has the error 1/9.
+        // Ratio 8/24; deviations (4 - 8/3)/12 and (4 - 16/3)/12, ±1/9, whose mean has the error 1/9, and Student's factor of two values.
         let [first, second] = [&conclusion.tables[0].rows[0], &conclusion.tables[0].rows[1]];
         assert_eq!(first[..3], [0.0, 1.0, 0.0]);
         assert_eq!(second[0], 1.0);
-        assert!((second[1] - 1.0 / 3.0).abs() < 1e-15 && (second[2] - 1.0 / 9.0).abs() < 1e-15, "{second:?}");
+        assert!((second[1] - 1.0 / 3.0).abs() < 1e-15 && (second[2] - student(1.0) / 9.0).abs() < 1e-15, "{second:?}");
 
         let counted = scene(r#"{"histograms": [{"quantity": "velocity", "every": 1, "bins": 2, "range": 4}]}"#);
         // Two particles of two components: one value below, one in the first bin, two in the second; then the powers.

@@ -33,6 +33,12 @@ fn no_shear(scene: &mut Value) {
     }
 }
 
+/// Boundaries at rest, across which nothing else counts how often a particle has gone.
+fn no_other_paths(scene: &mut Value) {
+    no_shear(scene);
+    write(scene, "diffusion", Value::Null);
+}
+
 /// Pairs without friction.
 fn without_frictions(scene: &mut Value) {
     leave_out(scene, "dpd", &["pairs", "bath", "friction", "many_body"]);
@@ -578,7 +584,16 @@ pub fn features() -> Vec<Feature> {
             with: |scene| write(scene, "diffusion", json!({"every": 2, "window": 8})),
             without: |scene| write(scene, "diffusion", Value::Null),
             own: Some(&["diffusion", "tracker", "TRACKER"]),
-            more: &["diffusion", "record_sample", "diffusion_samples", "diffusion_sums", "reported", "trackers"],
+            more: &[
+                "diffusion",
+                "record_sample",
+                "diffusion_samples",
+                "diffusion_sums",
+                "reported",
+                "trackers",
+                "follow",
+                "paths",
+            ],
             instead: &[],
             always: true,
         },
@@ -767,7 +782,7 @@ pub fn features() -> Vec<Feature> {
         Feature {
             name: "trajectory",
             // Across boundaries that shear nothing counts how often a particle has gone round.
-            ground: no_shear,
+            ground: no_other_paths,
             with: |scene| write(scene, "trajectory", json!({"every": 5})),
             without: |scene| write(scene, "trajectory", Value::Null),
             own: Some(&["kernel follow", "array paths"]),
