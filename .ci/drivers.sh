@@ -71,6 +71,9 @@ END
 suite 'the plan of every GPU' MESOSCOPE_PLAN=gpu
 if swiftshader; then
     suite 'SwiftShader' VK_DRIVER_FILES="$tools/swiftshader/vk_swiftshader_icd.json"
+    printf '\n== SwiftShader: adapters --check\n'
+    VK_DRIVER_FILES="$tools/swiftshader/vk_swiftshader_icd.json" cargo run --release --locked -- adapters --check ||
+        failed+=('SwiftShader: adapters --check')
 else
     missing+=('SwiftShader (needs node and npm, and their registry)')
 fi

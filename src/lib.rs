@@ -10,9 +10,9 @@
 //! All of these in a small run; [`mod@run`] does the same in two lines, and writes files:
 //!
 //! ```
-//! use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+//! use mesoscope::gpu::AdapterChoice;
 //! use mesoscope::plan::{Hardware, Options};
-//! use mesoscope::run::plan;
+//! use mesoscope::run::{adapter_for, plan};
 //! use mesoscope::{engine::Engine, families::Model, measure, scene};
 //!
 //! let small = ["space.box=[4,4,4]", r#"output={"energies": {"every": 10}}"#].map(str::to_owned);
@@ -20,7 +20,7 @@
 //! let model = Model::new(&scene);
 //! let state = mesoscope::families::initial_state(&scene, &model);
 //!
-//! let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+//! let gpu = adapter_for(&scene, &AdapterChoice::Best)?;
 //! let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
 //! let mut engine = Engine::new(&gpu, plan, &state)?;
 //! engine.advance(300, 100)?;

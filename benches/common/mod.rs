@@ -32,17 +32,19 @@ pub fn plan_of(scene: &Scene, hardware: Hardware, options: Options) -> Plan {
 
 /// The best adapter, or the one that `MESOSCOPE_ADAPTER` names, with buffers for all of these plans.
 pub fn open_for(plans: impl IntoIterator<Item = Result<Plan, Failure>>) -> Result<Gpu, Failure> {
-    let mut largest_buffer = 0;
+    let mut requirements = Requirements::default();
     for plan in plans {
-        largest_buffer = largest_buffer.max(plan?.largest_buffer());
+        let plan = plan?;
+        requirements.largest_buffer = requirements.largest_buffer.max(plan.largest_buffer());
+        requirements.storage_buffers = requirements.storage_buffers.max(plan.storage_buffers);
     }
-    Ok(open(largest_buffer)?)
+    Ok(open(requirements)?)
 }
 
-/// The best adapter, or the one that `MESOSCOPE_ADAPTER` names, with buffers of this size.
-pub fn open(largest_buffer: u64) -> Result<Gpu, GpuError> {
+/// The best adapter, or the one that `MESOSCOPE_ADAPTER` names, if it meets the requirements.
+pub fn open(requirements: Requirements) -> Result<Gpu, GpuError> {
     let name = std::env::var("MESOSCOPE_ADAPTER").ok();
-    Gpu::open(&AdapterChoice::parse(name.as_deref()), Requirements { largest_buffer, ..Requirements::default() })
+    Gpu::open(&AdapterChoice::parse(name.as_deref()), requirements)
 }
 
 /// A report under way.

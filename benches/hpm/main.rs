@@ -20,7 +20,7 @@ mod flow;
 use std::time::Instant;
 
 use clap::Parser;
-use mesoscope::gpu::{AdapterKind, Gpu, GpuError};
+use mesoscope::gpu::{AdapterKind, Gpu, GpuError, Requirements};
 use mesoscope::plan::{Hardware, Options, Plan};
 
 use common::statistics::{grouped, median, ratios, spread};
@@ -68,6 +68,11 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
+/// The adapter with a buffer of this size.
+fn with_buffer(largest_buffer: u64) -> Result<Gpu, GpuError> {
+    common::open(Requirements { largest_buffer, ..Requirements::default() })
+}
+
 /// The adapter with buffers for the largest size, and the sizes.
 fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
     let with_room = |sizes: &[Size]| {
@@ -78,8 +83,8 @@ fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
         }
         let wished = if settings.alternatives { wished } else { needed };
         // Alternatives that do not fit are left out.
-        match common::open(wished.max(needed)) {
-            Err(GpuError::TooSmall { .. }) if wished > needed => Ok::<_, Failure>(common::open(needed)),
+        match with_buffer(wished.max(needed)) {
+            Err(GpuError::TooSmall { .. }) if wished > needed => Ok::<_, Failure>(with_buffer(needed)),
             opened => Ok(opened),
         }
     };
@@ -88,7 +93,7 @@ fn open(settings: &Settings) -> Result<(Gpu, Vec<Size>), Failure> {
     }
     let mut sizes = vec![Size::filled(64, 16), Size::filled(256, 16)];
     if !settings.timing.quick {
-        let software = common::open(0)?.description().kind == AdapterKind::Software;
+        let software = with_buffer(0)?.description().kind == AdapterKind::Software;
         sizes.push(Size::filled(1024, if software { 4 } else { 16 }));
     }
     match with_room(&sizes)? {

@@ -89,6 +89,7 @@ impl From<GpuError> for Failure {
             GpuError::NoSuchAdapter { .. } => {
                 Self::no_adapter(format!("{error}\nhint: `mesoscope adapters` describes them"))
             }
+            GpuError::Plan { .. } => Self::usage(error.to_string()),
             _ => Self::no_adapter(error.to_string()),
         }
     }
@@ -144,6 +145,7 @@ fn exit_code(error: &RunError) -> u8 {
         RunError::Scene(SceneError::Read { .. } | SceneError::StateChanged { .. }) => 5,
         // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
         RunError::Scene(_)
+        | RunError::Gpu(GpuError::Plan { .. })
         | RunError::Unshared { .. }
         | RunError::Undividable { .. }
         | RunError::Plot { source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, .. } => 2,

@@ -58,6 +58,10 @@ impl Compiled {
     pub(super) fn new(rewriting: Option<Rewriting>) -> Self {
         Self { rewriting, linked: Kept::default(), pipelines: Kept::default() }
     }
+
+    pub(super) fn rewriting(&self) -> Option<Rewriting> {
+        self.rewriting.clone()
+    }
 }
 
 impl Gpu {

@@ -4,6 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use super::adapter::{self, AdapterChoice, AdapterDescription};
 use super::compiled::{Compiled, Rewriting};
+use super::environment;
 use super::error::GpuError;
 
 /// What a plan needs beyond the limits of every WebGPU adapter.
@@ -14,7 +15,7 @@ pub struct Requirements {
     /// The most storage buffers that one kernel binds.
     pub storage_buffers: u32,
     /// Whether to ignore what only some adapters have, subgroups and the serial memory of software adapters: the plans are then
-    /// those for any GPU.
+    /// those for any GPU. So they are wherever the environment has `MESOSCOPE_PLAN=gpu`.
     pub portable: bool,
 }
 
@@ -66,11 +67,13 @@ const STORAGE_TEXTURES: u32 = 8;
 
 /// An opened device with its queue.
 pub struct Gpu {
+    adapter: wgpu::Adapter,
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     description: AdapterDescription,
     subgroup_size: Option<u32>,
     serial_memory: bool,
+    portable: bool,
     pub(super) compiled: Compiled,
     trouble: Arc<Mutex<Option<String>>>,
 }
@@ -102,9 +105,37 @@ impl Gpu {
     /// ```
     ///
     /// # Errors
-    /// [`GpuError`] if there is no such adapter, if it cannot meet the requirements or if it does not open.
+    /// [`GpuError`] if there is no such adapter, if it cannot meet the requirements or if it does not open, and if the environment
+    /// requests plans that are unknown.
     pub fn open(choice: &AdapterChoice, requirements: Requirements) -> Result<Self, GpuError> {
-        Self::open_with(choice, requirements, None)
+        Self::open_with(adapter::choose(choice)?, requirements, None)
+    }
+
+    /// Opens the adapter once more, for other requirements. Plans are of the kind that this device gets, and kernels are rewritten as for it.
+    ///
+    /// ```
+    /// use mesoscope::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
+    ///
+    /// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+    /// let impossible = Requirements { storage_buffers: u32::MAX, ..Requirements::default() };
+    /// assert!(matches!(gpu.reopen(impossible), Err(GpuError::TooSmall { .. })));
+    /// # Ok::<(), GpuError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`GpuError`] if the adapter cannot meet the requirements or does not open.
+    pub fn reopen(&self, requirements: Requirements) -> Result<Self, GpuError> {
+        let requirements = Requirements { portable: self.portable || requirements.portable, ..requirements };
+        Self::open_with(self.adapter.clone(), requirements, self.compiled.rewriting())
+    }
+
+    /// Whether the device meets requirements.
+    #[must_use]
+    pub fn meets(&self, requirements: Requirements) -> bool {
+        let limits = self.device.limits();
+        requirements.storage_buffers <= limits.max_storage_buffers_per_shader_stage
+            && requirements.largest_buffer <= limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
+            && (self.portable || !requirements.portable)
     }
 
     /// The same, but every kernel is rewritten before a pipeline is made from it.
@@ -142,15 +173,15 @@ impl Gpu {
         requirements: Requirements,
         rewriting: Rewriting,
     ) -> Result<Self, GpuError> {
-        Self::open_with(choice, requirements, Some(rewriting))
+        Self::open_with(adapter::choose(choice)?, requirements, Some(rewriting))
     }
 
     fn open_with(
-        choice: &AdapterChoice,
+        adapter: wgpu::Adapter,
         requirements: Requirements,
         rewriting: Option<Rewriting>,
     ) -> Result<Self, GpuError> {
-        let adapter = adapter::choose(choice)?;
+        let portable = environment::requests_portable_plans()? || requirements.portable;
         let info = adapter.get_info();
         let offered = adapter.limits();
         let mut limits = limits(&offered, requirements).map_err(|shortage| shortage.of(info.name.clone()))?;
@@ -158,7 +189,7 @@ impl Gpu {
             let flags = adapter.get_texture_format_features(format).flags;
             flags.contains(wgpu::TextureFormatFeatureFlags::STORAGE_READ_WRITE)
         };
-        let serial_memory = !requirements.portable
+        let serial_memory = !portable
             && info.device_type == wgpu::DeviceType::Cpu
             && adapter.features().contains(SERIAL_FEATURES)
             && offered.max_storage_textures_per_shader_stage >= STORAGE_TEXTURES
@@ -190,12 +221,14 @@ impl Gpu {
             }
         });
         Ok(Self {
+            adapter,
             device,
             queue,
             description: AdapterDescription::new(&info),
             subgroup_size: (subgroups && info.subgroup_min_size == info.subgroup_max_size)
                 .then_some(info.subgroup_min_size),
             serial_memory,
+            portable,
             compiled: Compiled::new(rewriting),
             trouble,
         })

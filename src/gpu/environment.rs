@@ -1,5 +1,16 @@
 //! The environment variables of graphics drivers.
 
+use super::GpuError;
+
+/// Whether the environment asks for the plans that every GPU gets, on software adapters too.
+pub(super) fn requests_portable_plans() -> Result<bool, GpuError> {
+    match std::env::var_os("MESOSCOPE_PLAN") {
+        None => Ok(false),
+        Some(value) if value == "gpu" => Ok(true),
+        Some(value) => Err(GpuError::Plan { found: value.to_string_lossy().into_owned() }),
+    }
+}
+
 /// Restarts the process with the environment variables that Mesa's drivers need, where the user has not set them:
 ///
 /// - `LP_NUM_THREADS`, the threads of the software adapter: two per core. The adapter divides the workgroups of a kernel among its

@@ -29,6 +29,12 @@ pub enum GpuError {
         /// What the scene needs.
         needed: u64,
     },
+    /// The environment requests plans that are unknown.
+    #[error("MESOSCOPE_PLAN is `{found}`; accepted: `gpu`, for the plans that every GPU gets, or no such variable")]
+    Plan {
+        /// The value of the variable.
+        found: String,
+    },
     /// The device could not be opened.
     #[error("adapter `{adapter}` could not be opened: {reason}")]
     Open {

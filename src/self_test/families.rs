@@ -4,8 +4,8 @@ use super::Finding;
 use crate::engine::{Engine, EngineError};
 use crate::families::reference::Stepper;
 use crate::families::{self, Model};
-use crate::gpu::Gpu;
-use crate::plan::{Hardware, Options};
+use crate::gpu::{Gpu, GpuError, Requirements};
+use crate::plan::{Hardware, Options, Plan};
 use crate::run::plan;
 use crate::scene::{self, Scene};
 use crate::state::State;
@@ -173,11 +173,33 @@ const FEWEST_UNITS: f64 = 1e5;
 /// Checks every family; `contracts` says whether the driver contracts products and sums.
 pub(super) fn check(gpu: &Gpu, contracts: bool, report: &mut dyn FnMut(Finding)) {
     for case in &CASES {
-        report(match against_the_reference(gpu, case, contracts) {
-            Ok(found) => Finding::new(case.name, true, found),
-            Err(found) => Finding::new(case.name, false, found),
-        });
+        let found = against_the_reference(gpu, case, contracts);
+        report(found.unwrap_or_else(|found| Finding::new(case.name, false, found)));
     }
+}
+
+/// What comes of a check on a device that meets the requirements of plans, on this one if it does; a note where the adapter allows none.
+fn where_possible(
+    gpu: &Gpu,
+    check: &str,
+    plans: &[&Plan],
+    on: impl FnOnce(&Gpu) -> Result<String, String>,
+) -> Result<Finding, String> {
+    let largest_buffer = plans.iter().map(|plan| plan.largest_buffer()).max().unwrap_or(0);
+    let storage_buffers = plans.iter().map(|plan| plan.storage_buffers).max().unwrap_or(0);
+    let requirements = Requirements { largest_buffer, storage_buffers, ..Requirements::default() };
+    let found = if gpu.meets(requirements) {
+        on(gpu)
+    } else {
+        match gpu.reopen(requirements) {
+            Ok(wider) => on(&wider),
+            Err(error @ GpuError::TooSmall { .. }) => {
+                return Ok(Finding::noted(check, format!("not possible here: {error}")));
+            }
+            Err(error) => Err(error.to_string()),
+        }
+    };
+    Ok(Finding::new(check, true, found?))
 }
 
 impl Case {
@@ -300,13 +322,22 @@ fn constants(model: &Model, state: &State) -> Vec<(&'static str, [i64; 3])> {
 }
 
 /// What was found, or what is wrong.
-fn against_the_reference(gpu: &Gpu, case: &Case, contracts: bool) -> Result<String, String> {
+fn against_the_reference(gpu: &Gpu, case: &Case, contracts: bool) -> Result<Finding, String> {
     let scene = case.scene()?;
     let model = Model::new(&scene);
-    let start = families::initial_state(&scene, &model);
-    let words = |error: EngineError| error.to_string();
     let plan = |hardware| plan(&model, 0, &scene.output, hardware, Options::default());
-    let mut device = Engine::new(gpu, plan(Hardware::from(gpu)), &start).map_err(words)?;
+    let (own, portable) = (plan(Hardware::from(gpu)), plan(Hardware::default()));
+    let portable = (case.twice && portable != own).then_some(portable);
+    let plans: Vec<&Plan> = portable.iter().chain([&own]).collect();
+    where_possible(gpu, case.name, &plans, |gpu| compare(gpu, &scene, &own, portable.as_ref(), contracts))
+}
+
+/// The same on a device with room for the plans: that of the adapter, and the one for any adapter where it is to give the same.
+fn compare(gpu: &Gpu, scene: &Scene, plan: &Plan, portable: Option<&Plan>, contracts: bool) -> Result<String, String> {
+    let model = Model::new(scene);
+    let start = families::initial_state(scene, &model);
+    let words = |error: EngineError| error.to_string();
+    let mut device = Engine::new(gpu, plan.clone(), &start).map_err(words)?;
     device.advance(1, 1).map_err(words)?;
     let (part, quantity) = deviation(&start, &device.state().map_err(words)?, &reference_step(&model, &start)?);
     device.advance(STEPS - 1, STEPS).map_err(words)?;
@@ -326,9 +357,8 @@ fn against_the_reference(gpu: &Gpu, case: &Case, contracts: bool) -> Result<Stri
         let names: Vec<&str> = before.iter().map(|(sum, _)| *sum).collect();
         found = format!("{found}; total {} constant to the last bit", names.join(", "));
     }
-    let portable = plan(Hardware::default());
-    if case.twice && portable != *device.plan() {
-        let mut portable = Engine::new(gpu, portable, &start).map_err(words)?;
+    if let Some(portable) = portable {
+        let mut portable = Engine::new(gpu, portable.clone(), &start).map_err(words)?;
         portable.advance(STEPS, STEPS).map_err(words)?;
         if portable.state().map_err(words)? != last {
             let difference = format!("the plan for any adapter gives other bits after {STEPS} steps");
@@ -344,7 +374,28 @@ fn against_the_reference(gpu: &Gpu, case: &Case, contracts: bool) -> Result<Stri
 
 #[cfg(test)]
 mod tests {
+    use super::super::Verdict;
     use super::*;
+    use crate::gpu::AdapterChoice;
+
+    /// What an adapter has no room for is not possible, which is no failure; what the device was not opened for is possible on another.
+    #[test]
+    fn a_check_runs_where_it_has_room() -> Result<(), Box<dyn std::error::Error>> {
+        let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+        let bound = |gpu: &Gpu| gpu.device().limits().max_storage_buffers_per_shader_stage;
+        let offered = gpu.reopen(Requirements { storage_buffers: 9, ..Requirements::default() }).is_ok();
+        let scene = CASES[0].scene()?;
+        let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+        let with = |storage_buffers: u32| Plan { storage_buffers, ..plan.clone() };
+        let check = |plan: &Plan| where_possible(&gpu, "a check", &[plan], |gpu| Ok(bound(gpu).to_string()));
+        assert_eq!(check(&with(8))?, Finding::new("a check", true, "8"));
+        assert!(!offered || check(&with(9))? == Finding::new("a check", true, "9"));
+        let impossible = check(&with(u32::MAX))?;
+        let expected = "storage buffers in a kernel, but this scene needs 4294967295";
+        assert_eq!(impossible.verdict, Verdict::Noted);
+        assert!(impossible.found.starts_with("not possible here: ") && impossible.found.ends_with(expected));
+        Ok(())
+    }
 
     /// A deviation is found where one number of one particle is wrong, and none where nothing is.
     #[test]

@@ -48,7 +48,8 @@ impl Finding {
 
 /// Checks an adapter, and hands over what each check has found as soon as it is known: the functions of its arithmetic, whether
 /// mirrored expressions come out alike, one step of every family of models against the reference in double precision with the
-/// sums that must not change, and the speed of the standard fluid. Takes about ten seconds on two cores.
+/// sums that must not change, and the speed of the standard fluid. Takes about ten seconds on two cores. A check that needs more than
+/// `gpu` was opened with opens the adapter again; where it does not allow that, the finding is noted as not possible.
 ///
 /// ```no_run
 /// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};

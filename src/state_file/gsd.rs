@@ -1,10 +1,9 @@
-//! HOOMD's GSD: the file layer, versions 1 and 2, and the schema `hoomd`:
-//! <https://gsd.readthedocs.io/en/stable/file-layer.html>, <https://gsd.readthedocs.io/en/stable/schema-hoomd.html>.
+//! HOOMD's GSD in the schema `hoomd`: <https://gsd.readthedocs.io/en/stable/schema-hoomd.html>.
 //!
-//! The crate that writes trajectories reads version 2 alone and maps files into memory; here a file that is damaged, or changes
-//! meanwhile, is refused, and of a long trajectory nothing but two frames is read. A frame takes what it lacks from the first
-//! one, and that from the defaults of the schema.
+//! A file that is damaged, or changes meanwhile, is refused, and of a long trajectory nothing but two frames is read. A frame takes
+//! what it lacks from the first one, and that from the defaults of the schema.
 
+use super::file_layer::{Chunk, Cursor, GsdError, GsdReader};
 use super::{
     FROZEN_IN_GSD, Links, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements, frozen_layers,
     place_of_frame, triclinic,
@@ -12,54 +11,14 @@ use super::{
 use crate::state::MOST_PARTICLES;
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{BufReader, Read, Seek, SeekFrom};
-
-const MAGIC: u64 = 0x65df_65df_65df_65df;
-const HEADER: usize = 256;
-const ENTRY: u64 = 32;
-/// Bytes of a name in version 1, and the unit of the length of the list in both.
-const NAME: u64 = 64;
-/// Bytes of names: there are at most 65 536 of them.
-const MOST_NAMES: u64 = 16 << 20;
-
-pub(super) fn is_one(start: &[u8]) -> bool {
-    start.starts_with(&MAGIC.to_le_bytes())
-}
-
-/// Where an array lies in the file.
-#[derive(Debug, Clone, Copy)]
-struct Entry {
-    rows: u64,
-    columns: u32,
-    location: u64,
-    kind: u8,
-}
-
-impl Entry {
-    /// Bytes of a number; none of an unknown type.
-    fn size(self) -> Option<u64> {
-        match self.kind {
-            1 | 5 | 11 => Some(1),
-            2 | 6 => Some(2),
-            3 | 7 | 9 => Some(4),
-            4 | 8 | 10 => Some(8),
-            _ => None,
-        }
-    }
-
-    fn bytes(self) -> Option<u64> {
-        self.rows.checked_mul(self.columns.into())?.checked_mul(self.size()?)
-    }
-}
+use std::io::Read;
 
 /// A file with the arrays of its first frame and of the one that is asked for.
 struct Gsd {
-    file: File,
-    length: u64,
+    file: GsdReader,
     frame: u64,
-    ids: HashMap<String, u16>,
     /// By whether it is the frame that is asked for, and by name.
-    entries: HashMap<(bool, u16), Entry>,
+    chunks: HashMap<(bool, String), Chunk>,
 }
 
 fn cut_short() -> Mistakes {
@@ -67,112 +26,53 @@ fn cut_short() -> Mistakes {
         .into()
 }
 
-fn word(bytes: &[u8], at: usize) -> u64 {
-    bytes.get(at..at + 8).and_then(|word| word.try_into().ok()).map_or(0, u64::from_le_bytes)
+impl From<GsdError> for Mistakes {
+    fn from(error: GsdError) -> Self {
+        match error {
+            GsdError::Io(error) => error.into(),
+            GsdError::Cut => cut_short(),
+            GsdError::Version(version) => {
+                let found = format!("found version {version} of the file layer of GSD");
+                Mistake::new("", found, "versions 1 and 2").into()
+            }
+            error => Mistake::new("", format!("it is damaged: {error}"), "a whole GSD file").into(),
+        }
+    }
 }
 
-fn half_word(bytes: &[u8], at: usize) -> u32 {
-    bytes.get(at..at + 4).and_then(|word| word.try_into().ok()).map_or(0, u32::from_le_bytes)
-}
-
-pub(super) fn read(file: File, length: u64, frame: i64) -> Result<ParticleFile, Mistakes> {
-    Gsd::open(file, length, frame)?.particles()
+pub(super) fn read(file: File, frame: i64) -> Result<ParticleFile, Mistakes> {
+    Gsd::open(GsdReader::new(file)?, frame)?.particles()
 }
 
 impl Gsd {
-    fn open(mut file: File, length: u64, frame: i64) -> Result<Self, Mistakes> {
-        let mut header = [0; HEADER];
-        if length < HEADER as u64 {
-            return Err(cut_short());
-        }
-        file.read_exact(&mut header)?;
-        let [index, index_entries, names, name_entries] = [8, 16, 24, 32].map(|at| word(&header, at));
-        let version = half_word(&header, 44) >> 16;
-        if ![1, 2].contains(&version) {
-            let found = format!("found version {version} of the file layer of GSD");
-            return Err(Mistake::new("", found, "versions 1 and 2").into());
-        }
-        let text = header[112..176].split(|byte| *byte == 0).next().unwrap_or_default();
-        let (schema, schema_version) = (String::from_utf8_lossy(text).into_owned(), half_word(&header, 40) >> 16);
-        if schema != "hoomd" || ![1, 2].contains(&schema_version) {
-            let found = format!("found the schema `{schema}` in version {schema_version}");
+    fn open(mut file: GsdReader, frame: i64) -> Result<Self, Mistakes> {
+        let (schema, (version, _)) = (file.schema(), file.schema_version());
+        if schema != "hoomd" || ![1, 2].contains(&version) {
+            let found = format!("found the schema `{schema}` in version {version}");
             return Err(Mistake::new("", found, "a GSD file of the schema `hoomd` in version 1 or 2").into());
         }
-        let end = |location: u64, count: u64, size: u64| {
-            count.checked_mul(size).and_then(|bytes| location.checked_add(bytes)).filter(|end| *end <= length)
-        };
-        let both = end(index, index_entries, ENTRY).zip(end(names, name_entries, NAME));
-        if both.is_none() || name_entries * NAME > MOST_NAMES {
-            return Err(cut_short());
-        }
-        file.seek(SeekFrom::Start(names))?;
-        let mut list = vec![0; (name_entries * NAME) as usize];
-        file.read_exact(&mut list)?;
-        let ids = if version == 2 { packed(&list) } else { padded(&list) };
-        let (frames, file) = Self::frames(file, index, index_entries, length)?;
-        let wanted = place_of_frame(frame, frames)?;
-        let mut found = Self { file, length, frame: wanted, ids, entries: HashMap::new() };
-        found.collect(index, index_entries)?;
-        Ok(found)
-    }
-
-    /// Looks through the index; returns the number of frames.
-    fn frames(mut file: File, index: u64, entries: u64, length: u64) -> Result<(u64, File), Mistakes> {
-        file.seek(SeekFrom::Start(index))?;
-        let mut reader = BufReader::with_capacity(1 << 16, file);
-        let mut frames = 0;
-        for _ in 0..entries {
-            let mut entry = [0; ENTRY as usize];
-            reader.read_exact(&mut entry)?;
-            let (frame, location) = (word(&entry, 0), word(&entry, 16));
-            if location == 0 {
-                break;
-            }
-            // A chunk without rows may begin where the file ends.
-            if location > length || frame >= entries || frame + 1 < frames {
-                let found = "it is damaged: its index makes no sense";
-                return Err(Mistake::new("", found, "a whole GSD file").into());
-            }
-            frames = frame + 1;
-        }
-        Ok((frames, reader.into_inner()))
-    }
-
-    /// Remembers where the arrays of the two frames lie.
-    fn collect(&mut self, index: u64, entries: u64) -> Result<(), Mistakes> {
-        let mut file = self.file.try_clone()?;
-        file.seek(SeekFrom::Start(index))?;
-        let mut reader = BufReader::with_capacity(1 << 16, file);
-        for _ in 0..entries {
-            let mut bytes = [0; ENTRY as usize];
-            reader.read_exact(&mut bytes)?;
-            let (frame, location) = (word(&bytes, 0), word(&bytes, 16));
-            if location == 0 || frame > self.frame {
-                break;
-            }
-            let id = u16::from_le_bytes([bytes[28], bytes[29]]);
-            let (rows, columns, kind) = (word(&bytes, 8), half_word(&bytes, 24), bytes[30]);
-            let entry = Entry { rows, columns, location, kind };
-            if frame == 0 {
-                self.entries.insert((false, id), entry);
-            }
-            if frame == self.frame {
-                self.entries.insert((true, id), entry);
+        let frames = file.frames()?;
+        let frame = place_of_frame(frame, frames)?;
+        let (mut cursor, mut chunks) = (Cursor::default(), HashMap::new());
+        while let Some(chunk) = file.next(&mut cursor)?.filter(|chunk| chunk.frame <= frame) {
+            let Some(name) = file.name(chunk) else { continue };
+            for here in [false, true].into_iter().filter(|here| chunk.frame == if *here { frame } else { 0 }) {
+                chunks.insert((here, name.to_owned()), chunk);
             }
         }
-        Ok(())
+        Ok(Self { file, frame, chunks })
     }
 
     fn place(&self) -> String {
         format!("frame {}", self.frame)
     }
 
-    fn entry(&self, here: bool, name: &str) -> Option<Entry> {
-        self.entries.get(&(here, *self.ids.get(name)?)).copied()
+    fn entry(&self, here: bool, name: &str) -> Option<Chunk> {
+        self.chunks.get(&(here, name.to_owned())).copied()
     }
 
     /// An array of the frame, or of the first one if that serves.
-    fn entry_or_first(&self, name: &str, first_serves: bool) -> Option<Entry> {
+    fn entry_or_first(&self, name: &str, first_serves: bool) -> Option<Chunk> {
         self.entry(true, name).or_else(|| self.entry(false, name).filter(|_| first_serves))
     }
 
@@ -181,22 +81,22 @@ impl Gsd {
     }
 
     /// The bytes of an array, all of which have to lie in the file.
-    fn bytes(&mut self, name: &str, entry: Entry) -> Result<Vec<u8>, Mistakes> {
-        let inside = |bytes: &u64| entry.location.checked_add(*bytes).is_some_and(|end| end <= self.length);
-        let Some(bytes) = entry.bytes().filter(inside) else {
-            return Err(self.wrong(name, "beyond the end of the file, or of an unknown type", "a whole GSD file"));
-        };
-        self.file.seek(SeekFrom::Start(entry.location))?;
-        let mut content = vec![0; bytes as usize];
-        self.file.read_exact(&mut content)?;
-        Ok(content)
+    fn bytes(&mut self, name: &str, entry: Chunk) -> Result<Vec<u8>, Mistakes> {
+        let mut bytes = Vec::new();
+        match self.file.content(entry).and_then(|mut content| Ok(content.read_to_end(&mut bytes)?)) {
+            Ok(_) => Ok(bytes),
+            Err(GsdError::Cut) => {
+                Err(self.wrong(name, "beyond the end of the file, or of an unknown type", "a whole GSD file"))
+            }
+            Err(error) => Err(error.into()),
+        }
     }
 
     /// The numbers of an array of so many rows and columns; double precision holds all that is not of 64 bits.
     fn numbers<const COLUMNS: usize>(
         &mut self,
         name: &str,
-        entry: Entry,
+        entry: Chunk,
         rows: u64,
     ) -> Result<Vec<[f64; COLUMNS]>, Mistakes> {
         if entry.rows != rows || entry.columns as usize != COLUMNS {
@@ -398,20 +298,4 @@ fn convert<const SIZE: usize, const COLUMNS: usize>(
 ) -> Vec<[f64; COLUMNS]> {
     let one = |row: &[u8], column: usize| row[column * SIZE..(column + 1) * SIZE].try_into().map_or(f64::NAN, &number);
     bytes.chunks_exact(SIZE * COLUMNS).map(|row| std::array::from_fn(|column| one(row, column))).collect()
-}
-
-/// Names of version 2: one after the other, each ended by a zero.
-fn packed(list: &[u8]) -> HashMap<String, u16> {
-    let names = list.split(|byte| *byte == 0).take_while(|name| !name.is_empty());
-    numbered(names)
-}
-
-/// Names of version 1: each in its own field.
-fn padded(list: &[u8]) -> HashMap<String, u16> {
-    let names = list.chunks(NAME as usize).map(|field| field.split(|byte| *byte == 0).next().unwrap_or_default());
-    numbered(names.take_while(|name| !name.is_empty()))
-}
-
-fn numbered<'a>(names: impl Iterator<Item = &'a [u8]>) -> HashMap<String, u16> {
-    names.zip(0..=u16::MAX).map(|(name, id)| (String::from_utf8_lossy(name).into_owned(), id)).collect()
 }

@@ -1,12 +1,13 @@
 //! Files that particles start from: GSD, extended XYZ, LAMMPS data, and checkpoints of earlier runs.
 //!
-//! Every format has a file of its own. The first three become one [`ParticleFile`], with what the file says in its own units and
-//! order. A length that a file announces is compared with its size before anything is allocated.
+//! Every format has a file of its own; trajectories in GSD are written through its file layer too ([`GsdWriter`]). The first three become
+//! one [`ParticleFile`], with what the file says in its own units and order. A length that a file announces is compared with its size before anything is allocated.
 
 mod atom_style;
 pub mod checkpoint;
 pub(crate) mod elements;
 mod extended_xyz;
+mod file_layer;
 mod gsd;
 mod keys;
 mod lammps;
@@ -20,6 +21,7 @@ use std::path::{Path, PathBuf};
 use tally::Tally;
 
 pub(crate) use atom_style::AtomStyle;
+pub use file_layer::{Chunk, Cursor, GsdError, GsdReader, GsdWriter, Number};
 
 /// What a file says of particles, in the order and with the units of the file.
 ///
@@ -209,12 +211,12 @@ fn read_any(path: &Path, frame: i64, style: Option<&AtomStyle>) -> Result<Partic
     file.by_ref().take(START).read_to_end(&mut start)?;
     file.seek(SeekFrom::Start(0))?;
     let length = file.metadata()?.len();
-    let is_of_lammps = !gsd::is_one(&start) && lammps::is_one(&start);
+    let is_of_lammps = !file_layer::is_one(&start) && lammps::is_one(&start);
     if !is_of_lammps {
         no_atom_style(style.map(ToString::to_string).as_deref())?;
     }
-    if gsd::is_one(&start) {
-        gsd::read(file, length, frame)
+    if file_layer::is_one(&start) {
+        gsd::read(file, frame)
     } else if is_of_lammps {
         only_frame(frame)?;
         lammps::read(file, length, style)

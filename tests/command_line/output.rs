@@ -1,6 +1,5 @@
 //! Files of a run: what they hold, what they survive, and how their failures read.
 
-use hoomd_gsd::file_layer::{GsdFile, Mode};
 use mesoscope::families::Model;
 use mesoscope::measure::statistics;
 use mesoscope::output::checkpoint::{self, CheckpointError};
@@ -15,6 +14,7 @@ use mesoscope::table::Table;
 use std::fs;
 use std::path::Path;
 
+use crate::support::gsd;
 use crate::support::program::listing;
 
 fn run_id() -> Id {
@@ -457,10 +457,8 @@ fn hostile_lengths_in_a_checkpoint_allocate_nothing() {
 }
 
 fn steps_of(path: &Path) -> Vec<u64> {
-    let file = GsdFile::open(path, Mode::Read).unwrap();
-    (0..file.n_frames())
-        .map(|frame| file.iter_scalars::<u64>(frame, "configuration/step").unwrap().next().unwrap())
-        .collect()
+    let mut file = gsd::open(path);
+    (0..file.frames().unwrap()).map(|frame| gsd::scalars::<u64>(&mut file, frame, "configuration/step")[0]).collect()
 }
 
 /// Bonds and angles are in the first frame, and stay there when a trajectory is cut back to it; a line is a plane in HOOMD's terms.
@@ -490,21 +488,21 @@ fn gsd_holds_bonds_and_angles() {
     drop(trajectory);
     drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, run_id(), extents[1]).unwrap());
 
-    let file = GsdFile::open(&path, Mode::Read).unwrap();
-    assert_eq!(file.n_frames(), 2);
-    assert_eq!(file.iter_scalars::<u32>(0, "bonds/N").unwrap().collect::<Vec<_>>(), [5]);
-    assert_eq!(file.iter_scalars::<u32>(0, "bonds/typeid").unwrap().collect::<Vec<_>>(), [0, 1, 1, 1, 1]);
-    let groups: Vec<[u32; 2]> = file.iter_arrays(0, "bonds/group").unwrap().collect();
+    let mut file = gsd::open(&path);
+    assert_eq!(file.frames().unwrap(), 2);
+    assert_eq!(gsd::scalars::<u32>(&mut file, 0, "bonds/N"), [5]);
+    assert_eq!(gsd::scalars::<u32>(&mut file, 0, "bonds/typeid"), [0, 1, 1, 1, 1]);
+    let groups: Vec<[u32; 2]> = gsd::arrays(&mut file, 0, "bonds/group");
     assert_eq!(groups, [[5, 1], [0, 1], [1, 2], [3, 4], [4, 5]]);
-    assert_eq!(file.iter_arrays::<i8, 64>(0, "bonds/types").unwrap().count(), 2);
-    assert_eq!(file.iter_scalars::<u32>(0, "angles/N").unwrap().collect::<Vec<_>>(), [2]);
-    assert_eq!(file.iter_scalars::<u32>(0, "angles/typeid").unwrap().collect::<Vec<_>>(), [0, 0]);
-    let groups: Vec<[u32; 3]> = file.iter_arrays(0, "angles/group").unwrap().collect();
+    assert_eq!(gsd::arrays::<i8, 64>(&mut file, 0, "bonds/types").len(), 2);
+    assert_eq!(gsd::scalars::<u32>(&mut file, 0, "angles/N"), [2]);
+    assert_eq!(gsd::scalars::<u32>(&mut file, 0, "angles/typeid"), [0, 0]);
+    let groups: Vec<[u32; 3]> = gsd::arrays(&mut file, 0, "angles/group");
     assert_eq!(groups, [[0, 1, 2], [3, 4, 5]]);
-    assert_eq!(file.iter_arrays::<i8, 64>(0, "angles/types").unwrap().count(), 1);
-    assert_eq!(file.iter_scalars::<u8>(0, "configuration/dimensions").unwrap().collect::<Vec<_>>(), [2]);
-    assert_eq!(file.iter_scalars::<f32>(0, "configuration/box").unwrap().collect::<Vec<_>>()[..3], [50.0, 1.0, 0.0]);
-    let positions: Vec<[f32; 3]> = file.iter_arrays(0, "particles/position").unwrap().collect();
+    assert_eq!(gsd::arrays::<i8, 64>(&mut file, 0, "angles/types").len(), 1);
+    assert_eq!(gsd::scalars::<u8>(&mut file, 0, "configuration/dimensions"), [2]);
+    assert_eq!(gsd::scalars::<f32>(&mut file, 0, "configuration/box")[..3], [50.0, 1.0, 0.0]);
+    let positions: Vec<[f32; 3]> = gsd::arrays(&mut file, 0, "particles/position");
     assert!(positions.iter().all(|position| position[1..] == [0.0, 0.0]), "{positions:?}");
 }
 
@@ -520,26 +518,27 @@ fn gsd_holds_what_hoomd_expects() {
     trajectory.flush().unwrap();
     drop(trajectory);
 
-    let file = GsdFile::open(&path, Mode::Read).unwrap();
-    assert_eq!((file.schema(), file.schema_version(), file.n_frames()), ("hoomd", (1, 4), 2));
-    let numbers: Vec<f32> = file.iter_scalars(0, "configuration/box").unwrap().collect();
+    let mut file = gsd::open(&path);
+    assert_eq!((file.schema(), file.schema_version()), ("hoomd", (1, 4)));
+    assert_eq!(file.frames().unwrap(), 2);
+    let numbers: Vec<f32> = gsd::scalars(&mut file, 0, "configuration/box");
     assert_eq!(numbers, [4.0, 5.0, 6.1, 0.0, 0.0, 0.0]);
-    let numbers: Vec<f32> = file.iter_scalars(0, "particles/mass").unwrap().collect();
+    let numbers: Vec<f32> = gsd::scalars(&mut file, 0, "particles/mass");
     assert_eq!(numbers, [1.0, 1.0, 4.0]);
-    assert_eq!(file.iter_scalars::<u32>(0, "particles/typeid").unwrap().collect::<Vec<_>>(), [0, 0, 1]);
-    assert_eq!(file.iter_scalars::<u32>(0, "particles/N").unwrap().collect::<Vec<_>>(), [3]);
-    let names: Vec<[i8; 64]> = file.iter_arrays(0, "particles/types").unwrap().collect();
+    assert_eq!(gsd::scalars::<u32>(&mut file, 0, "particles/typeid"), [0, 0, 1]);
+    assert_eq!(gsd::scalars::<u32>(&mut file, 0, "particles/N"), [3]);
+    let names: Vec<[i8; 64]> = gsd::arrays(&mut file, 0, "particles/types");
     let names: Vec<String> = names
         .iter()
         .map(|name| name.iter().map(|byte| char::from(byte.cast_unsigned())).take_while(|c| *c != '\0').collect())
         .collect();
     assert_eq!(names, ["light", "heavy one"]);
-    let positions: Vec<[f32; 3]> = file.iter_arrays(1, "particles/position").unwrap().collect();
+    let positions: Vec<[f32; 3]> = gsd::arrays(&mut file, 1, "particles/position");
     assert_eq!(positions[0], [-2.0, -1.25, 0.0]);
     assert_eq!(positions[1], [-2.0, -2.5, -3.05]);
-    let velocities: Vec<[f32; 3]> = file.iter_arrays(1, "particles/velocity").unwrap().collect();
-    assert_eq!(file.iter_scalars::<f64>(1, "log/time").unwrap().collect::<Vec<_>>(), [10.0 * model.time_step]);
-    let images: Vec<[i32; 3]> = file.iter_arrays(1, "particles/image").unwrap().collect();
+    let velocities: Vec<[f32; 3]> = gsd::arrays(&mut file, 1, "particles/velocity");
+    assert_eq!(gsd::scalars::<f64>(&mut file, 1, "log/time"), [10.0 * model.time_step]);
+    let images: Vec<[i32; 3]> = gsd::arrays(&mut file, 1, "particles/image");
     // The second particle is so near to the upper faces that single precision puts it on the lower ones of the next box.
     assert_eq!(images, [[1, -2, 3], [1, 1, 1], [-1, 0, 5]]);
     let unit = model.units.momentum;
@@ -550,11 +549,11 @@ fn gsd_holds_what_hoomd_expects() {
     let model = Model::new(&scene(2));
     let mut trajectory = TrajectoryWriter::create(&flat, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
     trajectory.append(&state(0, 2)).unwrap();
-    drop(trajectory);
-    let file = GsdFile::open(&flat, Mode::Read).unwrap();
-    assert_eq!(file.iter_scalars::<u8>(0, "configuration/dimensions").unwrap().collect::<Vec<_>>(), [2]);
-    assert_eq!(file.iter_scalars::<f32>(0, "configuration/box").unwrap().collect::<Vec<_>>()[2], 0.0);
-    assert!(file.iter_arrays::<f32, 3>(0, "particles/position").unwrap().all(|position| position[2] == 0.0));
+    trajectory.flush().unwrap();
+    let mut file = gsd::open(&flat);
+    assert_eq!(gsd::scalars::<u8>(&mut file, 0, "configuration/dimensions"), [2]);
+    assert_eq!(gsd::scalars::<f32>(&mut file, 0, "configuration/box")[2], 0.0);
+    assert!(gsd::arrays::<f32, 3>(&mut file, 0, "particles/position").iter().all(|position| position[2] == 0.0));
 }
 
 /// Writes frames of steps 0, 10, 20, …; returns the extents after each.
@@ -594,7 +593,7 @@ fn trajectories_resume_at_the_step() {
             assert!(fs::read(&path).unwrap() == straight, "{name} cut back to frame {last}");
             if format == TrajectoryFormat::Gsd {
                 assert_eq!(steps_of(&path), (0..50).map(|frame| 10 * frame).collect::<Vec<_>>());
-                assert!(GsdFile::open(&path, Mode::Read).unwrap().find_chunk(0, "particles/mass").is_some());
+                assert_eq!(gsd::scalars::<f32>(&mut gsd::open(&path), 0, "particles/mass").len(), 3);
             }
         }
         assert!(!listing(root.path()).iter().any(|name| name.contains(".tmp")));
@@ -630,9 +629,9 @@ type Frame = (u64, Vec<[f32; 3]>, Vec<[f32; 3]>);
 
 /// What a reader sees of a trajectory.
 fn content_of(path: &Path) -> Vec<Frame> {
-    let file = GsdFile::open(path, Mode::Read).unwrap();
-    let vectors = |frame, name| file.iter_arrays::<f32, 3>(frame, name).unwrap().collect::<Vec<_>>();
-    let frames = (0..file.n_frames()).zip(steps_of(path));
+    let mut file = gsd::open(path);
+    let frames = (0..file.frames().unwrap()).zip(steps_of(path));
+    let mut vectors = |frame, name| gsd::arrays::<f32, 3>(&mut file, frame, name);
     frames
         .map(|(frame, step)| (step, vectors(frame, "particles/position"), vectors(frame, "particles/velocity")))
         .collect()

@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use hoomd_gsd::file_layer::{GsdFile, Mode};
 use mesoscope::output::{Summary, checkpoint, files, read_table};
 use mesoscope::scene::AnalysisId;
 use serde_json::json;
 
+use crate::support::gsd;
 use crate::support::program::{
     Place, bytes, colours, contents, fails, listing, mesoscope, picture, size, succeeds, text,
 };
@@ -191,13 +191,13 @@ fn layers_behind_walls_are_in_the_files_of_a_run() {
     let counted: f64 = place.table("whole", "profiles.csv").values("number_density").iter().sum();
     assert!((counted / 10.0 - 3.0).abs() < 1e-9, "{counted}");
 
-    let file = GsdFile::open(whole.join(files::TRAJECTORY_GSD), Mode::Read).unwrap();
-    let lengths: Vec<f32> = file.iter_scalars(0, "configuration/box").unwrap().collect();
+    let mut file = gsd::open(&whole.join(files::TRAJECTORY_GSD));
+    let lengths: Vec<f32> = gsd::scalars(&mut file, 0, "configuration/box");
     assert!(lengths[2] > 8.0 && lengths[2] < 8.01, "{lengths:?}");
-    let kinds: Vec<u32> = file.iter_scalars(0, "particles/typeid").unwrap().collect();
-    for frame in 0..file.n_frames() {
-        let positions: Vec<[f32; 3]> = file.iter_arrays(frame, "particles/position").unwrap().collect();
-        let velocities: Vec<[f32; 3]> = file.iter_arrays(frame, "particles/velocity").unwrap().collect();
+    let kinds: Vec<u32> = gsd::scalars(&mut file, 0, "particles/typeid");
+    for frame in 0..file.frames().unwrap() {
+        let positions: Vec<[f32; 3]> = gsd::arrays(&mut file, frame, "particles/position");
+        let velocities: Vec<[f32; 3]> = gsd::arrays(&mut file, frame, "particles/velocity");
         for ((kind, [_, _, z]), velocity) in kinds.iter().zip(positions).zip(velocities) {
             if *kind == 0 {
                 assert!(z.abs() <= 2.5, "{z}");

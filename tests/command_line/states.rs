@@ -4,11 +4,11 @@
 use std::fs;
 use std::path::Path;
 
-use hoomd_gsd::file_layer::GsdFile;
 use mesoscope::families::reference::{CouplingsReference, Reference};
 use mesoscope::output::{Id, TrajectoryWriter, checkpoint, files};
 use mesoscope::scene::{self, KeptStart, Scene, TrajectoryFormat, Warning};
 use mesoscope::state::State;
+use mesoscope::state_file::GsdWriter;
 use serde_json::{Value, json};
 
 use crate::support::program::{Place, bytes, fails, succeeds};
@@ -166,24 +166,23 @@ fn double_precision_keeps_every_bit() {
     let (model, state) = start(&written);
     let units = model.units;
     let path = place.path().join("a.gsd");
-    let mut file = GsdFile::create(&path, "test", "hoomd", (1, 4)).unwrap();
-    file.write_scalars("configuration/box", [4.0_f32, 5.0, 6.0, 0.0, 0.0, 0.0]).unwrap();
-    file.write_scalars("particles/N", [state.len() as u32]).unwrap();
+    let mut file = GsdWriter::create(&path, "test", "hoomd", (1, 4)).unwrap();
+    file.write("configuration/box", [[4.0_f32], [5.0], [6.0], [0.0], [0.0], [0.0]]).unwrap();
+    file.write("particles/N", [[state.len() as u32]]).unwrap();
     let name = |text: &str| -> [u8; 16] { std::array::from_fn(|at| text.as_bytes().get(at).copied().unwrap_or(0)) };
-    file.write_arrays("particles/types", [name("a solvent"), name("C")]).unwrap();
-    file.write_scalars("particles/typeid", state.species.iter().map(|species| 1 - species)).unwrap();
-    file.write_scalars("particles/mass", state.species.iter().map(|species| [1.5_f32, 1.0][*species as usize]))
-        .unwrap();
+    file.write("particles/types", [name("a solvent"), name("C")]).unwrap();
+    file.write("particles/typeid", state.species.iter().map(|species| [1 - species])).unwrap();
+    file.write("particles/mass", state.species.iter().map(|species| [[1.5_f32, 1.0][*species as usize]])).unwrap();
     let centred = |fraction: &[u32; 3]| -> [f64; 3] {
         let position = units.position(*fraction);
         std::array::from_fn(|axis| position[axis] - 0.5 * units.lengths[axis])
     };
-    file.write_arrays("particles/position", state.positions.iter().map(centred)).unwrap();
+    file.write("particles/position", state.positions.iter().map(centred)).unwrap();
     let masses = [1.5, 1.0];
     let velocity = |id: usize| units.momentum(state.momenta[id]).map(|part| part / masses[state.species[id] as usize]);
-    file.write_arrays("particles/velocity", (0..state.len()).map(velocity)).unwrap();
-    file.end_frame().unwrap();
-    file.sync_all().unwrap();
+    file.write("particles/velocity", (0..state.len()).map(velocity)).unwrap();
+    file.end_frame();
+    file.sync().unwrap();
     drop(file);
     let asked = with_state(&text, json!({"file": "a.gsd"}));
     let again = || State { images: Vec::new(), ..start(&load(place.path(), &asked).0).1 };

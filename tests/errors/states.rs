@@ -4,10 +4,10 @@
 use std::fs;
 use std::path::Path;
 
-use hoomd_gsd::file_layer::GsdFile;
 use mesoscope::output::{Id, checkpoint, files};
 use mesoscope::run::Simulation;
 use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::state_file::GsdWriter;
 use rand::rngs::StdRng;
 use rand::{RngExt as _, SeedableRng as _};
 use serde_json::{Value, json};
@@ -1064,20 +1064,20 @@ fn gsd(path: &Path, image: i64, bond: u32, tilt: f32) {
 
 /// The same with the first particle elsewhere.
 fn gsd_with(path: &Path, first: [f64; 3], image: i64, bond: u32, tilt: f32) {
-    let mut file = GsdFile::create(path, "test", "hoomd", (1, 4)).unwrap();
-    file.write_scalars("configuration/box", [4.0_f32, 5.0, 6.0, tilt, 0.0, 0.0]).unwrap();
-    file.write_scalars("particles/N", [2_u32]).unwrap();
-    file.write_arrays("particles/types", [[b'A', 0], [b'B', 0]]).unwrap();
-    file.write_scalars("particles/typeid", [0_u32, 1]).unwrap();
-    file.write_arrays("particles/position", [first, [1.0, 1.0, 1.0]]).unwrap();
-    file.write_arrays("particles/velocity", [[0.5_f64, 0.0, 0.0], [-0.5, 0.0, 0.0]]).unwrap();
-    file.write_arrays("particles/image", [[0_i64, 0, 0], [image, 0, 0]]).unwrap();
-    file.write_scalars("bonds/N", [1_u32]).unwrap();
-    file.write_arrays("bonds/types", [[b'x', 0]]).unwrap();
-    file.write_scalars("bonds/typeid", [0_u32]).unwrap();
-    file.write_arrays("bonds/group", [[0_u32, bond]]).unwrap();
-    file.end_frame().unwrap();
-    file.sync_all().unwrap();
+    let mut file = GsdWriter::create(path, "test", "hoomd", (1, 4)).unwrap();
+    file.write("configuration/box", [[4.0_f32], [5.0], [6.0], [tilt], [0.0], [0.0]]).unwrap();
+    file.write("particles/N", [[2_u32]]).unwrap();
+    file.write("particles/types", [[b'A', 0], [b'B', 0]]).unwrap();
+    file.write("particles/typeid", [[0_u32], [1]]).unwrap();
+    file.write("particles/position", [first, [1.0, 1.0, 1.0]]).unwrap();
+    file.write("particles/velocity", [[0.5_f64, 0.0, 0.0], [-0.5, 0.0, 0.0]]).unwrap();
+    file.write("particles/image", [[0_i64, 0, 0], [image, 0, 0]]).unwrap();
+    file.write("bonds/N", [[1_u32]]).unwrap();
+    file.write("bonds/types", [[b'x', 0]]).unwrap();
+    file.write("bonds/typeid", [[0_u32]]).unwrap();
+    file.write("bonds/group", [[0_u32, bond]]).unwrap();
+    file.end_frame();
+    file.sync().unwrap();
 }
 
 /// An array without rows lies where the file ends.
@@ -1085,16 +1085,16 @@ fn gsd_with(path: &Path, first: [f64; 3], image: i64, bond: u32, tilt: f32) {
 fn empty_arrays_of_gsd() {
     let place = Place::of("other", "");
     let path = place.path().join("init.gsd");
-    let mut file = GsdFile::create(&path, "test", "hoomd", (1, 4)).unwrap();
-    file.write_scalars("configuration/box", [4.0_f32, 5.0, 6.0, 0.0, 0.0, 0.0]).unwrap();
-    file.write_scalars("particles/N", [2_u32]).unwrap();
-    file.write_arrays("particles/types", [[b'A', 0], [b'B', 0]]).unwrap();
-    file.write_scalars("particles/typeid", [0_u32, 1]).unwrap();
-    file.write_arrays("particles/position", [[0.0_f64, 0.0, 0.0], [1.0, 1.0, 1.0]]).unwrap();
-    file.write_scalars("bonds/N", [0_u32]).unwrap();
-    file.write_arrays("bonds/group", Vec::<[u32; 2]>::new()).unwrap();
-    file.end_frame().unwrap();
-    file.sync_all().unwrap();
+    let mut file = GsdWriter::create(&path, "test", "hoomd", (1, 4)).unwrap();
+    file.write("configuration/box", [[4.0_f32], [5.0], [6.0], [0.0], [0.0], [0.0]]).unwrap();
+    file.write("particles/N", [[2_u32]]).unwrap();
+    file.write("particles/types", [[b'A', 0], [b'B', 0]]).unwrap();
+    file.write("particles/typeid", [[0_u32], [1]]).unwrap();
+    file.write("particles/position", [[0.0_f64, 0.0, 0.0], [1.0, 1.0, 1.0]]).unwrap();
+    file.write("bonds/N", [[0_u32]]).unwrap();
+    file.write("bonds/group", Vec::<[u32; 2]>::new()).unwrap();
+    file.end_frame();
+    file.sync().unwrap();
     drop(file);
     let unbonded = [("/state/velocities", json!("thermal")), ("/interactions", json!([]))];
     let loaded = place.load("init.gsd", &unbonded);
@@ -1138,9 +1138,9 @@ fn frames_of_gsd() {
         [("/space", json!({"box": [4, 5, 6], "shear": {"rate": 1, "gradient": "y"}})), ("/interactions", json!([]))];
     let loaded = place.load("init.gsd", &sheared).unwrap();
     assert!((loaded.space.shear.unwrap().displacement - 1.25).abs() < 1e-12);
-    let mut file = GsdFile::create(&path, "test", "other", (1, 4)).unwrap();
-    file.end_frame().unwrap();
-    file.sync_all().unwrap();
+    let mut file = GsdWriter::create(&path, "test", "other", (1, 4)).unwrap();
+    file.end_frame();
+    file.sync().unwrap();
     drop(file);
     assert_eq!(
         place.problems("init.gsd", &[]),

@@ -15,7 +15,7 @@ use serde_json::{Value, json};
 use std::time::Instant;
 
 use crate::support::{
-    Implementation, adapter, engine, hardware, largest_difference, reference_of_particles, requirements, series, start,
+    Implementation, adapter, engine, hardware, largest_difference, reference_of_particles, series, start,
     totals,
 };
 
@@ -420,7 +420,7 @@ fn as_many_particles_as_an_adapter_holds_take_a_step() {
         };
         let open = |plan: &Plan| {
             let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
-            Gpu::open(&adapter(), Requirements { largest_buffer, storage_buffers, ..requirements() })
+            Gpu::open(&adapter(), Requirements { largest_buffer, storage_buffers, ..Requirements::default() })
         };
         // No more than the memory of a machine takes at some hundred bytes each.
         let (mut most, mut beyond) = (64, 1 << 23);

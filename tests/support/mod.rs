@@ -5,6 +5,7 @@
 
 pub mod bytes;
 pub mod compiler;
+pub mod gsd;
 pub mod mistakes;
 pub mod plotter;
 pub mod program;
@@ -42,15 +43,13 @@ pub fn adapter() -> AdapterChoice {
     AdapterChoice::parse(std::env::var("MESOSCOPE_ADAPTER").ok().as_deref())
 }
 
-/// What they ask of it. With `MESOSCOPE_PLAN=gpu` nothing is used that only some adapters have: plans are the ones for any GPU, on
-/// software adapters too.
+/// What they ask of it: as many storage buffers as the most demanding of plans binds, where the adapter has them.
 pub fn requirements() -> Requirements {
-    let portable = match std::env::var("MESOSCOPE_PLAN").as_deref() {
-        Err(_) => false,
-        Ok("gpu") => true,
-        Ok(other) => panic!("MESOSCOPE_PLAN is `{other}`: the one plan that can be asked for is `gpu`"),
-    };
-    Requirements { portable, ..Requirements::default() }
+    static MET: OnceLock<Requirements> = OnceLock::new();
+    *MET.get_or_init(|| {
+        let most = Requirements { storage_buffers: 10, ..Requirements::default() };
+        if Gpu::open(&adapter(), most).is_ok() { most } else { Requirements::default() }
+    })
 }
 
 /// The adapter of the tests.

@@ -13,13 +13,9 @@ use crate::output::temporary::Temporary;
 use crate::output::watch::Watch;
 use crate::output::{Extent, Id, OutputError, files};
 use crate::state::State;
-use crate::state_file::FROZEN_IN_GSD;
-use bytemuck::NoUninit;
-use hoomd_gsd::file_layer::{
-    DecodeError, EncodeError, GsdFile, Mode, OpenError, ReadError, SyncError, Type, WriteError,
-};
+use crate::state_file::{Chunk, Cursor, FROZEN_IN_GSD, GsdError, GsdReader, GsdWriter, Number};
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Bytes for the name of a type, with at least one zero at the end.
@@ -37,17 +33,17 @@ pub(super) const FORMAT: Format = Format {
 #[derive(Debug)]
 struct GsdTrajectory {
     path: PathBuf,
-    /// None after a failed write: the file layer would write again when dropped, at positions that no longer hold.
-    file: Option<GsdFile>,
+    /// None after a failed write: nobody knows what of it is in the file.
+    file: Option<GsdWriter>,
     /// Whether no frame has been added yet.
     empty: bool,
     watch: Watch,
     /// Length of the file after the last flush.
     length: u64,
-    /// Frames of the last flush.
-    frames: u64,
-    /// Of what these frames hold.
+    /// Of what its frames hold.
     checksum: Checksum,
+    /// The same with frames that were added since.
+    added: Checksum,
 }
 
 const APPLICATION: &str = concat!("mesoscope ", env!("CARGO_PKG_VERSION"));
@@ -61,22 +57,23 @@ const SCHEMA_VERSION: (u16, u16) = (1, 4);
 impl GsdTrajectory {
     fn create(path: &Path) -> Result<Self, OutputError> {
         let file = create_file(path)?;
-        Self::of(path, file, Checksum::default())
+        Self::of(path, file, true, Checksum::default())
     }
 
     fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
-        check_index(path)?;
-        let file = GsdFile::open(path, Mode::Write).map_err(|error| open_error(path, "continue", error))?;
+        let mut file = open(path)?;
         let altered = || OutputError::Altered { path: path.to_path_buf() };
+        let damaged = |error| refused("continue", path, error);
         let ours = file.application().starts_with(PROGRAM);
         if !ours || (file.schema(), file.schema_version()) != (SCHEMA, SCHEMA_VERSION) {
             return Err(altered());
         }
         // Every frame has a step of its own, so no two beginnings hold the same.
-        let mut checksum = Checksum::default();
-        let mut kept = 0;
+        let mut walk = Walk::new(&mut file).map_err(damaged)?;
+        let (mut checksum, mut kept) = (Checksum::default(), 0);
         while checksum.extent(written.bytes) != written {
-            if kept == file.n_frames() || hash_frame(path, &file, kept, &mut checksum).is_err() {
+            let frame = walk.take(&mut file).map_err(damaged)?;
+            if frame.is_empty() || frame.into_iter().any(|chunk| hash(&mut file, chunk, &mut checksum).is_err()) {
                 return Err(altered());
             }
             kept += 1;
@@ -86,32 +83,26 @@ impl GsdTrajectory {
             return Err(altered());
         }
         // A frame that was not finished may have left data that no index entry knows of.
-        let whole = kept == file.n_frames() && length == written.bytes;
-        let file = if whole { file } else { copy_frames(path, file, kept)? };
-        Self::of(path, file, checksum)
+        let whole = walk.next.is_none() && length == written.bytes;
+        let reader = if whole { file } else { copy_frames(path, file, kept)? };
+        Self::of(path, GsdWriter::append_to(reader).map_err(damaged)?, kept == 0, checksum)
     }
 
-    fn of(path: &Path, file: GsdFile, checksum: Checksum) -> Result<Self, OutputError> {
+    fn of(path: &Path, file: GsdWriter, empty: bool, checksum: Checksum) -> Result<Self, OutputError> {
         let (path, watch) = (path.to_path_buf(), Watch::of(path)?);
-        let (frames, length) = (file.n_frames(), file_length(&path)?);
-        Ok(Self { path, watch, length, frames, checksum, empty: frames == 0, file: Some(file) })
+        let length = file_length(&path)?;
+        Ok(Self { path, watch, length, added: checksum.clone(), checksum, empty, file: Some(file) })
     }
 
-    fn attempt(&mut self, write: impl FnOnce(&mut GsdFile) -> Result<(), WriteError>) -> Result<(), OutputError> {
-        let Some(mut file) = self.file.take() else {
+    fn attempt(&mut self, write: impl FnOnce(&mut Frame) -> io::Result<()>) -> Result<(), OutputError> {
+        let Some(file) = self.file.take() else {
             let problem = "an earlier write to it failed".to_owned();
             return Err(OutputError::Trajectory { path: self.path.clone(), problem });
         };
-        match write(&mut file) {
-            Ok(()) => {
-                self.file = Some(file);
-                Ok(())
-            }
-            Err(error) => {
-                std::mem::forget(file);
-                Err(write_error(&self.path, error))
-            }
-        }
+        let mut frame = Frame { file, checksum: &mut self.added };
+        write(&mut frame).map_err(OutputError::io("write", &self.path))?;
+        self.file = Some(frame.file);
+        Ok(())
     }
 }
 
@@ -127,94 +118,132 @@ impl Frames for GsdTrajectory {
     fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError> {
         description.check(&self.path, state)?;
         let first = self.empty;
-        self.attempt(|file| {
+        self.attempt(|frame| {
             if first || description.shear.is_some() {
-                write_box(file, description, state.step)?;
+                write_box(frame, description, state.step)?;
             }
             if first {
-                write_constants(file, description, state)?;
+                write_constants(frame, description, state)?;
             }
             if first || description.changing_masses {
-                write_masses(file, description, state)?;
+                write_masses(frame, description, state)?;
             }
-            file.write_scalars("configuration/step", [state.step])?;
-            file.write_scalars("log/time", [state.step as f64 * description.time_step])?;
+            frame.scalars("configuration/step", [state.step])?;
+            frame.scalars("log/time", [state.step as f64 * description.time_step])?;
             let lean = description.displaced(state.step);
             let positions = state.positions.iter().map(|position| match lean {
                 Some(lean) => leaning(description, *position, lean),
                 None => centred(description, *position).0,
             });
-            file.write_arrays("particles/position", positions)?;
+            frame.arrays("particles/position", positions)?;
             let velocities =
                 (0..state.len()).map(|particle| description.velocity(state, particle).map(|value| value as f32));
-            file.write_arrays("particles/velocity", velocities)?;
+            frame.arrays("particles/velocity", velocities)?;
             if lean.is_none() {
                 let images = (0..state.len()).map(|particle| {
                     let (_, rounded) = centred(description, state.positions[particle]);
                     std::array::from_fn::<i32, 3, _>(|axis| state.image(particle)[axis] + rounded[axis])
                 });
-                file.write_arrays("particles/image", images)?;
+                frame.arrays("particles/image", images)?;
             }
-            file.end_frame().map_err(|error| WriteError::Encode("frame".to_owned(), state.step, error))
+            frame.file.end_frame();
+            Ok(())
         })?;
         self.empty = false;
         Ok(())
     }
 
     fn flush(&mut self) -> Result<(), OutputError> {
-        self.attempt(|file| file.sync_all().map_err(|error| WriteError::Sync("frame".to_owned(), 0, error)))?;
-        if let Some(file) = &self.file {
-            while self.frames < file.n_frames() {
-                hash_frame(&self.path, file, self.frames, &mut self.checksum)?;
-                self.frames += 1;
-            }
-            // What became of a file that is no longer there is said at the end of the run.
-            self.length = self.watch.length().unwrap_or(self.length);
-        }
+        self.attempt(|frame| frame.file.sync())?;
+        self.checksum = self.added.clone();
+        // What became of a file that is no longer there is said at the end of the run.
+        self.length = self.watch.length().unwrap_or(self.length);
         Ok(())
     }
 }
 
 /// The id in the first frame.
 fn id_of(path: &Path) -> Option<Id> {
-    check_index(path).ok()?;
-    let file = GsdFile::open(path, Mode::Read).ok()?;
-    file.find_chunk(0, RUN)?;
-    let text: Vec<u8> = file.iter_scalars(0, RUN).ok()?.collect();
-    Id::parse(std::str::from_utf8(&text).ok()?)
+    let text = GsdReader::new(File::open(path).ok()?).ok()?.array::<u8, 1>(0, RUN).ok()??;
+    Id::parse(std::str::from_utf8(text.as_flattened()).ok()?)
 }
 
-fn create_file(path: &Path) -> Result<GsdFile, OutputError> {
-    GsdFile::create(path, APPLICATION, SCHEMA, SCHEMA_VERSION).map_err(|error| open_error(path, "create", error))
+fn create_file(path: &Path) -> Result<GsdWriter, OutputError> {
+    GsdWriter::create(path, APPLICATION, SCHEMA, SCHEMA_VERSION).map_err(OutputError::io("create", path))
 }
 
-fn write_masses(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
+/// A frame that is being written, and the checksum of what it holds.
+struct Frame<'a> {
+    file: GsdWriter,
+    checksum: &'a mut Checksum,
+}
+
+impl Frame<'_> {
+    fn scalars<T: Number>(
+        &mut self,
+        name: &str,
+        values: impl IntoIterator<Item = T, IntoIter: ExactSizeIterator>,
+    ) -> io::Result<()> {
+        self.arrays(name, values.into_iter().map(|value| [value]))
+    }
+
+    fn arrays<T: Number, const M: usize>(
+        &mut self,
+        name: &str,
+        rows: impl IntoIterator<Item = [T; M], IntoIter: ExactSizeIterator>,
+    ) -> io::Result<()> {
+        let rows = rows.into_iter();
+        begin_array(self.checksum, name, rows.len() as u64);
+        let mut piece = Vec::with_capacity(2 * HASHED);
+        let rows = rows.inspect(|row| {
+            piece.extend_from_slice(bytemuck::cast_slice(row));
+            if piece.len() >= HASHED {
+                self.checksum.add(&piece);
+                piece.clear();
+            }
+        });
+        self.file.write(name, rows)?;
+        self.checksum.add(&piece);
+        Ok(())
+    }
+}
+
+/// Bytes added to a checksum at once.
+const HASHED: usize = 1 << 14;
+
+/// Adds what comes before the content of an array to a checksum.
+fn begin_array(checksum: &mut Checksum, name: &str, rows: u64) {
+    checksum.add(name.as_bytes());
+    checksum.add(&rows.to_le_bytes());
+}
+
+fn write_masses(frame: &mut Frame, description: &Description, state: &State) -> io::Result<()> {
     let masses = (0..state.len()).map(|particle| description.mass(state, particle) as f32);
-    file.write_scalars("particles/mass", masses)
+    frame.scalars("particles/mass", masses)
 }
 
 /// The box of a frame: its edges, and the tilts xy, xz and yz.
-fn write_box(file: &mut GsdFile, description: &Description, step: u64) -> Result<(), WriteError> {
+fn write_box(frame: &mut Frame, description: &Description, step: u64) -> io::Result<()> {
     let (mut lengths, [_, second, third]) = (box_of(description), description.tilts(step));
     let [xy, xz] = [second / lengths[1], third / lengths[2]].map(|tilt| tilt as f32);
     if description.units.dimension <= 2 {
         lengths[2] = 0.0;
     }
     let [x, y, z] = lengths.map(|length| length as f32);
-    file.write_scalars("configuration/box", [x, y, z, xy, xz, 0.0])
+    frame.scalars("configuration/box", [x, y, z, xy, xz, 0.0])
 }
 
-fn write_constants(file: &mut GsdFile, description: &Description, state: &State) -> Result<(), WriteError> {
-    file.write_scalars("configuration/dimensions", [description.units.dimension.max(2) as u8])?;
-    file.write_scalars("particles/N", [state.len() as u32])?;
-    file.write_arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
-    file.write_scalars("particles/typeid", state.species.iter().copied())?;
+fn write_constants(frame: &mut Frame, description: &Description, state: &State) -> io::Result<()> {
+    frame.scalars("configuration/dimensions", [description.units.dimension.max(2) as u8])?;
+    frame.scalars("particles/N", [state.len() as u32])?;
+    frame.arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
+    frame.scalars("particles/typeid", state.species.iter().copied())?;
     if let Some(frozen) = description.frozen_particles(state) {
-        file.write_scalars(FROZEN_IN_GSD, [frozen as u32])?;
+        frame.scalars(FROZEN_IN_GSD, [frozen as u32])?;
     }
-    file.write_scalars(RUN, description.run.to_string().into_bytes())?;
-    write_links(file, &BONDS, &description.bonds)?;
-    write_links(file, &ANGLES, &description.angles)
+    frame.scalars(RUN, description.run.to_string().into_bytes())?;
+    write_links(frame, &BONDS, &description.bonds)?;
+    write_links(frame, &ANGLES, &description.angles)
 }
 
 /// The names of the arrays that join particles, and of a type of them.
@@ -237,12 +266,12 @@ const ANGLES: Links = Links {
 };
 
 /// Bonds or angles, if there are any.
-fn write_links<const N: usize>(file: &mut GsdFile, names: &Links, links: &[([u32; N], u32)]) -> Result<(), WriteError> {
+fn write_links<const N: usize>(frame: &mut Frame, names: &Links, links: &[([u32; N], u32)]) -> io::Result<()> {
     let Some(last) = links.iter().map(|(_, kind)| *kind).max() else { return Ok(()) };
-    file.write_scalars(names.count, [links.len() as u32])?;
-    file.write_arrays(names.types, (0..=last).map(|kind| type_name(&format!("{} {kind}", names.kind))))?;
-    file.write_scalars(names.type_ids, links.iter().map(|(_, kind)| *kind))?;
-    file.write_arrays(names.groups, links.iter().map(|(ends, _)| *ends))
+    frame.scalars(names.count, [links.len() as u32])?;
+    frame.arrays(names.types, (0..last + 1).map(|kind| type_name(&format!("{} {kind}", names.kind))))?;
+    frame.scalars(names.type_ids, links.iter().map(|(_, kind)| *kind))?;
+    frame.arrays(names.groups, links.iter().map(|(ends, _)| *ends))
 }
 
 /// The box of the file: that between the walls, or where particles are frozen behind them the whole period, which no position is outside of.
@@ -298,222 +327,92 @@ fn file_length(path: &Path) -> Result<u64, OutputError> {
     Ok(std::fs::metadata(path).map_err(OutputError::io("look at", path))?.len())
 }
 
-/// What can be done with the arrays of a frame.
-trait Chunks {
-    fn scalars<T: Type + NoUninit>(&mut self, name: &str, values: impl ExactSizeIterator<Item = T>) -> Outcome;
-    fn arrays<T: Type + NoUninit, const M: usize>(
-        &mut self,
-        name: &str,
-        values: impl ExactSizeIterator<Item = [T; M]>,
-    ) -> Outcome;
+/// Frames of a file, one after the other.
+struct Walk {
+    cursor: Cursor,
+    /// The first array of the next frame.
+    next: Option<Chunk>,
 }
 
-type Outcome = Result<(), OutputError>;
-
-/// Visits the arrays of a frame in the order in which [`GsdTrajectory::append`] wrote them.
-fn visit(path: &Path, file: &GsdFile, frame: u64, visitor: &mut impl Chunks) -> Outcome {
-    let unreadable =
-        |error: ReadError| OutputError::Trajectory { path: path.to_path_buf(), problem: error.to_string() };
-    macro_rules! chunk {
-        (scalars $kind:ty, $name:expr) => {
-            if file.find_chunk(frame, $name).is_some() {
-                visitor.scalars($name, file.iter_scalars::<$kind>(frame, $name).map_err(unreadable)?)?;
-            }
-        };
-        (arrays $kind:ty, $columns:expr, $name:expr) => {
-            if file.find_chunk(frame, $name).is_some() {
-                visitor.arrays($name, file.iter_arrays::<$kind, $columns>(frame, $name).map_err(unreadable)?)?;
-            }
-        };
+impl Walk {
+    fn new(file: &mut GsdReader) -> Result<Self, GsdError> {
+        let mut cursor = Cursor::default();
+        let next = file.next(&mut cursor)?;
+        Ok(Self { cursor, next })
     }
-    chunk!(scalars f32, "configuration/box");
-    chunk!(scalars u8, "configuration/dimensions");
-    chunk!(scalars u32, "particles/N");
-    chunk!(arrays i8, NAME, "particles/types");
-    chunk!(scalars u32, "particles/typeid");
-    chunk!(scalars u32, FROZEN_IN_GSD);
-    chunk!(scalars u8, RUN);
-    chunk!(scalars u32, BONDS.count);
-    chunk!(arrays i8, NAME, BONDS.types);
-    chunk!(scalars u32, BONDS.type_ids);
-    chunk!(arrays u32, 2, BONDS.groups);
-    chunk!(scalars u32, ANGLES.count);
-    chunk!(arrays i8, NAME, ANGLES.types);
-    chunk!(scalars u32, ANGLES.type_ids);
-    chunk!(arrays u32, 3, ANGLES.groups);
-    chunk!(scalars f32, "particles/mass");
-    chunk!(scalars u64, "configuration/step");
-    chunk!(scalars f64, "log/time");
-    chunk!(arrays f32, 3, "particles/position");
-    chunk!(arrays f32, 3, "particles/velocity");
-    chunk!(arrays i32, 3, "particles/image");
-    Ok(())
+
+    /// The arrays of the next frame in the order in which [`GsdTrajectory::append`] wrote them.
+    fn take(&mut self, file: &mut GsdReader) -> Result<Vec<Chunk>, GsdError> {
+        let mut chunks: Vec<Chunk> = Vec::new();
+        while let Some(chunk) = self.next.filter(|next| chunks.first().is_none_or(|first| first.frame == next.frame)) {
+            chunks.push(chunk);
+            self.next = file.next(&mut self.cursor)?;
+        }
+        chunks.sort_by_key(Chunk::location);
+        Ok(chunks)
+    }
 }
 
-/// Adds what a frame holds to a checksum.
-fn hash_frame(path: &Path, file: &GsdFile, frame: u64, checksum: &mut Checksum) -> Outcome {
-    struct Hash<'a>(&'a mut Checksum);
-
-    impl Hash<'_> {
-        fn add<T: NoUninit>(&mut self, name: &str, values: impl Iterator<Item = T>, count: usize) {
-            self.0.add(name.as_bytes());
-            self.0.add(&(count as u64).to_le_bytes());
-            let mut buffer = Vec::with_capacity(HASHED);
-            for value in values {
-                buffer.extend_from_slice(bytemuck::bytes_of(&value));
-                if buffer.len() >= HASHED {
-                    self.0.add(&buffer);
-                    buffer.clear();
-                }
-            }
-            self.0.add(&buffer);
-        }
-    }
-
-    impl Chunks for Hash<'_> {
-        fn scalars<T: Type + NoUninit>(&mut self, name: &str, values: impl ExactSizeIterator<Item = T>) -> Outcome {
-            let count = values.len();
-            self.add(name, values, count);
-            Ok(())
-        }
-
-        fn arrays<T: Type + NoUninit, const M: usize>(
-            &mut self,
-            name: &str,
-            values: impl ExactSizeIterator<Item = [T; M]>,
-        ) -> Outcome {
-            let count = values.len();
-            self.add(name, values.flatten(), count);
-            Ok(())
-        }
-    }
-
-    visit(path, file, frame, &mut Hash(checksum))
+/// Whether a trajectory of ours has an array of this name and kind.
+fn is_ours(name: &str, chunk: Chunk) -> bool {
+    let [byte, integer, long, real, double] = [u8::KIND, u32::KIND, u64::KIND, f32::KIND, f64::KIND];
+    let expected = match name {
+        "configuration/box" | "particles/mass" => (real, 1),
+        "configuration/dimensions" | RUN => (byte, 1),
+        "particles/N" | "particles/typeid" | FROZEN_IN_GSD => (integer, 1),
+        "configuration/step" => (long, 1),
+        "log/time" => (double, 1),
+        "particles/position" | "particles/velocity" => (real, 3),
+        "particles/image" => (i32::KIND, 3),
+        _ if [BONDS.count, BONDS.type_ids, ANGLES.count, ANGLES.type_ids].contains(&name) => (integer, 1),
+        _ if ["particles/types", BONDS.types, ANGLES.types].contains(&name) => (i8::KIND, NAME as u32),
+        _ if name == BONDS.groups => (integer, 2),
+        _ if name == ANGLES.groups => (integer, 3),
+        _ => return false,
+    };
+    (chunk.kind, chunk.columns) == expected
 }
 
-/// Bytes added to a checksum at once.
-const HASHED: usize = 1 << 14;
+/// Adds an array to a checksum, if it is one of ours.
+fn hash(file: &mut GsdReader, chunk: Chunk, checksum: &mut Checksum) -> Result<(), GsdError> {
+    let name = file.name(chunk).filter(|name| is_ours(name, chunk)).ok_or(GsdError::Index)?;
+    begin_array(checksum, name, chunk.rows);
+    Ok(checksum.read(&mut file.content(chunk)?).map(|_| ())?)
+}
 
 /// Copies the first frames to a new file and puts it in the place of the old one: the file layer cannot take frames
 /// away. The copy has the bytes of a file that never had more frames.
-fn copy_frames(path: &Path, old: GsdFile, frames: u64) -> Result<GsdFile, OutputError> {
+fn copy_frames(path: &Path, mut old: GsdReader, frames: u64) -> Result<GsdReader, OutputError> {
     let (temporary, _) = Temporary::beside(path).map_err(OutputError::io("copy", path))?;
-    copy_into(path, &old, temporary.path(), frames)?;
-    // Some systems do not replace a file that is open.
-    drop(old);
-    temporary.move_to(path).map_err(OutputError::io("replace", path))?;
-    GsdFile::open(path, Mode::Write).map_err(|error| open_error(path, "continue", error))
-}
-
-fn copy_into(path: &Path, old: &GsdFile, temporary: &Path, frames: u64) -> Result<(), OutputError> {
-    struct Copy<'a>(&'a mut GsdTrajectory);
-
-    impl Chunks for Copy<'_> {
-        fn scalars<T: Type + NoUninit>(&mut self, name: &str, values: impl ExactSizeIterator<Item = T>) -> Outcome {
-            self.0.attempt(|file| file.write_scalars(name, values))
-        }
-
-        fn arrays<T: Type + NoUninit, const M: usize>(
-            &mut self,
-            name: &str,
-            values: impl ExactSizeIterator<Item = [T; M]>,
-        ) -> Outcome {
-            self.0.attempt(|file| file.write_arrays(name, values))
-        }
-    }
-
-    let mut new = GsdTrajectory::create(temporary)?;
-    for frame in 0..frames {
-        visit(path, old, frame, &mut Copy(&mut new))?;
-        new.attempt(|file| file.end_frame().map_err(|error| WriteError::Encode("frame".to_owned(), frame, error)))?;
-        // One frame in memory at a time.
-        new.flush()?;
-    }
-    Ok(())
-}
-
-/// Makes sure that the header and the index of a file point inside it: the file layer takes that for granted.
-/// The layout is described in <https://gsd.readthedocs.io/en/stable/file-layer.html>.
-fn check_index(path: &Path) -> Result<(), OutputError> {
-    const ENTRY: u64 = 32;
-    let read = || -> io::Result<Option<&'static str>> {
-        let mut file = File::open(path)?;
-        let length = file.metadata()?.len();
-        if length < 256 {
-            return Ok(Some("it is shorter than a header"));
-        }
-        let mut header = [0_u64; 5];
-        file.read_exact(bytemuck::cast_slice_mut(&mut header))?;
-        let [magic, index, index_entries, names, name_entries] = header;
-        if magic != 0x65df_65df_65df_65df {
-            return Ok(Some("it is not a GSD file"));
-        }
-        let inside = |location: u64, count: u64, size: u64| {
-            count.checked_mul(size).and_then(|bytes| location.checked_add(bytes)).is_some_and(|end| end <= length)
-        };
-        if !inside(index, index_entries, ENTRY) || !inside(names, name_entries, 64) {
-            return Ok(Some("it was cut short"));
-        }
-        file.seek(SeekFrom::Start(names))?;
-        let mut list = Vec::new();
-        file.by_ref().take(name_entries * 64).read_to_end(&mut list)?;
-        let known = list.split(|byte| *byte == 0).take_while(|name| !name.is_empty()).count();
-        file.seek(SeekFrom::Start(index))?;
-        let mut entries = io::BufReader::new(file);
-        for _ in 0..index_entries {
-            let mut entry = [0_u8; 32];
-            entries.read_exact(&mut entry)?;
-            let word = |at: usize| bytemuck::pod_read_unaligned::<u64>(&entry[at..at + 8]);
-            let (frame, rows, location) = (word(0), word(8), word(16));
-            if location == 0 {
-                break;
+    let mut new = create_file(temporary.path())?;
+    let mut copy = || -> Result<(), GsdError> {
+        let mut walk = Walk::new(&mut old)?;
+        for _ in 0..frames {
+            for chunk in walk.take(&mut old)? {
+                new.copy(&mut old, chunk)?;
             }
-            let columns = bytemuck::pod_read_unaligned::<u32>(&entry[24..28]);
-            let name = bytemuck::pod_read_unaligned::<u16>(&entry[28..30]);
-            let size: u64 = match entry[30] {
-                1 | 5 | 11 => 1,
-                2 | 6 => 2,
-                3 | 7 | 9 => 4,
-                4 | 8 | 10 => 8,
-                _ => return Ok(Some("its index holds an unknown type")),
-            };
-            if !inside(location, rows.saturating_mul(u64::from(columns)), size) {
-                return Ok(Some("it was cut short"));
-            }
-            if frame >= index_entries || usize::from(name) >= known {
-                return Ok(Some("its index is damaged"));
-            }
+            new.end_frame();
+            new.sync()?;
         }
-        Ok(None)
+        Ok(())
     };
-    match read().map_err(OutputError::io("continue", path))? {
-        None => Ok(()),
-        Some(problem) => Err(OutputError::Trajectory { path: path.to_path_buf(), problem: problem.to_owned() }),
-    }
+    copy().map_err(|error| refused("copy", path, error))?;
+    // Some systems do not replace a file that is open.
+    drop((old, new));
+    temporary.move_to(path).map_err(OutputError::io("replace", path))?;
+    open(path)
 }
 
-fn open_error(path: &Path, attempted: &'static str, error: OpenError) -> OutputError {
+fn open(path: &Path) -> Result<GsdReader, OutputError> {
+    let file = File::options().read(true).write(true).open(path).map_err(OutputError::io("continue", path))?;
+    GsdReader::new(file).map_err(|error| refused("continue", path, error))
+}
+
+fn refused(attempted: &'static str, path: &Path, error: GsdError) -> OutputError {
     match error {
-        OpenError::IO(_, source) | OpenError::Decode(_, DecodeError::IO(source)) => {
-            OutputError::Io { attempted, path: path.to_path_buf(), source }
-        }
-        OpenError::Decode(_, error) => OutputError::Trajectory { path: path.to_path_buf(), problem: error.to_string() },
+        GsdError::Io(source) => OutputError::Io { attempted, path: path.to_path_buf(), source },
         error => OutputError::Trajectory { path: path.to_path_buf(), problem: error.to_string() },
     }
-}
-
-fn write_error(path: &Path, error: WriteError) -> OutputError {
-    let problem = match error {
-        WriteError::Sync(_, _, SyncError::IO(source)) => {
-            return OutputError::Io { attempted: "write", path: path.to_path_buf(), source };
-        }
-        WriteError::Sync(_, _, error) => error.to_string(),
-        WriteError::Encode(name, frame, error @ EncodeError::DuplicateChunkName(..)) => {
-            format!("frame {frame} has two chunks `{name}`: {error}")
-        }
-        error => error.to_string(),
-    };
-    OutputError::Trajectory { path: path.to_path_buf(), problem }
 }
 
 #[cfg(test)]
