@@ -27,14 +27,14 @@ run: cargo adapter ## simulate SCENE into OUT, on the best adapter there is
 	cargo run --release --locked -- run $(SCENE) --out $(OUT) $(FORCE) $(ARGUMENTS)
 
 # Short tests of the device, to be run a second time with the plans that every GPU gets; those of determinism compare both plans anyway.
-ON_GPU_PLANS := single_steps:: smoothing:: harmonic_chain::
+ON_GPU_PLANS := single_steps:: smoothing:: harmonic_chain:: adapter_check::
 
 test: cargo adapter ## formatting, lints, all tests, documentation, and the book where mdbook is installed
 	@sh .ci/spirv.sh
 	cargo fmt --check
 	cargo clippy --locked --all-targets -- -D warnings
 	cargo test --locked
-	MESOSCOPE_PLAN=gpu cargo test --locked --test reference --test physics -- $(ON_GPU_PLANS)
+	MESOSCOPE_PLAN=gpu cargo test --locked --test library --test command_line -- $(ON_GPU_PLANS)
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps
 	@if command -v mdbook >/dev/null; then sh .ci/book.sh; fi
 

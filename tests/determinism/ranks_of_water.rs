@@ -9,7 +9,7 @@ use mesoscope::scene::Scene;
 use mesoscope::shaders::Array;
 use mesoscope::state::State;
 
-use crate::ranks::team;
+use super::ranks::team;
 use crate::support::bytes::{self, Bytes, harvest, same};
 use crate::support::{ROTATE, WHITE, engine, in_eights, start, water};
 

@@ -15,8 +15,7 @@ use serde_json::{Value, json};
 use std::time::Instant;
 
 use crate::support::{
-    Implementation, adapter, engine, hardware, largest_difference, reference_of_particles, series, start,
-    totals,
+    Implementation, adapter, engine, hardware, largest_difference, reference_of_particles, series, start, totals,
 };
 
 /// A family of scenes, and of the particles of one family those with kernels of their own.

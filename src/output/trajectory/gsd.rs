@@ -269,7 +269,8 @@ const ANGLES: Links = Links {
 fn write_links<const N: usize>(frame: &mut Frame, names: &Links, links: &[([u32; N], u32)]) -> io::Result<()> {
     let Some(last) = links.iter().map(|(_, kind)| *kind).max() else { return Ok(()) };
     frame.scalars(names.count, [links.len() as u32])?;
-    frame.arrays(names.types, (0..last + 1).map(|kind| type_name(&format!("{} {kind}", names.kind))))?;
+    let types: Vec<[i8; NAME]> = (0..=last).map(|kind| type_name(&format!("{} {kind}", names.kind))).collect();
+    frame.arrays(names.types, types)?;
     frame.scalars(names.type_ids, links.iter().map(|(_, kind)| *kind))?;
     frame.arrays(names.groups, links.iter().map(|(ends, _)| *ends))
 }

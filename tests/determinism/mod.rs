@@ -1,8 +1,4 @@
 //! The same bytes, and exact laws to the last bit, whatever changes that is not physics.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-#[path = "../support/mod.rs"]
-mod support;
 
 mod any_compiler;
 mod body_forces;

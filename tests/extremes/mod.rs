@@ -1,8 +1,4 @@
 //! The ends of every range: right, or refused with the reason, and never silent.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-#[path = "../support/mod.rs"]
-mod support;
 
 mod cold_scenes;
 mod couplings;

@@ -1,8 +1,4 @@
 //! The float64 reference against what is exact, and the device against the reference, step by step.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-#[path = "../support/mod.rs"]
-mod support;
 
 mod baths;
 mod body_forces;

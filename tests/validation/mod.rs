@@ -1,8 +1,4 @@
 //! Long runs and other programs: `make validate`.
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-
-#[path = "../support/mod.rs"]
-mod support;
 
 mod channels;
 mod errors;
