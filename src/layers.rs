@@ -5,8 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, from the bottom up.
-const LAYERS: [&str; 26] = [
+const LAYERS: [&str; 27] = [
     "printable",
+    "host_memory",
     "numbers",
     "table",
     "prediction",

@@ -42,6 +42,7 @@ mod document;
 pub mod engine;
 pub mod families;
 pub mod gpu;
+mod host_memory;
 #[cfg(test)]
 mod layers;
 pub mod measure;

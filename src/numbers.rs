@@ -138,6 +138,17 @@ pub fn grouped(number: u64) -> String {
     text
 }
 
+/// So many of something, in the singular where it is one.
+///
+/// ```
+/// assert_eq!(mesoscope::numbers::counted(1, "particle"), "1 particle");
+/// assert_eq!(mesoscope::numbers::counted(0, "particle"), "0 particles");
+/// ```
+#[must_use]
+pub fn counted(count: u64, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 /// A rate with three digits and the prefix of its unit.
 ///
 /// ```

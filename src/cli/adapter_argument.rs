@@ -2,14 +2,14 @@
 
 use mesoscope::gpu::AdapterChoice;
 
-use super::launcher;
+use super::{heading, launcher};
 
 /// Which adapter.
 #[derive(Debug, clap::Args)]
 pub struct AdapterArgument {
     /// Adapter to use: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
     /// [default: the best one]
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, help_heading = heading::RUNNING, value_name = "NAME")]
     adapter: Option<String>,
 }
 

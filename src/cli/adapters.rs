@@ -57,6 +57,7 @@ fn check(choice: &AdapterChoice) -> Result<(), Failure> {
         ("adapter", format!("{name} ({}, {backend})", kind.name())),
         ("driver", driver.clone()),
         ("subgroups", format!("{subgroups}; memory {memory}")),
+        ("takes", "some ten seconds, on a busy software adapter a minute".to_owned()),
     ];
     let head: Vec<Vec<String>> = head.into_iter().map(|(key, value)| vec![key.to_owned(), value]).collect();
     print(&format!("{}\n", aligned(&head, "")))?;

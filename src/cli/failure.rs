@@ -72,11 +72,13 @@ impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
         match error {
             SceneError::Read { .. } | SceneError::StateChanged { .. } => Self::input_output(error.to_string()),
-            SceneError::NotFound { .. } => {
-                Self::usage(format!("{error}\nhint: `mesoscope scenes` says what each is for"))
+            SceneError::TooManyParticles { .. } => Self::no_adapter(error.to_string()),
+            SceneError::NotFound { ref name, .. } => {
+                Self::usage(format!("{error}\nhint: {}", super::guidance::of_scene(name)))
             }
-            SceneError::Invalid { .. } => Self::usage(format!(
-                "{error}\nhint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes NAME` a complete scene"
+            SceneError::Invalid { further, .. } => Self::usage(format!(
+                "{error}\n{}hint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes NAME` a complete scene",
+                if further { "note: further checks follow once these mistakes are mended\n" } else { "" }
             )),
             _ => Self::usage(error.to_string()),
         }
@@ -106,7 +108,7 @@ impl From<RunError> for Failure {
         match error {
             RunError::Gpu(error) => error.into(),
             RunError::Scene(error) => error.into(),
-            error @ RunError::Interrupted { .. } => Self::interrupted(error.to_string()),
+            error @ (RunError::Interrupted { .. } | RunError::NotBegun) => Self::interrupted(error.to_string()),
             RunError::Checkpoint(CheckpointError::Output(_)) => Self::input_output(format!(
                 "{error}\nhint: give the directory that `mesoscope run` wrote, with its {}",
                 files::CHECKPOINT
@@ -141,7 +143,7 @@ impl From<StudyError> for Failure {
 
 fn exit_code(error: &RunError) -> u8 {
     match error {
-        RunError::Unstable { .. } | RunError::GaveUp { .. } => 4,
+        RunError::Unstable { .. } | RunError::UnstableTrial(_) | RunError::GaveUp { .. } => 4,
         RunError::Scene(SceneError::Read { .. } | SceneError::StateChanged { .. }) => 5,
         // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
         RunError::Scene(_)

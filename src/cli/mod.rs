@@ -4,6 +4,8 @@ mod adapter_argument;
 mod adapters;
 mod check;
 mod failure;
+mod guidance;
+mod heading;
 mod interruption;
 mod launcher;
 mod plot;
@@ -34,7 +36,7 @@ use mesoscope::gpu::prepare_environment_among;
 
 pub use adapter_argument::AdapterArgument;
 pub use failure::Failure;
-pub use print::{line, print};
+pub use print::{line, print, print_exactly};
 pub use ranks_argument::RanksArgument;
 pub use run_arguments::RunArguments;
 pub use scene_arguments::{SceneArguments, whole_number};
@@ -51,8 +53,7 @@ Examples:
   mesoscope run dpd-fluid                     simulate the standard DPD fluid on the best adapter
   mesoscope run my-scene.json --out results   simulate a scene of your own
   mesoscope sweep dpd-fluid --vary seed=1,2   compare variants of a scene
-  mesoscope tradeoff dpd-fluid --vary time.step=0.02,0.04
-                                              what accuracy costs, and what to choose
+  mesoscope tradeoff dpd-fluid --vary time.step=0.02,0.04   what accuracy costs, and what to choose
   mesoscope stability dpd-fluid               how far its time step can go
   mesoscope check my-scene.json               find all its mistakes, see what it costs
   mesoscope scenes dpd-fluid > my-scene.json  start a scene from a built-in one

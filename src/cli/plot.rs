@@ -1,14 +1,13 @@
-//! `mesoscope plot`: draw a run or a sweep again.
+//! `mesoscope plot`: draw a run or a study again.
 
 use std::path::PathBuf;
 
 use mesoscope::output::{RunDirectory, files};
-use mesoscope::study::Kind;
-use mesoscope::{printable, run, sweep};
+use mesoscope::{printable, run, stability, sweep, tradeoff};
 
-use super::{AdapterArgument, Failure, print};
+use super::{AdapterArgument, Failure, guidance, heading, print};
 
-/// Draw the plots of a run, or of a sweep, again from the files it left
+/// Draw the plots of a run, or of a sweep, a tradeoff or a map of stability, again from the files it left
 ///
 /// Numbered snapshots stay as they are: the run alone knew those states.
 #[derive(Debug, clap::Args)]
@@ -17,11 +16,11 @@ Examples:
   mesoscope plot dpd-fluid
   mesoscope plot dpd-fluid --set output.plot.theme=dark --set output.plot.width=800")]
 pub struct Arguments {
-    /// Directory of the run or of the sweep
+    /// Directory of the run or of the study
     directory: PathBuf,
 
     /// Change the look, as in a scene: `output.plot.width=800`, `output.snapshot.color=speed`; may be repeated
-    #[arg(long, value_name = "PATH=VALUE")]
+    #[arg(long, help_heading = heading::OUTPUT, value_name = "PATH=VALUE")]
     set: Vec<String>,
 
     #[command(flatten)]
@@ -40,17 +39,21 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             LOOK.map(|prefix| format!("`{prefix}…`")).join(" or ")
         )));
     }
-    let is_run = arguments.directory.join(files::CHECKPOINT).exists();
-    if let Some(kind) = Kind::of(&arguments.directory).filter(|kind| !is_run && kind.summary != sweep::files::SUMMARY) {
-        let (shown, resuming) = (printable::path(&arguments.directory), kind.resuming(&arguments.directory));
-        return Err(Failure::usage(format!("`{shown}` holds a {}: {resuming} draws its pictures again", kind.noun)));
-    }
-    let choice = arguments.adapter.choice();
-    let written = if arguments.directory.join(sweep::files::SUMMARY).exists() {
-        sweep::redraw(&arguments.directory, &choice, &arguments.set)?
+    guidance::check_directory(&arguments.directory)?;
+    let Arguments { directory, set, adapter } = arguments;
+    let (choice, has) = (adapter.choice(), |name: &str| directory.join(name).exists());
+    let written = if has(files::CHECKPOINT) {
+        let directory = RunDirectory::claim(directory)?;
+        run::redraw(&directory, &choice, set)?.into_iter().map(str::to_owned).collect()
+    } else if has(sweep::files::SUMMARY) {
+        sweep::redraw(directory, &choice, set)?
+    } else if has(tradeoff::files::SUMMARY) {
+        tradeoff::redraw(directory, &choice, set)?
+    } else if has(stability::files::SUMMARY) {
+        stability::redraw(directory, &choice, set)?
     } else {
-        let directory = RunDirectory::claim(&arguments.directory)?;
-        run::redraw(&directory, &choice, &arguments.set)?.into_iter().map(str::to_owned).collect()
+        let found = RunDirectory::open(directory)?;
+        run::redraw(&found, &choice, set)?.into_iter().map(str::to_owned).collect()
     };
     print(&format!(
         "wrote {}/: {}

@@ -3,22 +3,22 @@
 use mesoscope::families::Model;
 use mesoscope::gpu::adapters_by_turns;
 use mesoscope::plan::Division;
-use mesoscope::ranks::{Processes, sharing};
-use mesoscope::run::{self, Ranks};
-use mesoscope::scene::Scene;
+use mesoscope::ranks::sharing;
+use mesoscope::run::{self, Ranks, RunError};
+use mesoscope::scene::{Scene, SceneError, Warning};
 
-use super::{AdapterArgument, Failure, line};
+use super::{AdapterArgument, Failure, SceneArguments, heading};
 
 /// How many ranks.
 #[derive(Debug, clap::Args)]
 pub struct RanksArgument {
     /// Share the run among this many ranks, each with an adapter of its own, which divide the box; results are those of one, to the last
     /// bit. `1,2,2` says how many along each axis, `auto` takes one for each adapter that is as good as the best [default: 1]
-    #[arg(long, value_name = "N", value_parser = asked, allow_negative_numbers = true)]
+    #[arg(long, help_heading = heading::SEVERAL, value_name = "N", value_parser = asked, allow_negative_numbers = true)]
     ranks: Option<Asked>,
 
     /// Let ranks compute differently, as adapters of several kinds do: momentum is conserved to rounding only
-    #[arg(long)]
+    #[arg(long, help_heading = heading::SEVERAL)]
     pub mixed: bool,
 }
 
@@ -48,9 +48,8 @@ impl RanksArgument {
         &self,
         (scene, model): (&Scene, &Model),
         adapter: &AdapterArgument,
-        processes: Option<&dyn Processes>,
+        copies: Option<u32>,
     ) -> Result<Option<Division>, Failure> {
-        let copies = processes.map(Processes::count);
         let ranks = match &self.ranks {
             None if copies.is_none() => return Ok(None),
             None | Some(Asked::Auto) => Ranks::Count(copies.unwrap_or_else(|| adapters_by_turns(&adapter.choice()))),
@@ -76,14 +75,32 @@ impl RanksArgument {
                 division.ranks()
             )));
         }
-        // Processes tell where they are once they share the run.
-        if copies.is_none()
-            && division.ranks() > 1
-            && let Some(warning) = sharing(division.ranks(), adapters_by_turns(&adapter.choice()), "this machine")
-        {
-            line(&format!("warning: {warning}"));
-        }
         Ok((division.ranks() > 1).then_some(division))
+    }
+
+    /// What ranks of this machine cost each other, if they do; processes tell where they are once they share the run.
+    pub fn warning(division: Option<Division>, adapter: &AdapterArgument, copies: Option<u32>) -> Option<String> {
+        let division = division.filter(|_| copies.is_none())?;
+        sharing(division.ranks(), adapters_by_turns(&adapter.choice()), "this machine")
+    }
+
+    /// Loads a scene; one that the adapter cannot hold is refused before its particles are read or placed.
+    pub fn load(
+        &self,
+        scene: &SceneArguments,
+        adapter: &AdapterArgument,
+        copies: Option<u32>,
+    ) -> Result<(Scene, Vec<Warning>), SceneError> {
+        scene.load(&|scene| {
+            // Whatever else is wrong is said of the whole scene.
+            let Ok(division) = self.division((scene, &Model::new(scene)), adapter, copies) else { return Ok(()) };
+            match run::adapter_for_rank(scene, division, &adapter.choice()) {
+                Err(error @ RunError::TooLarge { .. }) => {
+                    Err(SceneError::TooManyParticles { reason: error.to_string() })
+                }
+                _ => Ok(()),
+            }
+        })
     }
 }
 

@@ -15,13 +15,13 @@ use mesoscope::scene::Scene;
 use super::table::{aligned, dimensions};
 use super::{Failure, SceneArguments, line, print, progress};
 
-/// Executes a run and reports on it, unless it is to be quiet.
+/// Executes a run and reports on it, with what is to be warned of before, unless it is to be quiet.
 pub fn execute(
     simulation: Simulation,
     processes: Option<&dyn Processes>,
     choice: &AdapterChoice,
     directory: &str,
-    quiet: bool,
+    (quiet, warning): (bool, Option<String>),
 ) -> Result<(), Failure> {
     let simulation = simulation.until(&super::interruption::interrupt());
     if quiet {
@@ -29,6 +29,9 @@ pub fn execute(
         return Ok(());
     }
     let mut reporter = Reporter::new(&simulation);
+    if let Some(warning) = warning {
+        line(&format!("warning: {warning}"));
+    }
     let mut known = simulation.notices().to_vec();
     for notice in &known {
         line(&format!("note: {notice}"));
@@ -117,13 +120,13 @@ impl Reporter {
                 let particles = self.particles;
                 let noun = if particles == 1 { "particle" } else { "particles" };
                 let dimensions = dimensions(self.scene.space.lengths.len());
-                let (name, driver) = (&adapter.name, &adapter.driver);
                 let begin = if first_step > 0 { format!(", from step {}", grouped(first_step)) } else { String::new() };
                 let title = printable::name(&self.scene.title);
                 // A closed standard output will be noticed when the results are printed.
                 let _ = print(&format!(
-                    "{title}: {} {noun} in {dimensions}{begin}, on {name} ({driver})\n{}",
+                    "{title}: {} {noun} in {dimensions}{begin}, on {}\n{}",
                     grouped(particles),
+                    adapter.in_words(),
                     aligned(&self.composition, "  ")
                 ));
                 self.first_step = first_step;

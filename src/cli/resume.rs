@@ -9,7 +9,7 @@ use mesoscope::ranks::Processes;
 use mesoscope::run::Simulation;
 use mesoscope::study::Kind;
 
-use super::{AdapterArgument, Failure, RanksArgument, print, report, whole_number};
+use super::{AdapterArgument, Failure, RanksArgument, guidance, heading, print, report, whole_number};
 
 /// Continue a run from its last checkpoint
 #[derive(Debug, clap::Args)]
@@ -21,8 +21,12 @@ pub struct Arguments {
     /// Directory of the run
     directory: PathBuf,
 
+    /// A run continues with the scene that it began with.
+    #[arg(long, value_name = "PATH=VALUE", hide = true)]
+    set: Vec<String>,
+
     /// Step at which to stop [default: the number of steps in the scene]
-    #[arg(long, value_name = "N", value_parser = whole_number, allow_negative_numbers = true)]
+    #[arg(long, help_heading = heading::RUNNING, value_name = "N", value_parser = whole_number, allow_negative_numbers = true)]
     steps: Option<u64>,
 
     #[command(flatten)]
@@ -32,13 +36,20 @@ pub struct Arguments {
     adapter: AdapterArgument,
 
     /// Report errors only
-    #[arg(long)]
+    #[arg(long, help_heading = heading::OUTPUT)]
     quiet: bool,
 }
 
 /// Continues the run.
 pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
     let shown = printable::path(&arguments.directory);
+    if let Some(change) = arguments.set.first() {
+        return Err(Failure::usage(format!(
+            "`--set {change}`: a run continues with the scene that it began with; `--steps N` makes it longer, and a scene with \
+             \"state\": {{\"file\": \"{shown}\"}} starts a run with other values where this one ended"
+        )));
+    }
+    guidance::check_directory(&arguments.directory)?;
     let is_run = arguments.directory.join(files::CHECKPOINT).exists();
     if let Some(kind) = Kind::of(&arguments.directory).filter(|_| !is_run) {
         let resuming = kind.resuming(&arguments.directory);
@@ -56,9 +67,11 @@ pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Resu
             format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` continues to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
-    let division = arguments.ranks.division((simulation.scene(), simulation.model()), &arguments.adapter, processes)?;
+    let (adapter, copies) = (&arguments.adapter, processes.map(Processes::count));
+    let division = arguments.ranks.division((simulation.scene(), simulation.model()), adapter, copies)?;
+    let warning = RanksArgument::warning(division, adapter, copies);
     let simulation = simulation.on_ranks(division).mixed(arguments.ranks.mixed);
-    report::execute(simulation, processes, &arguments.choice(), &shown, arguments.quiet)
+    report::execute(simulation, processes, &arguments.choice(), &shown, (arguments.quiet, warning))
 }
 
 impl Arguments {

@@ -7,7 +7,7 @@ use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::Simulation;
 
-use super::{Failure, RanksArgument, RunArguments, SceneArguments, report};
+use super::{Failure, RanksArgument, RunArguments, SceneArguments, heading, report};
 
 /// Simulate a scene and write energies, plots and snapshots
 #[derive(Debug, clap::Args)]
@@ -26,7 +26,7 @@ pub struct Arguments {
     scene: SceneArguments,
 
     /// Directory for everything the run writes [default: the scene's name in the working directory]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, help_heading = heading::OUTPUT, value_name = "DIR")]
     out: Option<PathBuf>,
 
     #[command(flatten)]
@@ -38,14 +38,15 @@ pub struct Arguments {
 
 /// Simulates the scene.
 pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
-    let (scene, notices) = arguments.scene.load()?;
+    let (adapter, copies) = (&arguments.how.adapter, processes.map(Processes::count));
+    let (scene, notices) = arguments.ranks.load(&arguments.scene, adapter, copies)?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::default_directory(&arguments.scene).into());
     let shown = printable::path(&directory);
     let simulation = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
-    let division =
-        arguments.ranks.division((simulation.scene(), simulation.model()), &arguments.how.adapter, processes)?;
+    let division = arguments.ranks.division((simulation.scene(), simulation.model()), adapter, copies)?;
+    let warning = RanksArgument::warning(division, adapter, copies);
     let simulation = simulation.on_ranks(division).mixed(arguments.ranks.mixed);
-    report::execute(simulation, processes, &arguments.choice(), &shown, arguments.how.quiet)
+    report::execute(simulation, processes, &arguments.choice(), &shown, (arguments.how.quiet, warning))
 }
 
 impl Arguments {

@@ -1,6 +1,6 @@
 //! Arguments of every command that runs something into a directory.
 
-use super::AdapterArgument;
+use super::{AdapterArgument, heading};
 
 /// How to run.
 #[derive(Debug, clap::Args)]
@@ -9,10 +9,10 @@ pub struct RunArguments {
     pub adapter: AdapterArgument,
 
     /// Overwrite the results of an earlier run in the directory
-    #[arg(long)]
+    #[arg(long, help_heading = heading::OUTPUT)]
     pub force: bool,
 
     /// Report errors only
-    #[arg(long)]
+    #[arg(long, help_heading = heading::OUTPUT)]
     pub quiet: bool,
 }

@@ -1,6 +1,8 @@
 //! The arguments that name a scene and change it.
 
-use mesoscope::scene::{self, Scene, SceneError, Warning};
+use mesoscope::scene::{self, Fits, Scene, SceneError, Warning};
+
+use super::heading;
 
 /// Which scene, and what to change in it.
 #[derive(Debug, clap::Args)]
@@ -10,16 +12,16 @@ pub struct SceneArguments {
 
     /// Change one value of the scene; may be repeated. The path is as in messages: `time.step=0.02`,
     /// `particles.0.count=1000`, `integrator.type=groot-warren`. The value is JSON, or else text
-    #[arg(long, value_name = "PATH=VALUE")]
+    #[arg(long, help_heading = heading::SCENE, value_name = "PATH=VALUE")]
     pub set: Vec<String>,
 
     /// Number of steps. Where that is fewer than the scene has, equilibration and the windows of correlations that do
     /// not fit are shortened, and it is said which; `--set time.steps=N` leaves them as they are
-    #[arg(long, value_name = "N", value_parser = whole_number, allow_negative_numbers = true)]
+    #[arg(long, help_heading = heading::RUNNING, value_name = "N", value_parser = whole_number, allow_negative_numbers = true)]
     pub steps: Option<u64>,
 
     /// Seed of the random numbers; short for `--set seed=N`
-    #[arg(long, value_name = "N")]
+    #[arg(long, help_heading = heading::SCENE, value_name = "N")]
     pub seed: Option<u64>,
 }
 
@@ -33,10 +35,11 @@ impl SceneArguments {
     }
 
     /// The scene with all changes applied, checked, and what was shortened to suit the number of steps.
-    pub fn load(&self) -> Result<(Scene, Vec<Warning>), SceneError> {
+    /// `fits` decides of many particles before they are read or placed.
+    pub fn load(&self, fits: &Fits<'_>) -> Result<(Scene, Vec<Warning>), SceneError> {
         let mut overrides = self.set.clone();
         overrides.extend(self.seed.map(|seed| format!("seed={seed}")));
-        scene::load_for(&self.scene, &overrides, self.steps)
+        scene::load_fitting(&self.scene, &overrides, self.steps, fits)
     }
 }
 

@@ -3,7 +3,7 @@
 use mesoscope::families::Model;
 use mesoscope::scene;
 
-use super::{Failure, print};
+use super::{Failure, print, print_exactly};
 
 /// List the built-in scenes, or print one as JSON to start your own from
 #[derive(Debug, clap::Args)]
@@ -20,7 +20,7 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let Some(name) = &arguments.name else { return print(&table()?) };
     match scene::builtin().iter().find(|scene| scene.name == name) {
-        Some(scene) => print(scene.text),
+        Some(scene) => print_exactly(scene.text),
         None if std::path::Path::new(name).exists() => Err(Failure::usage(format!(
             "`{name}` is not built in; `mesoscope scenes` lists those that are, and `mesoscope check {name}` reads a file"
         ))),

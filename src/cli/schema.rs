@@ -2,7 +2,7 @@
 
 use mesoscope::scene;
 
-use super::{Failure, print};
+use super::{Failure, print_exactly};
 
 /// Print the JSON Schema of a scene, for completion and checking in an editor
 #[derive(Debug, clap::Args)]
@@ -13,5 +13,5 @@ pub struct Arguments {}
 
 /// Prints the schema.
 pub fn execute(_: &Arguments) -> Result<(), Failure> {
-    print(&format!("{:#}\n", scene::schema()))
+    print_exactly(&format!("{:#}\n", scene::schema()))
 }

@@ -5,7 +5,7 @@ use mesoscope::stability::{Request, StabilityOutcome, StabilityRun};
 use mesoscope::study::StudyError;
 
 use super::table::aligned;
-use super::{ComparisonArguments, Failure, StudyArguments, print};
+use super::{ComparisonArguments, Failure, StudyArguments, heading, print};
 
 /// Map where a scene is right, biased or unstable, and locate the edges
 #[derive(Debug, clap::Args)]
@@ -14,28 +14,28 @@ Examples:
   mesoscope stability my-scene.json                      how far can I go with its time step?
   mesoscope stability dpd-fluid --vary temperature=0.5..2/3 --vary time.step=0.01..0.2/9
   mesoscope stability dpd-fluid --vary interactions.0.friction=1..100/5
-  mesoscope stability polymer-melt --set time.steps=2000 --tolerance 2%
+  mesoscope stability polymer-melt --steps 2000 --tolerance 2%
   mesoscope stability --resume dpd-fluid-stability       go on with one that was interrupted
 
-All runs cover the simulated time of the scene (--set time.steps=N shortens it), with 256 steps at least. They write no files of
+All runs cover the simulated time of the scene (--steps N shortens it), with 256 steps at least. They write no files of \
 their own. Right is what a law says - the temperature of the bath, an energy that does not drift - or a --reference.")]
 pub struct Arguments {
     /// A key of the scene with a range, `time.step=0.01..0.2/9` (nine values, equal ratios; `:linear` after it for equal
     /// differences), or with values; once for a row, twice for a map [default: time.step from a quarter to 16 times]
-    #[arg(long, value_name = "PATH=LOW..HIGH/POINTS", allow_hyphen_values = true, conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::SCENE, value_name = "PATH=LOW..HIGH/POINTS", allow_hyphen_values = true, conflicts_with = "resume")]
     vary: Vec<String>,
 
     /// The largest error of what is right, as a part of one or in per cent
-    #[arg(long, value_name = "PART", value_parser = super::tradeoff::part, default_value = "5%",
+    #[arg(long, help_heading = heading::COMPARISON, value_name = "PART", value_parser = super::tradeoff::part, default_value = "5%",
         conflicts_with = "resume")]
     tolerance: f64,
 
     /// Measures to compare [default: both temperatures, or the drift of the energy, where a law says what they should be]
-    #[arg(long, value_name = "MEASURE,…", value_delimiter = ',', conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::COMPARISON, value_name = "MEASURE,…", value_delimiter = ',', conflicts_with = "resume")]
     measure: Vec<String>,
 
     /// How often the distance of neighbours in a row is halved to locate an edge
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=20),
+    #[arg(long, help_heading = heading::RUNNING, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u32).range(0..=20),
         conflicts_with = "resume")]
     bisections: u32,
 
@@ -51,12 +51,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let Arguments { comparison, study, .. } = arguments;
     let run: StabilityRun = study.study(|scene| {
         let references = comparison.references().map_err(|mistakes| StudyError::Arguments { mistakes })?;
-        let request = Request::load(scene, &study.set, &arguments.vary)?
+        let request = Request::load_for(scene, &study.set, study.steps, &arguments.vary)?
             .with_tolerance(arguments.tolerance)?
             .with_bisections(arguments.bisections)
             .with_measures(&arguments.measure, references)?;
         Ok(request)
     })?;
+    study.note(run.request().notices());
     let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
     let outcome = study.execute(run, &title, |runs| format!("{runs} runs, then the edges"), StabilityRun::execute)?;
     if study.how.quiet { Ok(()) } else { print(&results(&outcome, &directory)) }

@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::OutputError;
+use mesoscope::scene::Warning;
 use mesoscope::study::{Kind, LONG, Observer, Record, StudyError, StudyRun};
 use mesoscope::tradeoff::References;
 
 use super::study_report::Reporter;
-use super::{Failure, RunArguments, interruption, report};
+use super::{Failure, RunArguments, guidance, heading, interruption, line, report, whole_number};
 
 /// Which scene, where to, and how.
 #[derive(Debug, clap::Args)]
@@ -18,25 +19,29 @@ pub struct StudyArguments {
     scene: Option<String>,
 
     /// Change one value in all runs, as for `mesoscope run`; may be repeated
-    #[arg(long, value_name = "PATH=VALUE", conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::SCENE, value_name = "PATH=VALUE", conflicts_with = "resume")]
     pub set: Vec<String>,
+
+    /// Number of steps of the scene, as for `mesoscope run`: what does not fit into fewer is shortened, and it is said which
+    #[arg(long, help_heading = heading::RUNNING, value_name = "N", value_parser = whole_number, allow_negative_numbers = true, conflicts_with = "resume")]
+    pub steps: Option<u64>,
 
     /// Runs at once [default: 2 on a software adapter where a step is short, as of fewer than 18,000 particles of a DPD fluid
     /// or 280,000 of shallow water, which is 1.1 to 1.5 times as fast; otherwise 1]. Results do not depend on it, but
     /// runs in a `tradeoff --budget` are as long as the time allows
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, help_heading = heading::RUNNING, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
 
     /// Directory for all results [default: the names of scene and command, joined by a hyphen, in the working directory]
-    #[arg(long, value_name = "DIR", conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::OUTPUT, value_name = "DIR", conflicts_with = "resume")]
     out: Option<PathBuf>,
 
     /// Go on in this directory with what was interrupted, and draw its pictures again
-    #[arg(long, value_name = "DIR", conflicts_with = "force")]
+    #[arg(long, help_heading = heading::RUNNING, value_name = "DIR", conflicts_with = "force")]
     resume: Option<PathBuf>,
 
     /// Run even if it takes more than eight hours
-    #[arg(long)]
+    #[arg(long, help_heading = heading::RUNNING)]
     yes: bool,
 
     #[command(flatten)]
@@ -48,11 +53,11 @@ pub struct StudyArguments {
 pub struct VariantArguments {
     /// A key of the scene and the values to try. Repeated, every combination is run. A value is JSON, or else text;
     /// the path is as in `--set`
-    #[arg(long, value_name = "PATH=VALUE,…", required_unless_present = "resume", conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::SCENE, value_name = "PATH=VALUE,…", required_unless_present = "resume", conflicts_with = "resume")]
     pub vary: Vec<String>,
 
     /// One more variant besides the combinations, with settings of its own; may be repeated
-    #[arg(long, value_name = "PATH=VALUE,…", conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::SCENE, value_name = "PATH=VALUE,…", conflicts_with = "resume")]
     pub also: Vec<String>,
 }
 
@@ -60,7 +65,7 @@ pub struct VariantArguments {
 #[derive(Debug, clap::Args)]
 pub struct ComparisonArguments {
     /// What a measure should be, as in `pressure=23.635` or `pressure=23.635+-0.005`; may be repeated
-    #[arg(long, value_name = "MEASURE=VALUE", conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::COMPARISON, value_name = "MEASURE=VALUE", conflicts_with = "resume")]
     reference: Vec<String>,
 }
 
@@ -78,6 +83,7 @@ impl StudyArguments {
         request: impl FnOnce(&str) -> Result<R::Request, Failure>,
     ) -> Result<StudyRun<R>, Failure> {
         let study = if let Some(directory) = &self.resume {
+            guidance::check_directory(directory)?;
             StudyRun::resume(directory)?
         } else {
             // The scene is there, or the command line would have been refused.
@@ -89,6 +95,13 @@ impl StudyArguments {
             .with_jobs(self.jobs.map(usize::from))
             .up_to((!self.yes).then_some(LONG))
             .until(&interruption::interrupt()))
+    }
+
+    /// Says what was shortened in the scene of a study, unless it is to be quiet.
+    pub fn note(&self, notices: &[Warning]) {
+        for notice in notices.iter().filter(|_| !self.how.quiet) {
+            line(&format!("note: {notice}"));
+        }
     }
 
     /// Executes a study and shows how far it is, unless it is to be quiet; `runs` says what its runs are, given their number.

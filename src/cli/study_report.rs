@@ -46,11 +46,10 @@ impl Reporter {
                 let time = seconds.map(|seconds| format!(", {estimate} {}", duration(seconds.ceil() as u64)));
                 // A closed standard output will be noticed when the results are printed.
                 let _ = print(&format!(
-                    "{}: {}, {jobs} at a time, on {} ({}){}\n",
+                    "{}: {}, {jobs} at a time, on {}{}\n",
                     self.title,
                     in_words(runs),
-                    adapter.name,
-                    adapter.driver,
+                    adapter.in_words(),
                     time.unwrap_or_default()
                 ));
                 self.runs = runs;

@@ -5,7 +5,7 @@ use mesoscope::printable;
 use mesoscope::run::RunError;
 use mesoscope::sweep::{Look, Shard, Sweep, SweepOutcome, SweepRun, Variant};
 
-use super::{Failure, StudyArguments, VariantArguments, launcher, print, sweep_report, whole_number};
+use super::{Failure, StudyArguments, VariantArguments, heading, launcher, print, sweep_report};
 
 /// Run variants of a scene, and compare them in one table and one plot per quantity
 #[derive(Debug, clap::Args)]
@@ -20,31 +20,27 @@ Examples:
   mesoscope sweep dpd-fluid --vary seed=1,2,3,4 --shard 1/2    its first half: seeds 1 and 3; 2/2 is the other
 
 Every variant has a directory of its own, `friction=4.5`, which `mesoscope resume` and `mesoscope plot` understand.
-A variant that becomes unstable does not stop the others; the exit code is then 4. Shards run at the same time, on several
+A variant that becomes unstable does not stop the others; the exit code is then 4. Shards run at the same time, on several \
 machines if they share the directory; `mesoscope sweep --resume DIR` gathers what they left, and runs what is missing.")]
 pub struct Arguments {
     #[command(flatten)]
     variants: VariantArguments,
 
-    /// Number of steps of all variants, as for `mesoscope run`
-    #[arg(long, value_name = "N", value_parser = whole_number, allow_negative_numbers = true, conflicts_with = "resume")]
-    steps: Option<u64>,
-
     /// Seed of the random numbers of all variants; short for `--set seed=N`
-    #[arg(long, value_name = "N", conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::SCENE, value_name = "N", conflicts_with = "resume")]
     seed: Option<u64>,
 
     /// Plot every quantity divided by its own first value
-    #[arg(long)]
+    #[arg(long, help_heading = heading::OUTPUT)]
     relative: bool,
 
     /// Plot these columns of the tables of energies; may be repeated [default: all that change]
-    #[arg(long, value_name = "QUANTITY,…", value_delimiter = ',')]
+    #[arg(long, help_heading = heading::OUTPUT, value_name = "QUANTITY,…", value_delimiter = ',')]
     plot: Vec<String>,
 
     /// Run one of several parts of the variants: of 16 shards, 3/16 has variants 3, 19, 35, … in their order, counted from 1.
     /// `auto` takes the numbers from Slurm, Grid Engine or a launcher of MPI. Shards leave no table and no plots
-    #[arg(long, value_name = "I/N|auto", value_parser = shard, conflicts_with_all = ["resume", "force"])]
+    #[arg(long, help_heading = heading::SEVERAL, value_name = "I/N|auto", value_parser = shard, conflicts_with_all = ["resume", "force"])]
     shard: Option<ShardArgument>,
 
     #[command(flatten)]
@@ -90,7 +86,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut run: SweepRun = study.study(|scene| {
         let seed = arguments.seed.map(|seed| format!("seed={seed}"));
         let set: Vec<String> = study.set.iter().cloned().chain(seed).collect();
-        Ok(Sweep::load(scene, &set, arguments.steps, vary, also)?)
+        Ok(Sweep::load(scene, &set, study.steps, vary, also)?)
     })?;
     let look = Look { relative: arguments.relative, quantities: arguments.plot.clone() };
     if look != Look::default() {

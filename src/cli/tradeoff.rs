@@ -12,53 +12,54 @@ use mesoscope::tradeoff::{
 };
 
 use super::table::aligned;
-use super::{ComparisonArguments, Failure, StudyArguments, VariantArguments, print};
+use super::{ComparisonArguments, Failure, StudyArguments, VariantArguments, heading, print};
 
 /// Run variants of a scene over the same time, and compare what they cost with how far they are off
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   mesoscope tradeoff dpd-fluid --vary time.step=0.02,0.04,0.06 --vary integrator.type=splitting,groot-warren
+  mesoscope tradeoff dpd-fluid --vary time.step=0.02,0.04 --steps 500       a first look
   mesoscope tradeoff dpd-fluid --vary time.step=0.02,0.04 --error 0.002
   mesoscope tradeoff jet-instability --vary time.step=0.01,0.02 --budget 10m
   mesoscope tradeoff dpd-fluid --vary time.step=0.02,0.04 --target configurational_temperature=1% --write new.json
   mesoscope tradeoff --resume dpd-fluid-tradeoff         go on with one that was interrupted
 
-Every choice covers the same simulated time and is sampled at the same times; it has a directory of its own, that of an
-ordinary run. What measures are compared with is given (--reference), or a law that the scene has to obey, or a finer
+Every choice covers the same simulated time and is sampled at the same times; it has a directory of its own, that of an \
+ordinary run. What measures are compared with is given (--reference), or a law that the scene has to obey, or a finer \
 run: the scene with half the smallest time step, or as --finer says.")]
 pub struct Arguments {
     #[command(flatten)]
     variants: VariantArguments,
 
     /// Make all runs so long that every mean has at most this relative standard error [default: as long as the scene]
-    #[arg(long, value_name = "PART", value_parser = part, conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::RUNNING, value_name = "PART", value_parser = part, conflicts_with = "resume")]
     error: Option<f64>,
 
     /// Time that all steps may take together, as in `30s`, `10m`, `2h`
-    #[arg(long, value_name = "TIME", value_parser = time, conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::RUNNING, value_name = "TIME", value_parser = time, conflicts_with = "resume")]
     budget: Option<f64>,
 
     /// Settings of the run that references are taken from [default: half the smallest time step]
-    #[arg(long, value_name = "PATH=VALUE,…", conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::COMPARISON, value_name = "PATH=VALUE,…", conflicts_with = "resume")]
     finer: Option<String>,
 
     /// Settings of a still finer run beside those of --finer: what it changes says how far that one is off
-    #[arg(long, value_name = "PATH=VALUE,…", conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::COMPARISON, value_name = "PATH=VALUE,…", conflicts_with = "resume")]
     still_finer: Option<String>,
 
     /// Measures to compare: columns of the table of energies, `diffusion.diffusion_einstein` of an analysis; may be repeated
     /// [default: temperatures, pressure and energy, or the drift of the energy, and what analyses find]
-    #[arg(long, value_name = "MEASURE,…", value_delimiter = ',', conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::COMPARISON, value_name = "MEASURE,…", value_delimiter = ',', conflicts_with = "resume")]
     measure: Vec<String>,
 
     /// The largest error of a measure, as in `pressure=1%` or `pressure=0.2`; may be repeated. The cheapest choice that
     /// meets all of them, with their uncertainties, is named
-    #[arg(long, value_name = "MEASURE=ERROR", conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::COMPARISON, value_name = "MEASURE=ERROR", conflicts_with = "resume")]
     target: Vec<String>,
 
     /// Write the scene of the choice that meets the targets
-    #[arg(long, value_name = "NEW.json")]
+    #[arg(long, help_heading = heading::OUTPUT, value_name = "NEW.json")]
     write: Option<PathBuf>,
 
     #[command(flatten)]
@@ -91,6 +92,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.write {
         check_place(path, run.request())?;
     }
+    study.note(run.request().notices());
     let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
     let outcome = study.execute(run, &title, |runs| format!("{runs} runs"), TradeoffRun::execute)?;
     if !study.how.quiet {
@@ -124,7 +126,7 @@ fn request(scene: &str, arguments: &Arguments) -> Result<Request, Failure> {
     }
     let length = Length { error: arguments.error, budget: arguments.budget };
     let VariantArguments { vary, also } = &arguments.variants;
-    let request = Request::load(scene, &arguments.study.set, vary, also)?
+    let request = Request::load_for(scene, &arguments.study.set, arguments.study.steps, vary, also)?
         .with_length(length)
         .with_measures(&arguments.measure)?
         .with_references(references)?

@@ -120,6 +120,12 @@ pub enum SceneError {
         /// What is different, in words.
         reason: String,
     },
+    /// Its particles are more than what it is to run on can hold.
+    #[error("{reason}")]
+    TooManyParticles {
+        /// What does not fit, and what to do, in words.
+        reason: String,
+    },
     /// The text is not JSON.
     #[error("{}:{line}:{column}: {}", printable::name(.name), printable::name(.message))]
     Syntax {
@@ -141,6 +147,8 @@ pub enum SceneError {
         problems: Vec<Problem>,
         /// How many there are beyond these.
         more: usize,
+        /// Whether there are checks that need a scene without them, and have not been made.
+        further: bool,
     },
     /// With the numbers of the scene a kernel would need one that single precision cannot hold.
     #[error(

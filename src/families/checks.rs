@@ -58,5 +58,5 @@ pub fn check_start(scene: &Scene, model: &Model, state: &State) -> Result<(), Sc
         return Ok(());
     }
     let (problems, more) = problems.into_parts();
-    Err(SceneError::Invalid { name: scene.title.clone(), problems, more })
+    Err(SceneError::Invalid { name: scene.title.clone(), problems, more, further: false })
 }

@@ -1,6 +1,7 @@
 //! Whether a state is one of the scene that a plan was made for.
 
 use super::Model;
+use crate::numbers::counted;
 use crate::plan::{Length, Plan};
 use crate::state::{State, StateArray};
 
@@ -61,5 +62,5 @@ fn wrong_species(state: &State, model: &Model) -> Option<String> {
     }
     let wrong = (0..counts.len()).find(|species| counts[*species] != model.species[*species].count)?;
     let (found, asked) = (counts[wrong], model.species[wrong].count);
-    Some(format!("{found} particles are of species {wrong} instead of {asked}"))
+    Some(format!("{} of species {wrong} in place of {asked}", counted(found, "particle")))
 }

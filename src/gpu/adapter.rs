@@ -103,6 +103,28 @@ pub struct AdapterDescription {
 }
 
 impl AdapterDescription {
+    /// Its name, and of its driver what the name does not say.
+    ///
+    /// ```
+    /// use mesoscope::gpu::{AdapterDescription, AdapterKind};
+    ///
+    /// let described = |name: &str, driver: &str| {
+    ///     let [name, backend, driver] = [name, "Vulkan", driver].map(str::to_owned);
+    ///     AdapterDescription { name, kind: AdapterKind::Other, backend, driver }.in_words()
+    /// };
+    /// let found = described("llvmpipe (LLVM 15.0.6, 256 bits)", "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)");
+    /// assert_eq!(found, "llvmpipe (LLVM 15.0.6, 256 bits), driver Mesa 22.3.6");
+    /// assert_eq!(described("NVIDIA H100 PCIe", "NVIDIA 535.104.05"), "NVIDIA H100 PCIe, driver 535.104.05");
+    /// assert_eq!(described("Apple M2", ""), "Apple M2");
+    /// ```
+    #[must_use]
+    pub fn in_words(&self) -> String {
+        let plain = |word: &str| word.trim_matches(|letter| "(),".contains(letter)).to_owned();
+        let named: Vec<String> = self.name.split_whitespace().map(plain).collect();
+        let further: Vec<&str> = self.driver.split_whitespace().filter(|word| !named.contains(&plain(word))).collect();
+        if further.is_empty() { self.name.clone() } else { format!("{}, driver {}", self.name, further.join(" ")) }
+    }
+
     pub(super) fn new(info: &wgpu::AdapterInfo) -> Self {
         Self {
             name: info.name.clone(),

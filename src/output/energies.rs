@@ -2,9 +2,8 @@
 
 use super::records::RecordFile;
 use super::table::header_line;
-use super::{Extent, OutputError};
+use super::{Extent, OutputError, own_file};
 use crate::numbers::push_exact;
-use std::fs::File;
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 
@@ -59,7 +58,7 @@ impl EnergiesFile {
     /// were written, [`OutputError::Io`] when the file cannot be read or written.
     pub fn resume<S: AsRef<str>>(path: &Path, columns: &[S], written: Extent) -> Result<Self, OutputError> {
         let expected = full_header(path, columns)?;
-        let file = File::open(path).map_err(OutputError::io("continue", path))?;
+        let file = own_file::open(path).map_err(OutputError::io("continue", path))?;
         let mut line = Vec::new();
         // A header that never ends is another one.
         let mut lines = BufReader::new(file).take(expected.len() as u64 + 1);

@@ -141,6 +141,15 @@ pub enum OutputError {
         /// The summary.
         path: PathBuf,
     },
+    /// A summary is not what a run wrote.
+    #[error(
+        "`{}` was changed after a run wrote it: its content has another checksum; restore it, or remove it, and `mesoscope resume` writes it again",
+        crate::printable::path(path)
+    )]
+    Edited {
+        /// The summary.
+        path: PathBuf,
+    },
     /// A run was taken further than its summary says, and has not ended.
     #[error(
         "the run in `{0}` was continued beyond step {finished} and has not ended: `mesoscope resume {0}` continues it",

@@ -1,8 +1,7 @@
 //! How much of a file there was, and what it held.
 
-use super::OutputError;
+use super::{OutputError, own_file};
 use serde::{Deserialize, Serialize};
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -31,18 +30,44 @@ impl Extent {
     /// # Errors
     /// [`OutputError::Io`] when it cannot be read.
     pub fn of(path: &Path) -> Result<Self, OutputError> {
-        Self::of_beginning(path, u64::MAX)
-    }
-
-    /// The extent of a file of which at most so many bytes are looked at.
-    pub(super) fn of_beginning(path: &Path, bytes: u64) -> Result<Self, OutputError> {
         let read = || {
             let mut sum = Checksum::default();
-            let bytes = sum.read(&mut File::open(path)?.take(bytes))?;
+            let bytes = sum.read(&mut own_file::open(path)?)?;
             Ok(sum.extent(bytes))
         };
         read().map_err(OutputError::io("read", path))
     }
+
+    /// Looks whether a file holds what was written. No more than that is read of it, and nothing where the file is shorter.
+    ///
+    /// # Errors
+    /// [`OutputError::Io`] when it cannot be read.
+    pub(crate) fn find_in(&self, path: &Path) -> Result<Found, OutputError> {
+        let find = || {
+            let file = own_file::open(path)?;
+            let length = file.metadata()?.len();
+            let mut sum = Checksum::default();
+            if length < self.bytes || sum.read(&mut file.take(self.bytes))? != self.bytes {
+                return Ok(Found::Nowhere);
+            }
+            Ok(match sum.extent(self.bytes) == *self {
+                true if length == self.bytes => Found::Whole,
+                true => Found::AtTheBeginning,
+                false => Found::Nowhere,
+            })
+        };
+        find().map_err(OutputError::io("read", path))
+    }
+}
+
+/// Where in a file something was found that had been written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Found {
+    /// It is the file.
+    Whole,
+    /// More follows.
+    AtTheBeginning,
+    Nowhere,
 }
 
 /// A checksum under way.

@@ -1,7 +1,7 @@
 //! Arrays in the `.npy` format of `NumPy`, version 1.0: `numpy.load(path)` gives them back.
 
-use super::{OutputError, write_atomically};
-use std::io::{self, Write};
+use super::{OutputError, own_file, write_atomically};
+use std::io::{self, Read, Write};
 use std::path::Path;
 
 /// Magic string, version, and the length of the header.
@@ -50,7 +50,9 @@ pub fn write_npy(path: &Path, shape: &[usize], values: &[f64]) -> Result<(), Out
 /// # Errors
 /// [`OutputError::Io`] when the file cannot be read, or is no such array.
 pub fn read_npy(path: &Path) -> Result<(Vec<usize>, Vec<f64>), OutputError> {
-    let bytes = std::fs::read(path).map_err(OutputError::io("read", path))?;
+    let mut bytes = Vec::new();
+    let read = own_file::open(path).and_then(|mut file| file.read_to_end(&mut bytes));
+    read.map_err(OutputError::io("read", path))?;
     parsed(&bytes).ok_or_else(|| {
         let message = "it is no array of float64 in C order, little-endian, as `numpy.save` writes it";
         OutputError::io("read", path)(io::Error::new(io::ErrorKind::InvalidData, message))

@@ -1,10 +1,9 @@
 //! Pictures as PNG, with the id of their run.
 
 use super::{Id, RunDirectory};
-use super::{OutputError, id};
+use super::{OutputError, id, own_file};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{DynamicImage, ExtendedColorType, ImageEncoder, RgbaImage};
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -46,7 +45,7 @@ fn text_chunk(keyword: &str, text: &str) -> Vec<u8> {
 pub(super) fn id_of(path: &Path) -> Option<Id> {
     let mut beginning = Vec::new();
     let longest = BEGINNING + text_chunk(id::SWEEP_KEY, &"-".repeat(id::LENGTH)).len();
-    File::open(path).ok()?.take(longest as u64).read_to_end(&mut beginning).ok()?;
+    own_file::open(path).ok()?.take(longest as u64).read_to_end(&mut beginning).ok()?;
     if !beginning.starts_with(SIGNATURE) {
         return None;
     }

@@ -1,6 +1,6 @@
 //! Which run the files in a directory belong to.
 
-use super::{Id, OutputError, RunDirectory, checkpoint, files, picture, trajectory};
+use super::{Id, OutputError, RunDirectory, checkpoint, files, own_file, picture, trajectory};
 use serde::Deserialize;
 use std::path::Path;
 
@@ -9,10 +9,12 @@ impl RunDirectory {
     /// and arrays have none: their lengths and checksums are in the checkpoint and the summary.
     ///
     /// # Errors
-    /// [`OutputError::OtherRun`] names the first such file, [`OutputError::Io`] means that the directory cannot be listed.
+    /// [`OutputError::OtherRun`] names the first such file, [`OutputError::Io`] one that is no regular file of the directory, or means
+    /// that the directory cannot be listed.
     pub fn check_run(&self, run: Id, reference: &'static str) -> Result<(), OutputError> {
         for name in self.names(files::is_of_a_run)? {
             let path = self.file(&name);
+            own_file::check(&path).map_err(OutputError::io("use", &path))?;
             run.check(&path, id_in(&name, &path), reference)?;
         }
         Ok(())
@@ -27,6 +29,7 @@ impl RunDirectory {
     ) -> Result<(), OutputError> {
         for name in self.names(is_picture)? {
             let path = self.file(&name);
+            own_file::check(&path).map_err(OutputError::io("use", &path))?;
             sweep.check(&path, picture::id_of(&path), reference)?;
         }
         Ok(())
@@ -48,6 +51,6 @@ fn in_summary(path: &Path) -> Option<Id> {
     struct Part {
         run_id: Id,
     }
-    let part: Part = serde_json::from_slice(&std::fs::read(path).ok()?).ok()?;
+    let part: Part = own_file::json(path).ok()?;
     Some(part.run_id)
 }

@@ -1,8 +1,8 @@
 //! A file that grows by whole records.
 
-use super::OutputError;
 use super::extent::{Checksum, Extent};
 use super::watch::Watch;
+use super::{OutputError, own_file};
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -36,8 +36,7 @@ impl RecordFile {
     /// # Errors
     /// [`OutputError::Altered`] when its beginning is not what was written: then nothing is cut off.
     pub(super) fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
-        let continued = OutputError::io("continue", path);
-        let mut file = File::options().read(true).write(true).open(path).map_err(continued)?;
+        let mut file = own_file::open_to_continue(path).map_err(OutputError::io("continue", path))?;
         let mut checksum = Checksum::default();
         let found = checksum.read(&mut (&mut file).take(written.bytes)).map_err(OutputError::io("read", path))?;
         if checksum.extent(found) != written {

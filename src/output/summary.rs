@@ -1,6 +1,6 @@
 //! The summary of a run, `run.json`.
 
-use super::{Extent, Id, OutputError, RunDirectory, files, of_one_run, write_atomically};
+use super::{Extent, Found, Id, OutputError, RunDirectory, files, of_one_run, own_file, write_atomically};
 use crate::gpu::AdapterDescription;
 use crate::measure::statistics::Estimate;
 use crate::scene::Scene;
@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
+
+/// The key of the checksum of everything else.
+const CHECKSUM: &str = "checksum";
 
 /// What a run did, on what, and what came out.
 ///
@@ -262,17 +265,21 @@ impl Summary {
     /// As [`check_tables`](Self::check_tables).
     pub(crate) fn check_table(&self, directory: &RunDirectory, name: &str) -> Result<(), OutputError> {
         let path = directory.file(name);
-        let Some(extent) = self.tables.get(name) else { return Err(OutputError::Altered { path }) };
+        // Who edits a summary may name any file in it.
+        let extent = self.tables.get(name).filter(|_| files::is_of_a_run(name));
+        let Some(extent) = extent else { return Err(OutputError::Altered { path }) };
         // Arrays may have been moved elsewhere.
-        let moved = files::is_array(name) && !path.exists();
-        if moved || Extent::of(&path)? == *extent {
+        if files::is_array(name) && !path.exists() {
             return Ok(());
         }
-        if Extent::of_beginning(&path, extent.bytes)? == *extent {
-            let (directory, finished) = (directory.path().to_path_buf(), self.steps);
-            return Err(OutputError::Continued { directory, finished });
+        match extent.find_in(&path)? {
+            Found::Whole => Ok(()),
+            Found::AtTheBeginning => {
+                let (directory, finished) = (directory.path().to_path_buf(), self.steps);
+                Err(OutputError::Continued { directory, finished })
+            }
+            Found::Nowhere => Err(OutputError::Altered { path }),
         }
-        Err(OutputError::Altered { path })
     }
 
     /// Looks whether this is the summary of a run of this id and scene, however many steps it has.
@@ -296,37 +303,42 @@ impl Summary {
     /// # Errors
     /// [`OutputError::Json`] or [`OutputError::Io`] when it cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), OutputError> {
-        let mut text = serde_json::to_vec_pretty(self).map_err(|source| json_error(path, source))?;
-        text.push(b'\n');
-        write_atomically(path, |writer| writer.write_all(&text))
+        let text = || {
+            let mut content = serde_json::to_value(self)?;
+            content[CHECKSUM] = own_file::checksum_of([&content]).into();
+            serde_json::to_string_pretty(&content)
+        };
+        let text = text().map_err(|source| OutputError::Json { path: path.to_path_buf(), source })?;
+        write_atomically(path, |writer| writeln!(writer, "{text}"))
     }
 
     /// Reads the summary of an earlier run.
     ///
     /// # Errors
-    /// [`OutputError::Unfinished`] when there is none, [`OutputError::Io`] when it cannot be read, [`OutputError::Line`] where it is not a summary.
+    /// [`OutputError::Unfinished`] when there is none, [`OutputError::Io`] when it cannot be read, [`OutputError::Line`] where it is not a
+    /// summary, [`OutputError::Edited`] where it is not what a run wrote.
     pub fn load(path: &Path) -> Result<Self, OutputError> {
-        let text = std::fs::read(path).map_err(|source| match source.kind() {
-            std::io::ErrorKind::NotFound => OutputError::Unfinished {
-                path: path.to_path_buf(),
-                advice: if path.with_file_name(files::CHECKPOINT).exists() {
-                    "no run has been finished there; `mesoscope resume` continues from the last checkpoint"
-                } else if path.with_file_name(files::ENERGIES).exists() {
-                    "the run there ended before it saved its first checkpoint; run the scene again with --force"
-                } else {
-                    "there is no run in this directory"
-                },
-            },
-            _ => OutputError::io("read", path)(source),
+        let summary = own_file::json(path).map_err(|error| match error {
+            OutputError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+                OutputError::Unfinished {
+                    path: path.to_path_buf(),
+                    advice: if path.with_file_name(files::CHECKPOINT).exists() {
+                        "no run has been finished there; `mesoscope resume` continues from the last checkpoint"
+                    } else if path.with_file_name(files::ENERGIES).exists() {
+                        "the run there ended before it saved its first checkpoint; run the scene again with --force"
+                    } else {
+                        "there is no run in this directory"
+                    },
+                }
+            }
+            error => error,
         })?;
-        serde_json::from_slice(&text).map_err(|error| OutputError::Line {
-            path: path.to_path_buf(),
-            line: error.line() as u64,
-            problem: error.to_string(),
-        })
+        let mut content: serde_json::Map<_, _> = own_file::json(path)?;
+        // Earlier versions of the program noted none.
+        let noted = content.shift_remove(CHECKSUM);
+        match noted.is_none_or(|noted| noted == own_file::checksum_of([&content.into()])) {
+            true => Ok(summary),
+            false => Err(OutputError::Edited { path: path.to_path_buf() }),
+        }
     }
-}
-
-fn json_error(path: &Path, source: serde_json::Error) -> OutputError {
-    OutputError::Json { path: path.to_path_buf(), source }
 }

@@ -1,11 +1,9 @@
 //! Tables of numbers as comma-separated text.
 
-use super::{OutputError, write_atomically};
+use super::{OutputError, own_file, write_atomically};
 use crate::numbers::push_exact;
 use crate::table::Table;
 use std::borrow::Cow;
-use std::fs::File;
-use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 /// Reads a table: a header line, then one line of numbers per row.
@@ -30,17 +28,18 @@ use std::path::Path;
 /// [`OutputError::Line`] names the first line that is no row of the table; [`OutputError::Io`] when the file cannot
 /// be read.
 pub fn read_table(path: &Path) -> Result<Table, OutputError> {
-    let file = File::open(path).map_err(OutputError::io("read", path))?;
     let wrong = |line: u64, problem: String| OutputError::Line { path: path.to_path_buf(), line, problem };
     let mut table = Table::default();
-    for (line, number) in BufReader::new(file).lines().zip(1_u64..) {
+    let lines = own_file::lines(path).map_err(OutputError::io("read", path))?;
+    for (line, number) in lines.zip(1_u64..) {
         let line = line.map_err(|source| match source.kind() {
-            std::io::ErrorKind::InvalidData => wrong(number, "expected text in UTF-8".to_owned()),
+            std::io::ErrorKind::InvalidData => wrong(number, source.to_string()),
             _ => OutputError::Io { attempted: "read", path: path.to_path_buf(), source },
         })?;
+        let line = line.trim_end_matches(['\n', '\r']);
         if number == 1 {
             table.columns =
-                split_header(&line).ok_or_else(|| wrong(1, "a quotation mark is never closed".to_owned()))?;
+                split_header(line).ok_or_else(|| wrong(1, "a quotation mark is never closed".to_owned()))?;
             continue;
         }
         let (expected, found) = (table.columns.len(), line.split(',').count());

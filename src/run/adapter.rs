@@ -5,7 +5,7 @@ use super::plan::plan;
 use crate::document::number_of_copies;
 use crate::families::Model;
 use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
-use crate::plan::{self, Hardware, Options, Plan};
+use crate::plan::{self, Division, Hardware, Options, Part, Plan};
 use crate::scene::Scene;
 
 /// Opens an adapter that allows the buffers of a scene, for which it makes the plan.
@@ -52,6 +52,15 @@ pub(super) fn open_adapter(
 /// [`RunError::Gpu`] without an adapter that allows its buffers, [`RunError::Scene`] if its numbers are beyond single precision.
 pub fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, RunError> {
     Ok(open_adapter(scene, &Model::new(scene), choice, Options::default())?.0)
+}
+
+/// Opens the adapter that the first of the ranks that share this scene would open, where each has its own part of the box.
+///
+/// # Errors
+/// As [`adapter_for`].
+pub fn adapter_for_rank(scene: &Scene, division: Option<Division>, choice: &AdapterChoice) -> Result<Gpu, RunError> {
+    let options = Options { part: division.map(|division| Part { division, rank: 0 }), ..Options::default() };
+    Ok(open_adapter(scene, &Model::new(scene), choice, options)?.0)
 }
 
 /// The plan of a scene on an adapter.

@@ -6,7 +6,7 @@ use super::sections::{Sections, bytes, samples};
 use super::settling;
 use crate::families::Model;
 use crate::measure::Observables;
-use crate::output::{EnergiesFile, Extent, OutputError, Summary, files, read_table};
+use crate::output::{EnergiesFile, Extent, OutputError, Summary, files, own_file, read_table};
 use crate::scene::Scene;
 use crate::table::Table;
 use std::path::Path;
@@ -46,8 +46,8 @@ pub(crate) fn read(path: &Path, scene: &Scene, step: u64) -> Result<Table, Outpu
 
 /// The first step below `end` whose row is not in the table, where there has to be one for every `every` steps.
 fn missing_row(path: &Path, end: u64, every: u64) -> Result<Option<u64>, OutputError> {
-    let text = std::fs::read_to_string(path).map_err(OutputError::io("continue", path))?;
-    let whole = text.split_inclusive('\n').skip(1).filter(|line| line.ends_with('\n'));
+    let lines = own_file::lines(path).map_err(OutputError::io("continue", path))?;
+    let whole = lines.map_while(Result::ok).skip(1).filter(|line| line.ends_with('\n'));
     let mut steps = whole.map_while(|line| line.split([',', '\n']).next()?.parse::<u64>().ok());
     let mut wanted = (0..end).step_by(usize::try_from(every).unwrap_or(usize::MAX).max(1));
     Ok(wanted.find(|step| steps.next() != Some(*step)))

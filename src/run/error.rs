@@ -30,6 +30,9 @@ pub enum RunError {
         /// Its step.
         checkpoint_step: u64,
     },
+    /// Already the steps that were to be timed left that range.
+    #[error(transparent)]
+    UnstableTrial(Instability),
     /// The adapter left a loop before its end.
     #[error(
         "{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`",
@@ -54,6 +57,9 @@ pub enum RunError {
         /// Its step.
         checkpoint_step: u64,
     },
+    /// It was asked to stop before its first step.
+    #[error("interrupted before its first step: nothing was written")]
+    NotBegun,
     /// Writing failed on the way, when there was a checkpoint already.
     #[error(
         "{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`; `mesoscope resume` continues from it",

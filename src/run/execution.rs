@@ -16,7 +16,9 @@ use crate::families::{KeptQuantity, Model, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
 use crate::output::summary::{AdapterSummary, RanksSummary};
-use crate::output::{Checkpoint, Extent, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files};
+use crate::output::{
+    Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files, own_file,
+};
 use crate::ranks::{computes_alike, remedy};
 use crate::scene::Scene;
 use crate::state::State;
@@ -85,6 +87,11 @@ impl<'a> Run<'a> {
             Some((_, extent)) => Ok(Some(*extent)),
             None => Err(sections.malformed(format!("it does not list `{name}`"))),
         };
+        // Nothing is cut back where not everything can be continued.
+        for (name, _) in start.files.iter().filter(|(name, _)| step > 0 && !files::is_array(name)) {
+            let path = directory.file(name);
+            own_file::check_to_continue(&path).map_err(OutputError::io("continue", &path))?;
+        }
         let table = directory.file(files::ENERGIES);
         let energies = EnergyRecorder::open(&table, scene, model, written(files::ENERGIES)?, &sections)?;
         let trajectory = match &scene.output.trajectory {
@@ -127,7 +134,7 @@ impl<'a> Run<'a> {
         pace: &mut Pace,
         observer: &mut dyn FnMut(Event<'_>),
     ) -> Result<(), RunError> {
-        let begun = pace.done();
+        let begun = pace.done().0;
         let first = engine.step();
         self.visit(engine, pace)?;
         // What a run goes back to is on the disk from now on, and need not be in memory.
@@ -172,7 +179,7 @@ impl<'a> Run<'a> {
             self.save(engine, pace)?;
         }
         let last = step == self.scene.time.steps;
-        if last {
+        if self.saved_step == step {
             // Whatever follows can be done later too.
             self.obey()?;
         }
@@ -268,12 +275,10 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn progress(&self, first: u64, begun: (u64, Duration), pace: &Pace) -> Progress {
-        let (done, spent) = pace.done();
-        let (done, spent) = (done - begun.0, (spent.saturating_sub(begun.1)).as_secs_f64());
-        let rate = if done > 0 && spent > 0.0 { done as f64 / spent } else { 0.0 };
+    fn progress(&self, first: u64, begun: u64, pace: &Pace) -> Progress {
+        let rate = pace.rate().unwrap_or(0.0);
         let last_step = self.scene.time.steps;
-        let step = first + done;
+        let step = first + pace.done().0 - begun;
         let left = last_step.saturating_sub(step) as f64 / rate;
         Progress {
             step,

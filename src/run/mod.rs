@@ -58,7 +58,7 @@ mod task;
 mod team;
 mod trial;
 
-pub use adapter::adapter_for;
+pub use adapter::{adapter_for, adapter_for_rank};
 pub(crate) use analyses::circulation_change;
 pub use analyses::{AskedAnalysis, asked_analyses, printed_mean, printed_results};
 pub use division::{Ranks, Share, divide, share_of};

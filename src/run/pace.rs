@@ -6,8 +6,9 @@ use std::time::{Duration, Instant};
 /// Time a batch should take: long enough that submitting costs nothing, short enough to see a failure soon.
 const TARGET: f64 = 0.15;
 const LARGEST: u64 = 512;
-/// Particle-steps in a first batch that the slowest adapters finish within seconds.
-const CAUTION: u64 = 8_000_000;
+/// Operations in a first batch that the slowest adapters finish within seconds, and of a particle at least.
+const CAUTION: f64 = 2e10;
+const FEWEST: f64 = 2500.0;
 /// Batches that may still be under way when a call returns.
 const IN_FLIGHT: usize = 2;
 
@@ -24,19 +25,24 @@ pub(super) struct Pace {
     /// Steps that are certainly done, and the time spent on them.
     done: u64,
     spent: Duration,
+    /// The same when the first batch was done: drivers compile kernels as these are first used.
+    warm: Option<(u64, Duration)>,
 }
 
 impl Pace {
-    pub(super) fn new(particles: u64) -> Self {
+    /// Of steps that take so many operations a particle.
+    pub(super) fn new(particles: u64, operations: f64) -> Self {
         let now = Instant::now();
+        let operations = particles as f64 * operations.max(FEWEST);
         Self {
-            batch: (CAUTION / particles.max(1)).clamp(1, 8),
+            batch: ((CAUTION / operations) as u64).clamp(1, 8),
             waiting: VecDeque::new(),
             since_idle: 0,
             idle_at: now,
             returned_at: now,
             done: 0,
             spent: Duration::ZERO,
+            warm: None,
         }
     }
 
@@ -48,6 +54,13 @@ impl Pace {
     /// Steps done and time spent on them, pictures and checkpoints left out.
     pub(super) fn done(&self) -> (u64, Duration) {
         (self.done, self.spent)
+    }
+
+    /// Steps a second, but for the first batch; none as long as no other one is done.
+    pub(super) fn rate(&self) -> Option<f64> {
+        let (done, spent) = self.warm?;
+        let (steps, seconds) = (self.done - done, (self.spent - spent).as_secs_f64());
+        (steps > 0 && seconds > 0.0).then(|| steps as f64 / seconds)
     }
 
     /// The device is idle and steps begin: the time from here on is theirs.
@@ -71,8 +84,15 @@ impl Pace {
             self.done += finished;
             self.spent += interval;
             self.adapt(finished, interval);
+            self.note_first();
         } else {
             self.spent += interval;
+        }
+    }
+
+    fn note_first(&mut self) {
+        if self.warm.is_none() && self.done > 0 {
+            self.warm = Some(self.done());
         }
     }
 
@@ -82,6 +102,7 @@ impl Pace {
         self.done += self.waiting.drain(..).sum::<u64>();
         self.spent += now - self.returned_at;
         self.adapt(self.since_idle, now - self.idle_at);
+        self.note_first();
         self.begin();
     }
 
@@ -99,7 +120,7 @@ mod tests {
 
     #[test]
     fn batches_grow_to_the_target_and_shrink_at_once() {
-        let mut pace = Pace::new(1000);
+        let mut pace = Pace::new(1000, 1.0);
         assert_eq!(pace.batch(), 8);
         for expected in [16, 32, 64, 128, 150, 150] {
             pace.adapt(1000, Duration::from_secs(1));
@@ -111,13 +132,30 @@ mod tests {
             pace.adapt(1_000_000, Duration::from_secs(1));
         }
         assert_eq!(pace.batch(), LARGEST);
-        assert_eq!(Pace::new(4_000_000).batch(), 2);
-        assert_eq!(Pace::new(0).batch(), 8);
+        assert_eq!(Pace::new(4_000_000, 2500.0).batch(), 2);
+        assert_eq!(Pace::new(0, 0.0).batch(), 8);
+        // A dense liquid, of which one step takes as long as many of a thin one.
+        assert_eq!(Pace::new(100_000, 100_000.0).batch(), 2);
+    }
+
+    #[test]
+    fn the_first_batch_says_nothing_of_those_that_follow() {
+        let mut pace = Pace::new(1000, 1.0);
+        pace.returned_at -= Duration::from_secs(9);
+        pace.submitted(8);
+        assert_eq!(pace.rate(), None);
+        pace.finished();
+        // Nine seconds of compiling are not those of eight steps.
+        assert!(pace.done().1 > Duration::from_secs(9) && pace.rate().is_none());
+        pace.returned_at -= Duration::from_secs(1);
+        pace.submitted(100);
+        pace.finished();
+        assert!(pace.rate().is_some_and(|rate| (90.0..=100.0).contains(&rate)), "{:?}", pace.rate());
     }
 
     #[test]
     fn every_step_is_counted_once() {
-        let mut pace = Pace::new(1000);
+        let mut pace = Pace::new(1000, 1.0);
         for steps in [8, 16, 32, 64] {
             pace.submitted(steps);
         }

@@ -10,7 +10,7 @@ use crate::families::{Model, PictureKind};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::numbers::grouped;
 use crate::output::{
-    Checkpoint, Extent, Id, OutputError, RunDirectory, Summary, checkpoint, exists, files, read_table, write_npy,
+    Checkpoint, Extent, Found, Id, OutputError, RunDirectory, Summary, checkpoint, exists, files, read_table, write_npy,
 };
 use crate::plan::Options;
 use crate::plot::{
@@ -129,7 +129,7 @@ impl<'a> Pictures<'a> {
         for (name, extent) in &arrays {
             let path = directory.file(name);
             // Those of earlier steps may have been moved elsewhere.
-            if path.exists() && Extent::of(&path)? != *extent {
+            if path.exists() && extent.find_in(&path)? != Found::Whole {
                 return Err(OutputError::Altered { path });
             }
         }

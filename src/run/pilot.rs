@@ -2,9 +2,10 @@
 
 use super::RunError;
 use super::adapter::plan_for;
+use super::sizes::Sizes;
 use crate::engine::{Engine, EngineError};
-use crate::families::{self, Model};
-use crate::gpu::Gpu;
+use crate::families::{self, Instability, Model};
+use crate::gpu::{AdapterKind, Gpu};
 use crate::plan::{Options, Plan};
 use crate::scene::{self, Scene};
 use std::time::{Duration, Instant};
@@ -22,11 +23,18 @@ const FACTOR_OF_SCENE: f64 = 3.0;
 /// ... and than arithmetic and the steps of another one do.
 const FACTOR_OF_ARITHMETIC: f64 = 4.0;
 
+/// Seconds that a pixel of a picture takes to be drawn and compressed, on a software adapter and on others, and that the first one
+/// takes more: measured on two cores.
+const PIXEL: [f64; 2] = [4e-7, 1e-7];
+const FIRST_PICTURE: [f64; 2] = [0.7, 0.2];
+
 /// How long a run is expected to take.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ExpectedTime {
-    /// All steps and reports of the scene; opening the adapter and drawing come on top.
+    /// All steps and reports of the scene; opening the adapter comes on top, and so does [`Self::drawing`].
     pub seconds: f64,
+    /// All pictures.
+    pub drawing: f64,
     /// A step.
     pub step: f64,
     /// It may be as many times longer or shorter.
@@ -35,6 +43,8 @@ pub struct ExpectedTime {
     pub of_scene: bool,
     /// Steps that were timed.
     pub steps: u64,
+    /// How the scene became unstable in a later one of them, as its run will.
+    pub unstable: Option<Instability>,
 }
 
 /// Times some steps on an adapter: of the scene if it is small, else of a small fluid.
@@ -53,7 +63,7 @@ pub struct ExpectedTime {
 /// ```
 ///
 /// # Errors
-/// [`RunError`] if already the first steps fail.
+/// [`RunError`] if already the first steps fail: [`RunError::UnstableTrial`] if it is the scene that is unstable.
 pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError> {
     let model = Model::new(scene);
     let plan = plan_for(scene, &model, gpu, Options::default());
@@ -63,21 +73,32 @@ pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError>
     let relative = work(&plan) / work(&plan_for(&fluid, &known, gpu, Options::default()));
     let nodes = model.physics().nodes();
     let of_scene = relative <= MOST_WORK && nodes <= MOST_NODES;
-    let (step, steps) = if of_scene {
+    let timed = if of_scene {
         time_of_step(scene, &model, gpu, Options::default())?
     } else {
-        let (step, steps) = time_of_step(&fluid, &known, gpu, Options::default())?;
-        (step * relative, steps)
+        let timed = time_of_step(&fluid, &known, gpu, Options::default())?;
+        Timed { step: timed.step * relative, ..timed }
     };
+    let Timed { step, steps, unstable } = timed;
     let all = scene.time.steps as f64;
     // A report visits everything once more.
     let reports: f64 = plan.samplers.iter().map(|sampler| all / sampler.every as f64).sum();
     let factor = if of_scene { FACTOR_OF_SCENE } else { FACTOR_OF_ARITHMETIC };
-    Ok(ExpectedTime { seconds: step * (all + reports), step, factor, of_scene, steps })
+    let kind = usize::from(gpu.description().kind != AdapterKind::Software);
+    let drawing = FIRST_PICTURE[kind] + PIXEL[kind] * Sizes::of(scene, &model, &plan).pixels;
+    Ok(ExpectedTime { seconds: step * (all + reports), drawing, step, factor, of_scene, steps, unstable })
 }
 
-/// Seconds a step, and how many were timed.
-fn time_of_step(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Result<(f64, u64), RunError> {
+/// Steps that were timed.
+struct Timed {
+    /// Seconds of one.
+    step: f64,
+    steps: u64,
+    unstable: Option<Instability>,
+}
+
+/// Times steps of a scene.
+fn time_of_step(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Result<Timed, RunError> {
     let plan = plan_for(scene, model, gpu, options).without_reports();
     let state = families::initial_state(scene, model);
     let mut engine = Engine::new(gpu, plan, &state)?;
@@ -87,16 +108,22 @@ fn time_of_step(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Re
         Err(EngineError::Crowded { .. }) if options.has_room_left() => {
             return time_of_step(scene, model, gpu, options.with_room(model.particle_count()));
         }
+        Err(EngineError::Unstable(failure)) => {
+            return Err(RunError::UnstableTrial(Instability::new(&failure, engine.plan(), model)));
+        }
         ended => ended?,
     };
     let (mut done, mut steps) = (0, 1);
+    let mut unstable = None;
     let start = Instant::now();
     loop {
         match engine.advance(steps, steps).and_then(|()| engine.finish()) {
-            // What begins far from equilibrium may not go well for long; its steps are as long.
-            Err(EngineError::Unstable(_) | EngineError::GaveUp { .. } | EngineError::Crowded { .. }) if done > 0 => {
+            // Its steps until then are as long.
+            Err(EngineError::Unstable(failure)) => {
+                unstable = Some(Instability::new(&failure, engine.plan(), model));
                 break;
             }
+            Err(EngineError::GaveUp { .. } | EngineError::Crowded { .. }) if done > 0 => break,
             ended => ended?,
         };
         done += steps;
@@ -108,5 +135,8 @@ fn time_of_step(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Re
         let fit = (PATIENCE.saturating_sub(spent)).as_secs_f64() / (spent.as_secs_f64() / done as f64);
         steps = (fit as u64).clamp(1, 2 * done);
     }
-    Ok((start.elapsed().as_secs_f64() / done.max(1) as f64, done))
+    match unstable {
+        Some(unstable) if done == 0 => Err(RunError::UnstableTrial(unstable)),
+        unstable => Ok(Timed { step: start.elapsed().as_secs_f64() / done.max(1) as f64, steps: done, unstable }),
+    }
 }

@@ -217,13 +217,20 @@ impl Simulation {
         let Self { scene, model, beginning, interrupt, notices, id, division, mixed } = self;
         let part = division.map(|division| Part { division, rank: 0 });
         let mut options = Options { part, ..Options::default() };
+        // Whatever takes long before the first step can be left; until then nothing is written, or there is a checkpoint already.
+        let is_new = matches!(beginning, Beginning::New { .. });
+        let asked = interrupt.clone();
+        let proceed = move || if is_new && asked.is_asked() { Err(RunError::NotBegun) } else { Ok(()) };
         let keep_alive = || processes.iter().for_each(|processes| processes.channel().keep_alive());
         let (mut gpu, mut plan) = open_adapter(&scene, &model, choice, options)?;
         keep_alive();
+        proceed()?;
         let (directory, mut start, earlier, mut replaces) = match beginning {
             Beginning::New { directory, force } => {
                 let state = families::initial_state(&scene, &model);
+                proceed()?;
                 families::check_start(&scene, &model, &state)?;
+                proceed()?;
                 let directory = RunDirectory::make(directory)?;
                 directory.in_the_way(force)?;
                 let start =
@@ -234,13 +241,15 @@ impl Simulation {
         };
         keep_alive();
         let (first_step, last_step) = (start.state.step, scene.time.steps);
-        let mut pace = Pace::new(model.particle_count());
+        let mut pace = Pace::new(model.particle_count(), plan.operations_per_particle);
         let task = Task { id, scene, model, directory, interrupt, notices, mixed, earlier };
         let mut begun = false;
         loop {
             let opened = open(&task, &gpu, plan, (choice, processes), options, &start);
             let ended = opened.and_then(|mut engine| {
-                if let Some(force) = replaces.take() {
+                if let Some(force) = replaces {
+                    proceed()?;
+                    replaces = None;
                     // Only now: an adapter or a rank that is not there should not cost an earlier run its files.
                     task.directory.clear(force)?;
                 }

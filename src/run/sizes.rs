@@ -16,7 +16,7 @@ const PLOT_PIXEL: f64 = 0.1;
 const PICTURE_PIXEL: f64 = 0.5;
 
 /// Bytes that a run will write, file by file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sizes {
     /// `energies.csv`.
     pub energies: u64,
@@ -30,6 +30,8 @@ pub struct Sizes {
     pub pictures: u64,
     /// Pictures and arrays with numbers.
     pub numbered: u64,
+    /// Pixels of all pictures.
+    pub pixels: f64,
 }
 
 impl Sizes {
@@ -66,18 +68,19 @@ impl Sizes {
         });
         let plot_pixels = f64::from(output.plot.width) * f64::from(output.plot.height());
         let plot = (PLOT_PIXEL * plot_pixels) as u64;
-        let (picture, pictures, numbered) = match model.picture() {
+        let (picture, pictures, numbered, pixels) = match model.picture() {
             PictureKind::Fields => {
                 let fields = output.fields.clone().unwrap_or_default();
                 let count = fields.quantities.len() as u64;
                 let field = PICTURE_PIXEL * plot_pixels;
-                (field as u64 + 8 * model.physics().nodes() + 128, count, count.saturating_mul(times(fields.every)))
+                let numbered = count.saturating_mul(times(fields.every));
+                (field as u64 + 8 * model.physics().nodes() + 128, count, numbered, plot_pixels)
             }
-            _ if model.units.dimension == 1 => (0, 0, 0),
+            _ if model.units.dimension == 1 => (0, 0, 0, 0.0),
             PictureKind::Particles | PictureKind::Cells => {
                 let [width, height] =
                     snapshot_size(&output.snapshot, model.units.dimension as u32, model.edges_with_layers());
-                ((PICTURE_PIXEL * width * height) as u64, 1, times(output.snapshot.every))
+                ((PICTURE_PIXEL * width * height) as u64, 1, times(output.snapshot.every), width * height)
             }
         };
         let plots = 1 + analyses.iter().map(|asked| asked.tables.len() as u64).sum::<u64>();
@@ -91,6 +94,7 @@ impl Sizes {
             trajectory,
             pictures: picture.saturating_mul(pictures).saturating_add(plot.saturating_mul(plots)),
             numbered: picture.saturating_mul(numbered),
+            pixels: plots as f64 * plot_pixels + pictures.saturating_add(numbered) as f64 * pixels,
         }
     }
 

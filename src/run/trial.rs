@@ -51,7 +51,7 @@ impl<'a> Trial<'a> {
         families::check_start(&scene, &model, &state)?;
         let (engine, options) = open(gpu, &scene, &model, &state, Options::default())?;
         let rows = EnergyRows::new(&scene, &model);
-        let pace = Pace::new(model.particle_count());
+        let pace = Pace::new(model.particle_count(), engine.plan().operations_per_particle);
         Ok(Self { gpu, scene, model, options, engine, rows, saved: state, pace })
     }
 

@@ -12,6 +12,7 @@ use crate::families::{self, StepCheck};
 
 use super::path::related;
 use super::shape::Substitute;
+use super::start::Fits;
 use super::{
     FileStart, KeptStart, Problem, Problems, Scene, SceneError, StateFiles, Warning, builtin, nearest, overrides,
     semantics, shape, shorten, start, text,
@@ -53,6 +54,22 @@ pub fn load(source: &str, overrides: &[String]) -> Result<Scene, SceneError> {
 pub fn load_for(source: &str, overrides: &[String], steps: Option<u64>) -> Result<(Scene, Vec<Warning>), SceneError> {
     let (name, text) = read(source)?;
     parse_for(&name, &text, overrides, steps)
+}
+
+/// Like [`load_for`], for a scene that is asked of `fits` once the particles of its file or its molecules are counted, before any of them
+/// is read or placed; a few are not worth asking.
+///
+/// # Errors
+/// As [`load`], and what `fits` returns.
+pub fn load_fitting(
+    source: &str,
+    overrides: &[String],
+    steps: Option<u64>,
+    fits: &Fits<'_>,
+) -> Result<(Scene, Vec<Warning>), SceneError> {
+    let (name, text) = read(source)?;
+    let files = StateFiles::default();
+    parse_checked(&name, &text, overrides, steps, StepCheck::Refuse, Source::File(&files, Some(fits)))
 }
 
 /// The name and the text of the scene in the file `source`, or of the built-in scene of that name.
@@ -169,7 +186,7 @@ pub(crate) fn parse_with(
     steps: Option<u64>,
     step: StepCheck,
 ) -> Result<(Scene, Vec<Warning>), SceneError> {
-    parse_checked(name, text, overrides, steps, step, Source::File(files))
+    parse_checked(name, text, overrides, steps, step, Source::File(files, None))
 }
 
 /// Like [`parse`], but the file of a state is not read: what a run keeps of it is given, as far as it is known. Nor is the time step
@@ -187,10 +204,10 @@ pub(crate) fn parse_kept(
 }
 
 /// Where what a scene keeps of the file of its state comes from.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 enum Source<'a> {
-    /// The file, which is one of these or is looked for beside a scene of that name.
-    File(&'a StateFiles),
+    /// The file, which is one of these or is looked for beside a scene of that name, if its particles fit.
+    File(&'a StateFiles, Option<&'a Fits<'a>>),
     /// The run that has read it.
     Kept(Option<Arc<FileStart>>),
 }
@@ -208,9 +225,9 @@ fn parse_checked(
     if let Ok(scene) = &mut reading.scene {
         match source {
             // Numbers that stand in for refused ones are not compared with a file.
-            Source::File(_) if reading.problems.iter().any(|known| says_where_particles_are(&known.path)) => {}
-            Source::File(files) => {
-                unreadable = start::read(scene, &reading.masses, (name, files), &mut reading.notices)?;
+            Source::File(..) if reading.problems.iter().any(|known| says_where_particles_are(&known.path)) => {}
+            Source::File(files, fits) => {
+                unreadable = start::read(scene, &reading.masses, (name, files), fits, &mut reading.notices)?;
                 let known: Vec<&str> = reading.problems.iter().map(|known| known.path.as_str()).collect();
                 unreadable.retain(|found| known.iter().all(|known| !related(known, &found.path)));
             }
@@ -221,10 +238,11 @@ fn parse_checked(
         let scene = reading.scene.map_err(|message| SceneError::SchemaMismatch { name: name.to_owned(), message })?;
         let mut problems = semantics::check(&scene);
         // What needs a model or a start needs a scene that makes sense.
-        if problems.is_empty() {
+        let further = !problems.is_empty();
+        if !further {
             families::check(&scene, step, &mut problems);
         }
-        return if problems.is_empty() { Ok((scene, reading.notices)) } else { Err(invalid(name, problems)) };
+        return if problems.is_empty() { Ok((scene, reading.notices)) } else { Err(invalid(name, problems, further)) };
     }
     let mut problems = reading.problems;
     problems.append(unreadable);
@@ -243,7 +261,7 @@ fn parse_checked(
         }
         problems.append(misfits);
     }
-    Err(invalid(name, problems))
+    Err(invalid(name, problems, true))
 }
 
 /// Whether a mistake in this place concerns which file is read, the box that the file is compared with, or which molecules there are.
@@ -253,6 +271,17 @@ fn says_where_particles_are(path: &str) -> bool {
 
 /// The schema, which is derived once.
 static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
+
+/// The first mistake that overrides make in the shape of a scene, whatever it means.
+pub(crate) fn misshapen(name: &str, text: &str, overrides: &[String]) -> Option<Problem> {
+    Reading::of(name, text, overrides, None, Substitute::Least).ok()?.problems.iter().next().cloned()
+}
+
+/// Applies overrides to the JSON of a scene; returns those that cannot be.
+fn overridden(document: &mut Value, overrides: &[String]) -> Vec<Problem> {
+    let is_at_top = |key: &str| SCHEMA["properties"].get(key).is_some();
+    overrides.iter().filter_map(|argument| overrides::apply(document, argument, is_at_top).err()).collect()
+}
 
 /// What could be read of a text.
 struct Reading {
@@ -275,7 +304,7 @@ impl Reading {
         substitute: Substitute,
     ) -> Result<Self, SceneError> {
         let (mut document, mut problems) = text::parse(name, text)?;
-        problems.extend(overrides.iter().filter_map(|argument| overrides::apply(&mut document, argument).err()));
+        problems.extend(overridden(&mut document, overrides));
         let notices = steps.map(|steps| shorten::shorten(&mut document, steps, overrides)).unwrap_or_default();
         let left_out = |place: &str| document.pointer(place).is_none();
         let (integrator, colour) = (left_out("/integrator"), left_out("/output/snapshot/color"));
@@ -307,9 +336,9 @@ pub(crate) fn with_overrides(
 ) -> Result<String, SceneError> {
     parse_with(files, name, text, overrides, None, StepCheck::Refuse)?;
     let (mut document, mut problems) = text::parse(name, text)?;
-    problems.extend(overrides.iter().filter_map(|argument| overrides::apply(&mut document, argument).err()));
+    problems.extend(overridden(&mut document, overrides));
     if !problems.is_empty() {
-        return Err(invalid(name, problems));
+        return Err(invalid(name, problems, true));
     }
     if let Some(file) = document.pointer_mut("/state/file")
         && let Some(path) = file.as_str().map(|file| files.path(name, file))
@@ -348,9 +377,9 @@ fn fill_in(document: &mut Value, substitute: Substitute) {
     }
 }
 
-fn invalid(name: &str, problems: Problems) -> SceneError {
+fn invalid(name: &str, problems: Problems, further: bool) -> SceneError {
     let (problems, more) = problems.into_parts();
-    SceneError::Invalid { name: name.to_owned(), problems, more }
+    SceneError::Invalid { name: name.to_owned(), problems, more, further }
 }
 
 fn not_text(name: &str, error: &std::string::FromUtf8Error) -> SceneError {
@@ -358,7 +387,8 @@ fn not_text(name: &str, error: &std::string::FromUtf8Error) -> SceneError {
     let before = std::str::from_utf8(before).unwrap_or_default();
     let line = before.matches('\n').count() + 1;
     let column = before.len() - before.rfind('\n').map_or(0, |end| end + 1) + 1;
-    let message = "this is not UTF-8 text; a scene is a JSON file".to_owned();
+    let message = text::foreign(error.as_bytes());
+    let message = message.unwrap_or_else(|| "this is not UTF-8 text; a scene is a JSON file".to_owned());
     SceneError::Syntax { name: name.to_owned(), line, column, message }
 }
 

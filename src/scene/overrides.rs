@@ -7,25 +7,74 @@ use super::Problem;
 /// The form of an override, for messages.
 const FORM: &str = "path.to.key=value, as in time.step=0.02";
 
-/// Sets the value that an override names. Missing keys are created; the schema decides whether they are known.
-pub(super) fn apply(document: &mut Value, argument: &str) -> Result<(), Problem> {
+/// Sets the value that an override names. Missing keys are created, and the entry after the last of a list; the schema decides whether
+/// they are known. A key that is none at the top of a scene, and is one further down, is not created.
+pub(super) fn apply(document: &mut Value, argument: &str, is_at_top: impl Fn(&str) -> bool) -> Result<(), Problem> {
+    if let Some(problem) = misplaced(document, argument, is_at_top) {
+        return Err(problem);
+    }
     set(document, argument)
         .map_err(|(found, accepted)| Problem::new(format_args!("override `{argument}`"), found, accepted))
+}
+
+/// Whether an override begins with a key that is further down, and where that is.
+fn misplaced(document: &Value, argument: &str, is_at_top: impl Fn(&str) -> bool) -> Option<Problem> {
+    let path = dotted(argument.split_once('=')?.0);
+    let first = path.split('.').next().filter(|first| !first.is_empty() && !is_at_top(first))?;
+    let mut places = Vec::new();
+    find(document, first, "", &mut places);
+    let rest = &path[first.len()..];
+    let places: Vec<String> = places.iter().map(|place| format!("`{place}{rest}`")).collect();
+    if places.is_empty() {
+        return None;
+    }
+    let found = format!("found `{first}` at the top of the scene, where it is no key");
+    let accepted = format!("the whole path: {}", places.join(" or "));
+    Some(Problem::new(format_args!("override `{path}`"), found, accepted))
+}
+
+/// The path that an override sets, with dots only: messages write `particles[0].count`.
+pub(super) fn dotted(path: &str) -> String {
+    path.trim().replace('[', ".").replace(']', "")
+}
+
+/// The first few places of a key in a document.
+fn find(document: &Value, key: &str, path: &str, places: &mut Vec<String>) {
+    const MOST: usize = 3;
+    /// Entries of a list that are looked through: longer ones list particles.
+    const ENTRIES: usize = 64;
+    let below = |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+    match document {
+        Value::Object(object) => {
+            for (name, value) in object {
+                if name == key && places.len() < MOST {
+                    places.push(below(name));
+                }
+                find(value, key, &below(name), places);
+            }
+        }
+        Value::Array(list) => {
+            for (index, value) in list.iter().take(ENTRIES).enumerate() {
+                find(value, key, &below(&index.to_string()), places);
+            }
+        }
+        _ => {}
+    }
 }
 
 /// What was found and what is accepted, if it fails.
 fn set(document: &mut Value, argument: &str) -> Result<(), (String, String)> {
     let misshapen = |found: &str| (found.to_owned(), FORM.to_owned());
     let (path, text) = argument.split_once('=').ok_or_else(|| misshapen("found no `=`"))?;
-    // Messages write `particles[0].count`; accept what they print.
-    let path = path.trim().replace('[', ".").replace(']', "");
+    let path = dotted(path);
     if path.split('.').any(str::is_empty) {
         return Err(misshapen("found an empty part in the path"));
     }
     let value = value(text.trim()).map_err(|accepted| (format!("found {}", text.trim()), accepted))?;
     let mut place = document;
     let mut walked = String::new();
-    for segment in path.split('.') {
+    let mut segments = path.split('.').peekable();
+    while let Some(segment) = segments.next() {
         let index = segment.parse::<usize>().ok();
         if place.is_null() {
             *place = if index.is_some() { Value::Array(vec![Value::Null]) } else { Value::Object(Map::new()) };
@@ -34,11 +83,17 @@ fn set(document: &mut Value, argument: &str) -> Result<(), (String, String)> {
             Value::Object(object) => object.entry(segment).or_insert(Value::Null),
             Value::Array(list) => {
                 let length = list.len();
+                if index == Some(length) && segments.peek().is_none() {
+                    list.push(Value::Null);
+                }
                 index.and_then(|index| list.get_mut(index)).ok_or_else(|| {
                     let accepted = match length {
-                        0 => format!("the whole of `{walked}`, a list that is empty"),
-                        1 => format!("0, the only index of the list `{walked}`"),
-                        _ => format!("an index from 0 to {} of the list `{walked}`", length - 1),
+                        0 => format!("`{walked}.0=…`, for the list is empty"),
+                        1 => format!("0, the only index of the list `{walked}`; `{walked}.1=…` appends to it"),
+                        _ => format!(
+                            "an index from 0 to {} of the list `{walked}`; `{walked}.{length}=…` appends to it",
+                            length - 1
+                        ),
                     };
                     (format!("found `{segment}`"), accepted)
                 })?
@@ -82,7 +137,8 @@ mod tests {
 
     fn after(argument: &str) -> Result<Value, String> {
         let mut document = json!({"time": {"step": 0.04}, "particles": [{"species": "A"}]});
-        apply(&mut document, argument).map(|()| document).map_err(|error| error.to_string())
+        let is_at_top = |key: &str| !["step", "species"].contains(&key);
+        apply(&mut document, argument, is_at_top).map(|()| document).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -100,6 +156,8 @@ mod tests {
         assert_eq!(after("particles[0].count=7").unwrap()["particles"][0]["count"], json!(7));
         assert_eq!(after("pairs.0.repulsion=9").unwrap()["pairs"], json!([{"repulsion": 9}]));
         assert_eq!(after("output.trajectory.every=9").unwrap()["output"], json!({"trajectory": {"every": 9}}));
+        assert_eq!(after(r#"particles.1={"count":7}"#).unwrap()["particles"][1], json!({"count": 7}));
+        assert_eq!(after("pairs=[]").unwrap()["pairs"], json!([]));
     }
 
     #[test]
@@ -108,7 +166,16 @@ mod tests {
             ("time.step", "found no `=`; accepted: path.to.key=value"),
             ("=3", "empty part"),
             ("time..step=3", "empty part"),
-            ("particles.1.count=3", "found `1`; accepted: 0, the only index of the list `particles`"),
+            (
+                "particles.1.count=3",
+                "found `1`; accepted: 0, the only index of the list `particles`; `particles.1=…` appends to it",
+            ),
+            ("particles.2={}", "found `2`; accepted: 0, the only index of the list `particles`"),
+            (
+                "step=0.02",
+                "override `step`: found `step` at the top of the scene, where it is no key; accepted: the whole path: `time.step`",
+            ),
+            ("species[0]=A", "the whole path: `particles.0.species.0`"),
             ("particles.first.count=3", "found `first`"),
             ("time.step.unit=3", "found `unit` inside of `time.step`, which is 0.04"),
             ("time.step=nan", "found nan; accepted: a finite number"),

@@ -54,7 +54,7 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
                 problems.push(Problem::new(
                     &path,
                     found,
-                    format!("one velocity for each of the group's {count} particles"),
+                    format!("one velocity for each particle of the group: {count}"),
                 ));
             }
             check_vectors(velocities, dimension, &path, problems);

@@ -4,6 +4,7 @@
 use serde_json::Value;
 
 use super::Warning;
+use super::overrides::dotted;
 
 /// Analyses with windows, and the fewest samples that the schema accepts in one of them.
 const WINDOWED: [(&str, u64); 4] = [("diffusion", 2), ("viscosity", 8), ("stress", 2), ("autocorrelations", 2)];
@@ -11,7 +12,8 @@ const WINDOWED: [(&str, u64); 4] = [("diffusion", 2), ("viscosity", 8), ("stress
 /// Sets the number of steps of a scene, shortens what no longer fits and returns what that was. Values that `overrides` set stay; the
 /// checks may refuse them.
 pub(super) fn shorten(document: &mut Value, steps: u64, overrides: &[String]) -> Vec<Warning> {
-    let asked: Vec<String> = overrides.iter().map(|argument| key(argument)).collect();
+    let asked: Vec<String> =
+        overrides.iter().map(|argument| dotted(argument.split('=').next().unwrap_or_default())).collect();
     let is_asked = |path: &str| {
         asked.iter().any(|key| path == key || path.strip_prefix(key.as_str()).is_some_and(|rest| rest.starts_with('.')))
     };
@@ -51,11 +53,6 @@ pub(super) fn shorten(document: &mut Value, steps: u64, overrides: &[String]) ->
 
 fn notice(path: &str, message: String) -> Warning {
     Warning { path: path.to_owned(), message }
-}
-
-/// The path that an override sets, with dots only.
-fn key(argument: &str) -> String {
-    argument.split('=').next().unwrap_or_default().trim().replace('[', ".").replace(']', "")
 }
 
 /// A whole number, as scenes may write it: `1000` or `1e3`.

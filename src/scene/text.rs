@@ -8,6 +8,7 @@ use serde_json::{Map, Number, Value};
 
 use super::path::Path;
 use super::{Problem, Problems, SceneError};
+use crate::state_file;
 
 /// The value of a JSON text, and a problem for every duplicate key.
 pub(super) fn parse(name: &str, text: &str) -> Result<(Value, Problems), SceneError> {
@@ -28,12 +29,37 @@ fn syntax(name: &str, text: &str, error: &serde_json::Error) -> SceneError {
     let mut message = said.strip_suffix(&position).unwrap_or(&said).to_owned();
     if text.trim().is_empty() {
         "the file is empty; a scene is a JSON object".clone_into(&mut message);
+    } else if let Some(found) = foreign(text.as_bytes()) {
+        message = format!("not valid JSON: {found}");
     } else if let Some(hint) = hint(text, line, column, &said) {
         message = format!("not valid JSON: {message}; {hint}");
     } else {
         message = format!("not valid JSON: {message}");
     }
     SceneError::Syntax { name: name.to_owned(), line, column, message }
+}
+
+/// Bytes of a file by which those of other programs are known.
+const BEGINNING: usize = 1 << 14;
+
+/// Words that begin lines of scripts for LAMMPS; two of them are no accident.
+const COMMANDS: [&str; 8] =
+    ["units", "atom_style", "pair_style", "pair_coeff", "read_data", "create_box", "boundary", "fix"];
+
+/// What a file is that another program reads or writes, and what to do with it.
+pub(super) fn foreign(content: &[u8]) -> Option<String> {
+    let start = &content[..content.len().min(BEGINNING)];
+    if let Some(format) = state_file::format_of(start) {
+        return Some(format!("this is {format}; a scene is a JSON file, and its `state` names a file with particles"));
+    }
+    let text = String::from_utf8_lossy(start);
+    let first_words = text.lines().filter_map(|line| line.split_whitespace().next());
+    let is_script = first_words.filter(|word| COMMANDS.contains(word)).take(2).count() == 2;
+    is_script.then(|| {
+        "this is a script for LAMMPS; a scene is a JSON file (`mesoscope scenes dpd-fluid` prints one), and its `state` reads what \
+         `write_data` wrote"
+            .to_owned()
+    })
 }
 
 /// Advice for common mistakes in JSON.

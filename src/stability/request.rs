@@ -5,10 +5,11 @@ use crate::families::Model;
 use crate::families::StepCheck;
 use crate::output::Id;
 use crate::run;
-use crate::scene::{self, Scene, SceneError, StateFiles, did_you_mean, nearest};
-use crate::study::{LENGTHS, Setting, ShortKeys, StudyError};
+use crate::scene::{self, PlotStyle, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
+use crate::study::{LENGTHS, Setting, ShortKeys, StudyError, steps_of};
 use crate::tradeoff::{References, Stretch};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 /// The key that is varied where nobody says which.
 const STEP: &str = "time.step";
@@ -30,6 +31,8 @@ pub struct Request {
     pub(super) arguments: Arguments,
     /// The scene before anything is varied.
     pub(super) base: Scene,
+    /// What was shortened in it.
+    notices: Vec<Warning>,
     /// The key along rows, and the numbers of the grid.
     pub(super) along: Along,
     /// The key of rows; none for a single row.
@@ -45,6 +48,9 @@ pub(super) struct Arguments {
     pub text: String,
     /// Overrides of all runs.
     pub set: Vec<String>,
+    /// The number of steps of the scene, to which what is longer is shortened.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
     /// Keys and their values, one or two.
     pub vary: Vec<String>,
     /// The largest error of what is right.
@@ -63,7 +69,27 @@ pub(super) struct Arguments {
 impl Arguments {
     /// The scene with these overrides and any time step.
     fn scene(&self, set: &[String]) -> Result<Scene, SceneError> {
-        Ok(scene::parse_with(&self.state_files, &self.scene, &self.text, set, None, StepCheck::Allow)?.0)
+        Ok(self.scene_and_notices(set)?.0)
+    }
+
+    /// Refuses single values that make no scene whatever the others are, such as a time step of zero; a key that takes none of its
+    /// values is refused with the scene.
+    fn check_values(&self, ranges: &[Range]) -> Result<(), StudyError> {
+        let mistake = |key: &str, value: &Value| {
+            let setting = Setting { key: key.to_owned(), value: value.clone() }.argument();
+            let set: Vec<String> = self.set.iter().cloned().chain([setting]).collect();
+            scene::misshapen(&self.scene, &self.text, &set).map(|problem| format!("`--vary {key}=…`: {problem}"))
+        };
+        let of_range = |range: &Range| {
+            let wrong: Vec<String> = range.values.iter().filter_map(|value| mistake(&range.key, value)).collect();
+            if wrong.len() < range.values.len() { wrong } else { Vec::new() }
+        };
+        let mistakes: Vec<String> = ranges.iter().flat_map(of_range).collect();
+        if mistakes.is_empty() { Ok(()) } else { Err(StudyError::Arguments { mistakes }) }
+    }
+
+    fn scene_and_notices(&self, set: &[String]) -> Result<(Scene, Vec<Warning>), SceneError> {
+        scene::parse_with(&self.state_files, &self.scene, &self.text, set, self.steps, StepCheck::Allow)
     }
 }
 
@@ -84,12 +110,24 @@ impl Request {
     /// # Errors
     /// [`StudyError::Arguments`] with all mistakes at once, [`StudyError::Scene`] where no scene of the map is accepted.
     pub fn load(source: &str, set: &[String], vary: &[String]) -> Result<Self, StudyError> {
+        Self::load_for(source, set, None, vary)
+    }
+
+    /// The same for so many steps of the scene, to which its equilibration is shortened where it does not fit, as
+    /// [`scene::load_for`] does it; an override of `time.steps` is such a number too.
+    ///
+    /// # Errors
+    /// As [`Request::load`].
+    pub fn load_for(source: &str, set: &[String], steps: Option<u64>, vary: &[String]) -> Result<Self, StudyError> {
+        let mut set = set.to_vec();
+        let set_steps = steps_of(&mut set);
         let (scene, text) = scene::read(source)?;
         Self::new(Arguments {
             state_files: StateFiles::of(&scene),
             scene,
             text,
-            set: set.to_vec(),
+            set,
+            steps: steps.or(set_steps),
             vary: vary.to_vec(),
             tolerance: 0.05,
             references: References::default(),
@@ -104,7 +142,7 @@ impl Request {
         for argument in &arguments.vary {
             match Range::parse(argument) {
                 Ok(range) if LENGTHS.contains(&range.key.as_str()) => mistakes.push(format!(
-                    "`{}` cannot be varied: all runs cover the same simulated time; --set time.steps=N says how much",
+                    "`{}` cannot be varied: all runs cover the same simulated time; --steps N says how much",
                     range.key
                 )),
                 Ok(range) if ranges.iter().any(|known: &Range| known.key == range.key) => {
@@ -117,7 +155,7 @@ impl Request {
         if arguments.vary.len() > 2 {
             mistakes.push(format!("{} keys are varied; accepted: one for a row, two for a map", arguments.vary.len()));
         }
-        let base = arguments.scene(&arguments.set)?;
+        let (base, notices) = arguments.scene_and_notices(&arguments.set)?;
         arguments.state_files.note(&base);
         if ranges.is_empty() && mistakes.is_empty() {
             let ([low, high], points) = USUAL;
@@ -127,6 +165,7 @@ impl Request {
         if !mistakes.is_empty() {
             return Err(StudyError::Arguments { mistakes });
         }
+        arguments.check_values(&ranges)?;
         let place = ranges.iter().position(|range| range.key == STEP).unwrap_or(ranges.len().saturating_sub(1));
         let along = ranges.remove(place);
         let Some(values) = along.numbers() else {
@@ -137,7 +176,7 @@ impl Request {
             return Err(StudyError::mistake(mistake));
         };
         let along = Along { key: along.key, values, spacing: along.spacing };
-        let mut request = Self { arguments, base, along, rows: ranges.pop() };
+        let mut request = Self { arguments, base, notices, along, rows: ranges.pop() };
         let starts_vary = request.row_key().into_iter().chain([request.along.key.as_str()]).any(is_of_state);
         // A key that is misspelt, say: no scene at all is a mistake, some that are none are a result.
         let (mut first, mut is_one) = (None, false);
@@ -226,6 +265,17 @@ impl Request {
         all.extend(given.into_iter().filter(|name| !measures.contains(name)));
         all.dedup();
         all
+    }
+
+    /// The look of pictures with changes to it, given as overrides of the scene.
+    pub(super) fn style(&self, overrides: &[String]) -> Result<PlotStyle, SceneError> {
+        Ok(self.arguments.scene(&[self.arguments.set.as_slice(), overrides].concat())?.output.plot)
+    }
+
+    /// What was shortened in the scene to suit the number of steps.
+    #[must_use]
+    pub fn notices(&self) -> &[Warning] {
+        &self.notices
     }
 
     /// The title of the scene.
@@ -339,6 +389,14 @@ mod tests {
         assert_eq!(map.row_label(1), "friction = 3.162");
         let other = request(&["integrator.type=splitting,groot-warren", "temperature=0.5..2/3"]).unwrap();
         assert_eq!((other.along.key.as_str(), other.row_label(1).as_str()), ("temperature", "type = groot-warren"));
+    }
+
+    #[test]
+    fn values_that_make_no_scene_are_mistakes() {
+        let error = request(&["time.step=0..1/3", "temperature=-1..1/3"]).unwrap_err().to_string();
+        for part in ["`--vary time.step=…`: time.step: found 0; accepted: ", "temperature: found -1; accepted: "] {
+            assert!(error.contains(part), "{error}");
+        }
     }
 
     #[test]

@@ -4,13 +4,14 @@ use super::bounds::bounds;
 use super::cell::{Cell, Comparison, evaluate};
 use super::summary::{MOST_EDGES, StabilitySummary};
 use super::{chart, files, page, table};
-use crate::gpu::{AdapterChoice, Gpu};
+use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::numbers::short;
 use crate::output::{RunDirectory, write_atomically};
 use crate::run::{self, RunError};
 use crate::scene::{Output, Scene, SceneError};
 use crate::study::{self, Observer, StudyError, StudyEvent, StudyRun, at_once};
 use std::fmt;
+use std::path::Path;
 use std::time::Instant;
 
 /// A map to be made.
@@ -173,6 +174,19 @@ impl StudyRun<StabilitySummary> {
         study::draw(place, summary.stability_id, gpu, &request.base.output.plot, chart, &|| self.proceed())?;
         Ok(StabilityOutcome { summary: self.summary, files: files::ALL.to_vec(), page })
     }
+}
+
+/// Draws the picture of a map again from its summary, with changes to the look given as overrides of the scene
+/// (`output.plot.width=800`). Returns the names of the files written.
+///
+/// # Errors
+/// [`StudyError`] when there is no map in the directory, an override does not fit, or the picture cannot be drawn.
+pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, StudyError> {
+    let (summary, request, place) = study::reopen::<StabilitySummary>(directory)?;
+    let style = request.style(overrides)?;
+    let gpu = Gpu::open(choice, Requirements::default())?;
+    let chart = [(files::PLOT.to_owned(), chart::chart(&summary, &request))];
+    study::draw(&place, summary.stability_id, &gpu, &style, chart, &|| Ok(()))
 }
 
 /// The output of a scene that is measured in memory.

@@ -1,11 +1,9 @@
 //! The bytes of a checkpoint, before anything is made of them: everything is checked, and nothing is allocated that is not in the
 //! file. `output::checkpoint` says how it is laid out, and writes it.
 
-use super::open_regular_file;
 use crate::state::{State, StateArray};
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
-use std::path::Path;
 
 /// Name of the checkpoint in the directory of a run.
 pub const FILE: &str = "checkpoint.bin";
@@ -68,10 +66,9 @@ pub(crate) const BUFFER: usize = 1 << 16;
 
 /// Reads a checkpoint. `check` sees its scene, step and number of particles before the arrays are read.
 pub(crate) fn read<E: From<ContentError>>(
-    path: &Path,
+    mut file: File,
     check: impl FnOnce(&str, u64, u64) -> Result<(), E>,
 ) -> Result<Content, E> {
-    let mut file = open_regular_file(path).map_err(ContentError::Io)?;
     let length = check_envelope(&mut file)?;
     // What was checked is read once more, rather than kept: a state may fill the memory.
     file.seek(SeekFrom::Start(HEADER as u64)).map_err(ContentError::Io)?;

@@ -9,7 +9,7 @@ use super::keys::Keys;
 use super::lines::Lines;
 use super::tally::Tally;
 use super::{
-    FROZEN, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements, elements, frozen_layers,
+    FROZEN, Fits, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements, elements, frozen_layers,
     place_of_frame, shortened, triclinic,
 };
 use crate::state::MOST_PARTICLES;
@@ -34,12 +34,13 @@ struct Frame {
     lines_before: u64,
 }
 
-pub(super) fn read(file: File, length: u64, frame: i64) -> Result<ParticleFile, Mistakes> {
+pub(super) fn read(file: File, length: u64, frame: i64, fits: &Fits<'_>) -> Result<ParticleFile, Mistakes> {
     let mut lines = Lines::of(file);
     let (frames, place) = find(&mut lines, length, frame)?;
     let start = frames[place];
     lines.seek(start.offset, start.lines_before)?;
     let count = count_of(&mut lines, length)?.unwrap_or(0);
+    fits(count)?;
     let Some(comment) = lines.next()? else {
         return Err(Mistake::new("", "the file ends after the number of particles", "a line of keys").into());
     };

@@ -5,8 +5,8 @@
 
 use super::file_layer::{Chunk, Cursor, GsdError, GsdReader};
 use super::{
-    FROZEN_IN_GSD, Links, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements, frozen_layers,
-    place_of_frame, triclinic,
+    FROZEN_IN_GSD, Fits, Links, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements,
+    frozen_layers, place_of_frame, triclinic,
 };
 use crate::state::MOST_PARTICLES;
 use std::collections::HashMap;
@@ -40,8 +40,8 @@ impl From<GsdError> for Mistakes {
     }
 }
 
-pub(super) fn read(file: File, frame: i64) -> Result<ParticleFile, Mistakes> {
-    Gsd::open(GsdReader::new(file)?, frame)?.particles()
+pub(super) fn read(file: File, frame: i64, fits: &Fits<'_>) -> Result<ParticleFile, Mistakes> {
+    Gsd::open(GsdReader::new(file)?, frame)?.particles(fits)
 }
 
 impl Gsd {
@@ -200,11 +200,12 @@ impl Gsd {
         Ok(value == count as f64)
     }
 
-    fn particles(mut self) -> Result<ParticleFile, Mistakes> {
+    fn particles(mut self, fits: &Fits<'_>) -> Result<ParticleFile, Mistakes> {
         if let Some(count) = self.number(FROZEN_IN_GSD)? {
             return Err(frozen_layers(self.place(), count).into());
         }
         let count = self.number("particles/N")?.unwrap_or(0);
+        fits(count)?;
         let first_serves = self.first_has("particles/N", count)?;
         let species = self.names("particles/types")?.unwrap_or_else(|| vec!["A".to_owned()]);
         let Some(positions) = self.of_particles::<3>("particles/position", count, first_serves)? else {

@@ -6,7 +6,7 @@
 use super::atom_style::AtomStyle;
 use super::lines::Lines;
 use super::tally::Tally;
-use super::{FORMATS, Links, Mistake, Mistakes, ParticleFile, box_mistake, shortened, triclinic};
+use super::{FORMATS, Fits, Links, Mistake, Mistakes, ParticleFile, box_mistake, shortened, triclinic};
 use crate::state::MOST_PARTICLES;
 use std::collections::HashMap;
 use std::fs::File;
@@ -147,7 +147,12 @@ struct Reader<'a> {
     angles: Vec<([u64; 3], u32)>,
 }
 
-pub(super) fn read(file: File, length: u64, style: Option<&AtomStyle>) -> Result<ParticleFile, Mistakes> {
+pub(super) fn read(
+    file: File,
+    length: u64,
+    style: Option<&AtomStyle>,
+    fits: &Fits<'_>,
+) -> Result<ParticleFile, Mistakes> {
     let mut reader = Reader {
         lines: Lines::of(file),
         header: Header::default(),
@@ -162,6 +167,7 @@ pub(super) fn read(file: File, length: u64, style: Option<&AtomStyle>) -> Result
         angles: Vec::new(),
     };
     reader.read_header(length)?;
+    fits(reader.header.atoms)?;
     reader.read_sections()?;
     reader.finish()
 }

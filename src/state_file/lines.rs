@@ -52,7 +52,7 @@ impl Lines {
         self.number += 1;
         self.offset += read;
         if read == LONGEST && self.buffer.last() != Some(&b'\n') {
-            return Err(Mistake::new(self.place(), "found a line that does not end within a megabyte", FORMATS).into());
+            return Err(self.endless());
         }
         let number = self.number;
         match std::str::from_utf8(&self.buffer) {
@@ -63,11 +63,17 @@ impl Lines {
         }
     }
 
+    fn endless(&self) -> Mistakes {
+        Mistake::new(self.place(), "found a line that does not end within a megabyte", FORMATS).into()
+    }
+
     /// Skips a line; whether there was one.
-    pub(super) fn skip(&mut self) -> io::Result<bool> {
-        let skipped = self.reader.skip_until(b'\n')? as u64;
+    pub(super) fn skip(&mut self) -> Result<bool, Mistakes> {
+        let mut rest = self.reader.by_ref().take(LONGEST);
+        let skipped = rest.skip_until(b'\n')? as u64;
+        let is_endless = rest.limit() == 0;
         self.offset += skipped;
         self.number += u64::from(skipped > 0);
-        Ok(skipped > 0)
+        if is_endless { Err(self.endless()) } else { Ok(skipped > 0) }
     }
 }

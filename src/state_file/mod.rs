@@ -14,7 +14,8 @@ mod lammps;
 mod lines;
 mod tally;
 
-use crate::printable;
+use crate::numbers::{bytes, grouped};
+use crate::{host_memory, printable};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -192,9 +193,39 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// # Errors
 /// [`StateFileError`] says all that is wrong with the file, with lines or frames.
 pub fn read(path: &Path, frame: i64, atom_style: Option<&str>) -> Result<ParticleFile, StateFileError> {
+    read_fitting(path, frame, atom_style, &|_| Ok(()))
+}
+
+/// Decides of a number of particles whether they are read.
+pub(crate) type Fits<'a> = dyn Fn(u64) -> Result<(), Mistake> + 'a;
+
+/// The same of a file whose number of particles fits: it is known before any of them is read.
+pub(crate) fn read_fitting(
+    path: &Path,
+    frame: i64,
+    atom_style: Option<&str>,
+    fits: &Fits<'_>,
+) -> Result<ParticleFile, StateFileError> {
     let error = |mistakes: Mistakes| StateFileError { path: path.to_path_buf(), mistakes: mistakes.into_list() };
     let style = atom_style.map(AtomStyle::of).transpose().map_err(|mistake| error(mistake.into()))?;
-    read_any(path, frame, style.as_ref()).map_err(error)
+    let fits = |count: u64| fits_in_memory(count, host_memory::free()).and_then(|()| fits(count));
+    read_any(path, frame, style.as_ref(), &fits).map_err(error)
+}
+
+/// Bytes of memory that a particle of a file takes at least: its place, its velocity, its species and what a run makes of it.
+const BYTES_PER_PARTICLE: u64 = 64;
+
+/// Looks whether so many particles fit into so much memory, if that is known.
+pub(crate) fn fits_in_memory(count: u64, free: Option<u64>) -> Result<(), Mistake> {
+    let needed = count.saturating_mul(BYTES_PER_PARTICLE);
+    match free {
+        Some(free) if needed > free => Err(Mistake::new(
+            "",
+            format!("found {} particles, which take at least {} of memory", grouped(count), bytes(needed)),
+            format!("particles that fit into the {} that are free on this machine", bytes(free)),
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Opens a file that ends: a device may not, and a pipe is not even opened before somebody writes to it.
@@ -205,7 +236,7 @@ pub(crate) fn open_regular_file(path: &Path) -> io::Result<File> {
     File::open(path)
 }
 
-fn read_any(path: &Path, frame: i64, style: Option<&AtomStyle>) -> Result<ParticleFile, Mistakes> {
+fn read_any(path: &Path, frame: i64, style: Option<&AtomStyle>, fits: &Fits<'_>) -> Result<ParticleFile, Mistakes> {
     let mut file = open_regular_file(path)?;
     let mut start = Vec::new();
     file.by_ref().take(START).read_to_end(&mut start)?;
@@ -216,15 +247,26 @@ fn read_any(path: &Path, frame: i64, style: Option<&AtomStyle>) -> Result<Partic
         no_atom_style(style.map(ToString::to_string).as_deref())?;
     }
     if file_layer::is_one(&start) {
-        gsd::read(file, frame)
+        gsd::read(file, frame, fits)
     } else if is_of_lammps {
         only_frame(frame)?;
-        lammps::read(file, length, style)
+        lammps::read(file, length, style, fits)
     } else if extended_xyz::is_one(&start) {
-        extended_xyz::read(file, length, frame)
+        extended_xyz::read(file, length, frame, fits)
     } else {
         let found = if start.is_empty() { "it is empty" } else { "it is in none of the formats that can be read" };
         Err(Mistake::new("", found, FORMATS).into())
+    }
+}
+
+/// The format of a file that begins like this, in words; none where it is none that is read.
+pub(crate) fn format_of(start: &[u8]) -> Option<&'static str> {
+    if file_layer::is_one(start) {
+        Some("a GSD file")
+    } else if lammps::is_one(start) {
+        Some("a data file of LAMMPS")
+    } else {
+        extended_xyz::is_one(start).then_some("an XYZ file")
     }
 }
 

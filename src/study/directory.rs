@@ -3,7 +3,7 @@
 use super::kind::{KINDS, Kind};
 use super::record::Record;
 use super::shard_places;
-use crate::output::{OutputError, RunDirectory};
+use crate::output::{OutputError, RunDirectory, own_file};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -74,8 +74,7 @@ pub(super) fn check<R: Record>(path: &Path, study: &R, force: bool) -> Result<Ve
 
 /// Names of the runs that a summary of this kind lists; none where there is none.
 fn runs_of(kind: &Kind, directory: &Path) -> Vec<String> {
-    let Ok(text) = fs::read(directory.join(kind.summary)) else { return Vec::new() };
-    let summary: Value = serde_json::from_slice(&text).unwrap_or_default();
+    let summary: Value = own_file::json(&directory.join(kind.summary)).unwrap_or_default();
     let lists = kind.runs.iter().filter_map(|key| summary.get(key)?.as_array());
     lists.flatten().filter_map(|run| Some(run.get("name")?.as_str()?.to_owned())).collect()
 }

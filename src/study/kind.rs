@@ -52,7 +52,7 @@ pub(crate) const TRADEOFF: Kind = Kind {
     summary: "tradeoff.json",
     again: "run the tradeoff again",
     resumed: "goes on",
-    shortened: "--budget to shorten them",
+    shortened: "shorten them with --budget or --steps",
     estimate: "about",
     asked: &["arguments"],
     files: &["tradeoff.csv", "tradeoff.md"],
@@ -67,7 +67,7 @@ pub(crate) const STABILITY: Kind = Kind {
     summary: "stability.json",
     again: "make the map again",
     resumed: "goes on",
-    shortened: "shorten them with --set time.steps=N or a narrower range",
+    shortened: "shorten them with --steps N or a narrower range",
     // A run ends when its verdict is certain.
     estimate: "at most",
     asked: &["arguments"],

@@ -107,7 +107,7 @@ impl<R: Record> StudyRun<R> {
                 Message::Advanced(progress) => observer(StudyEvent::Advanced { run, progress }),
                 Message::Ended(ended) => match *ended {
                     // It waits to be continued.
-                    Err(RunError::Interrupted { .. }) => {}
+                    Err(RunError::Interrupted { .. } | RunError::NotBegun) => {}
                     ended => return take_up(self, number, ended, observer),
                 },
             }

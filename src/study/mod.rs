@@ -35,5 +35,5 @@ pub use run::{LONG, Observer, StudyEvent, StudyRun};
 pub(crate) use run::{draw, in_hours, largest};
 pub use shard::Shard;
 pub(crate) use shard_places::{RECORD as SHARD_RECORD, claim as claim_shard, claim_study, name_in_study};
-pub(crate) use variation::settings;
 pub use variation::{Setting, Variation};
+pub(crate) use variation::{settings, steps_of};

@@ -4,8 +4,7 @@ use super::error::StudyError;
 use super::kind::Kind;
 use super::shard_places;
 use super::version::Version;
-use crate::output::{Id, OutputError, RunDirectory, write_atomically};
-use crate::state_file::checkpoint::Fnv;
+use crate::output::{Id, OutputError, RunDirectory, own_file, write_atomically};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -92,34 +91,29 @@ pub(crate) fn save<R: Record>(record: &R, directory: &Path) -> Result<(), Output
 /// The checksum of what a summary says that was asked for: of the text, so that it holds for every version of the program, whatever
 /// keys scenes have in it.
 fn checksum_of(kind: &Kind, summary: &Value) -> String {
-    let asked: Vec<&Value> = kind.asked.iter().map(|key| summary.get(key).unwrap_or(&Value::Null)).collect();
-    let mut sum = Fnv::new();
-    // Values of JSON can always be written.
-    sum.add(&serde_json::to_vec(&asked).unwrap_or_default());
-    format!("{:016x}", sum.0)
+    let asked = kind.asked.iter().map(|key| summary.get(key).cloned().unwrap_or_default());
+    own_file::checksum_of([&asked.collect()])
 }
 
 /// Whether what a summary asks for is what it asked for when it was written; those of early versions do not say.
 fn is_as_asked(kind: &Kind, path: &Path) -> Result<bool, OutputError> {
-    let text = std::fs::read(path).map_err(OutputError::io("read", path))?;
-    let summary: Value =
-        serde_json::from_slice(&text).map_err(|source| OutputError::Json { path: path.to_path_buf(), source })?;
+    let summary: Value = own_file::json(path)?;
     Ok(summary.get(CHECKSUM).is_none_or(|noted| *noted == checksum_of(kind, &summary)))
 }
 
 /// Reads the summary in the directory of a study.
 pub(crate) fn load<R: Record>(directory: &Path) -> Result<R, StudyError> {
     let path = directory.join(R::KIND.summary);
-    let text = match std::fs::read(&path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            return Err(StudyError::Nothing { kind: R::KIND, path: directory.to_path_buf() });
+    own_file::json(&path).map_err(|error| match error {
+        OutputError::Io { source, .. } if source.kind() == std::io::ErrorKind::NotFound => {
+            StudyError::Nothing { kind: R::KIND, path: directory.to_path_buf() }
         }
-        read => read.map_err(OutputError::io("read", &path))?,
-    };
-    serde_json::from_slice(&text).map_err(|error| {
-        let Kind { noun, again, .. } = R::KIND;
-        let problem = format!("this is no summary of a {noun} ({error}); {again} with --force");
-        OutputError::Line { path, line: error.line() as u64, problem }.into()
+        OutputError::Line { path, line, problem } => {
+            let Kind { noun, again, .. } = R::KIND;
+            let problem = format!("this is no summary of a {noun} ({problem}); {again} with --force");
+            OutputError::Line { path, line, problem }.into()
+        }
+        error => error.into(),
     })
 }
 

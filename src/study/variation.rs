@@ -76,6 +76,20 @@ pub(crate) fn settings(argument: &str) -> Result<Vec<Setting>, String> {
     Ok(settings)
 }
 
+/// Takes the number of steps out of overrides that set it: what no longer fits is then shortened, as if it were asked for by itself.
+pub(crate) fn steps_of(set: &mut Vec<String>) -> Option<u64> {
+    let steps = |argument: &String| {
+        let (key, text) = split_key(argument).filter(|(key, _)| key == "time.steps")?;
+        let number = value(text).ok()?;
+        let written = number.as_f64().filter(|steps| steps.fract() == 0.0 && (0.0..9e15).contains(steps));
+        drop(key);
+        number.as_u64().or(written.map(|steps| steps as u64))
+    };
+    let found = set.iter().rev().find_map(steps);
+    set.retain(|argument| steps(argument).is_none());
+    found
+}
+
 fn read(text: &str) -> Result<Value, String> {
     value(text).map_err(|accepted| format!("found {text}; accepted: {accepted}"))
 }
@@ -146,6 +160,15 @@ mod tests {
             let message = Variation::parse(argument).unwrap_err();
             assert!(message.contains(expected), "{argument}: {message}");
         }
+    }
+
+    #[test]
+    fn the_last_number_of_steps_counts() {
+        let mut set = ["time.steps=10", "seed=1", "time.steps = 2e3", "time.step=0.1"].map(str::to_owned).to_vec();
+        assert_eq!((steps_of(&mut set), set.len()), (Some(2000), 2));
+        // What is no number of steps stays, and is refused with the scene.
+        let mut set = vec!["time.steps=-1".to_owned()];
+        assert_eq!((steps_of(&mut set), set.len()), (None, 1));
     }
 
     #[test]

@@ -81,14 +81,15 @@ impl StudyRun<SweepSummary> {
         Ok((gpu, jobs))
     }
 
-    /// Seconds that variants take one after another, in proportion to the largest, of which steps are timed; none where all are short
+    /// Seconds that variants take one after another with their pictures, in proportion to the largest, of which steps are timed; none where all are short
     /// or that one fails.
     fn expected(&self, waiting: &[usize], gpu: &Gpu) -> Option<f64> {
         let scenes = || waiting.iter().map(|number| &self.request.variants()[*number].scene);
         let work = |scene: &Scene| Model::new(scene).particle_count() as f64 * scene.time.steps as f64;
         let all: f64 = scenes().map(work).sum();
         let largest = study::largest(scenes()).filter(|_| all > WORTH_TIMING)?;
-        Some(run::expected_time(largest, gpu).ok()?.seconds * all / work(largest))
+        let expected = run::expected_time(largest, gpu).ok()?;
+        Some(expected.seconds * all / work(largest) + expected.drawing * waiting.len() as f64)
     }
 
     /// Runs variants; `note` writes down after each how far the sweep is.

@@ -136,7 +136,7 @@ fn is_a_result(error: &EngineError) -> bool {
 /// Whether a run ended because of what it simulates.
 pub(super) fn is_unstable(error: &RunError) -> bool {
     match error {
-        RunError::Unstable { .. } | RunError::GaveUp { .. } => true,
+        RunError::Unstable { .. } | RunError::UnstableTrial(_) | RunError::GaveUp { .. } => true,
         RunError::Engine(error) => is_a_result(error),
         _ => false,
     }

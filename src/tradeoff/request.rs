@@ -7,8 +7,8 @@ use super::{fields, measures};
 use crate::families::Model;
 use crate::families::StepCheck;
 use crate::run;
-use crate::scene::{self, AnalysisId, Scene, SceneError, StateFiles, did_you_mean, nearest};
-use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, settings};
+use crate::scene::{self, AnalysisId, PlotStyle, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
+use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, settings, steps_of};
 use serde::{Deserialize, Serialize};
 
 /// Names of the runs that give references.
@@ -23,6 +23,8 @@ pub struct Request {
     pub(super) sweep: Sweep,
     /// The scene before anything is varied.
     pub(super) base: Scene,
+    /// What was shortened in it.
+    notices: Vec<Warning>,
 }
 
 /// A request as it is written into the summary, and read from there.
@@ -34,6 +36,9 @@ pub(super) struct Arguments {
     pub text: String,
     /// Overrides of all runs.
     pub set: Vec<String>,
+    /// The number of steps of the scene, to which what is longer is shortened.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
     /// Keys and their values.
     pub vary: Vec<String>,
     /// Further choices.
@@ -59,7 +64,11 @@ pub(super) struct Arguments {
 impl Arguments {
     /// The scene with these overrides; its step may be too large, for what becomes of it is a result.
     pub(super) fn scene(&self, set: &[String]) -> Result<Scene, SceneError> {
-        Ok(scene::parse_with(&self.state_files, &self.scene, &self.text, set, None, StepCheck::Allow)?.0)
+        Ok(self.scene_and_notices(set)?.0)
+    }
+
+    fn scene_and_notices(&self, set: &[String]) -> Result<(Scene, Vec<Warning>), SceneError> {
+        scene::parse_with(&self.state_files, &self.scene, &self.text, set, self.steps, StepCheck::Allow)
     }
 }
 
@@ -69,12 +78,30 @@ impl Request {
     /// # Errors
     /// [`StudyError::Variants`] or [`StudyError::Arguments`] with all mistakes at once; [`StudyError::Scene`] when there is no such scene.
     pub fn load(source: &str, set: &[String], vary: &[String], also: &[String]) -> Result<Self, StudyError> {
+        Self::load_for(source, set, None, vary, also)
+    }
+
+    /// The same for so many steps of the scene, to which its equilibration is shortened where it does not fit, as
+    /// [`scene::load_for`] does it; an override of `time.steps` is such a number too.
+    ///
+    /// # Errors
+    /// As [`Request::load`].
+    pub fn load_for(
+        source: &str,
+        set: &[String],
+        steps: Option<u64>,
+        vary: &[String],
+        also: &[String],
+    ) -> Result<Self, StudyError> {
+        let mut set = set.to_vec();
+        let set_steps = steps_of(&mut set);
         let (scene, text) = scene::read(source)?;
         Self::new(Arguments {
             state_files: StateFiles::of(&scene),
             scene,
             text,
-            set: set.to_vec(),
+            set,
+            steps: steps.or(set_steps),
             vary: vary.to_vec(),
             also: also.to_vec(),
             finer: None,
@@ -88,13 +115,13 @@ impl Request {
 
     /// The request of a summary, or of a command line.
     pub(super) fn new(mut arguments: Arguments) -> Result<Self, StudyError> {
-        let Arguments { scene, text, set, vary, also, .. } = &arguments;
+        let Arguments { scene, text, set, steps, vary, also, .. } = &arguments;
         let varied = vary.iter().filter_map(|argument| Some(Variation::parse(argument).ok()?.key));
         let further = also.iter().filter_map(|argument| settings(argument).ok()).flatten().map(|setting| setting.key);
         let keys: Vec<String> = varied.chain(further).collect();
         let mistake = |key: &str| {
             format!(
-                "`{key}` cannot be varied: all choices cover the same simulated time; --set, --error and --budget say how much"
+                "`{key}` cannot be varied: all choices cover the same simulated time; --steps, --error and --budget say how much"
             )
         };
         let mistakes: Vec<String> =
@@ -103,16 +130,16 @@ impl Request {
             return Err(StudyError::Arguments { mistakes });
         }
         let files = arguments.state_files.clone();
-        let sweep = Sweep::of_text(scene, text, (set, None), vary, also, files, StepCheck::Allow)?;
+        let sweep = Sweep::of_text(scene, text, (set, *steps), vary, also, files, StepCheck::Allow)?;
         if sweep.variants().iter().any(|variant| [FINER, COARSER, STILL_FINER].contains(&variant.name.as_str())) {
             return Err(StudyError::mistake(format!(
                 "`{FINER}` and `{STILL_FINER}` are names of runs that references are taken from"
             )));
         }
         arguments.state_files = sweep.files.clone();
-        let base = arguments.scene(&arguments.set)?;
+        let (base, notices) = arguments.scene_and_notices(&arguments.set)?;
         arguments.state_files.note(&base);
-        Ok(Self { arguments, sweep, base })
+        Ok(Self { arguments, sweep, base, notices })
     }
 
     /// The same for so long.
@@ -236,6 +263,17 @@ impl Request {
     #[must_use]
     pub fn has_targets(&self) -> bool {
         !self.arguments.targets.is_empty()
+    }
+
+    /// The look of pictures with changes to it, given as overrides of the scene.
+    pub(super) fn style(&self, overrides: &[String]) -> Result<PlotStyle, SceneError> {
+        Ok(self.arguments.scene(&[self.arguments.set.as_slice(), overrides].concat())?.output.plot)
+    }
+
+    /// What was shortened in the scene to suit the number of steps.
+    #[must_use]
+    pub fn notices(&self) -> &[Warning] {
+        &self.notices
     }
 
     /// The title of the scene.

@@ -15,6 +15,7 @@ use crate::scene::Scene;
 use crate::self_test;
 use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyRun};
 use std::fmt;
+use std::path::Path;
 use std::time::Instant;
 
 /// What of a budget the first runs may take: they say how long the others have to be.
@@ -440,13 +441,21 @@ impl StudyRun<TradeoffSummary> {
         table::write(place.path(), &self.summary, &self.request.sweep.keys())?;
         self.save()?;
         let Self { request, summary, .. } = &self;
-        let charts = summary
-            .measures
-            .iter()
-            .filter_map(|measure| Some((files::plot(measure), charts::chart(summary, request, measure)?)));
-        let drawn =
-            study::draw(place, summary.tradeoff_id, gpu, &request.base.output.plot, charts, &|| self.proceed())?;
+        let (id, style) = (summary.tradeoff_id, &request.base.output.plot);
+        let drawn = study::draw(place, id, gpu, style, charts::all(summary, request), &|| self.proceed())?;
         let tables = [files::TABLE, files::SUMMARY, files::PAGE].map(str::to_owned);
         Ok(TradeoffOutcome { files: tables.into_iter().chain(drawn).collect(), summary: self.summary, page })
     }
+}
+
+/// Draws the pictures of a tradeoff again from its summary, with changes to the look given as overrides of the scene
+/// (`output.plot.width=800`). Returns the names of the files written.
+///
+/// # Errors
+/// [`StudyError`] when there is no tradeoff in the directory, an override does not fit, or a picture cannot be drawn.
+pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, StudyError> {
+    let (summary, request, place) = study::reopen::<TradeoffSummary>(directory)?;
+    let style = request.style(overrides)?;
+    let gpu = Gpu::open(choice, Requirements::default())?;
+    study::draw(&place, summary.tradeoff_id, &gpu, &style, charts::all(&summary, &request), &|| Ok(()))
 }

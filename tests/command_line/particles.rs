@@ -325,10 +325,15 @@ fn files_that_cannot_be_written_or_read() {
     let below_a_file = place.argument("scene.json/out");
     fails(&["run", &scene, "--out", &below_a_file], 5, &["cannot create the directory", "scene.json"]);
     fails(&["run", &scene, "--out", &scene], 5, &["scene.json` is a file, and the results need a directory", "--out"]);
-    fails(&["resume", &place.argument("nowhere")], 5, &["checkpoint.bin"]);
-    fails(&["plot", &place.argument("nowhere")], 5, &["nowhere"]);
-    fails(&["resume", &place.argument("nowhere")], 5, &["hint: give the directory that `mesoscope run` wrote"]);
+    for command in ["resume", "plot"] {
+        let told = ["nowhere` is no directory", "hint: give the directory that `mesoscope run` or a study wrote"];
+        fails(&[command, &place.argument("nowhere")], 5, &told);
+        fails(&[command, &scene], 5, &["scene.json` is a file, not the directory of a run"]);
+    }
     place.run("out", &["--quiet"]);
+    fails(&["plot", &place.argument("nowhere")], 5, &["hint: results are in `", "/out`"]);
+    fails(&["run", &place.argument("out")], 2, &["out` is the directory of a run: `mesoscope resume "]);
+    fails(&["resume", &place.argument("out"), "--set", "seed=3"], 2, &["continues with the scene that it began with"]);
     let path = place.path("out").join(files::CHECKPOINT);
     let whole = bytes(&path);
     let mut damaged = whole.clone();
@@ -392,9 +397,22 @@ fn check_says_whether_the_adapter_that_is_asked_for_has_room() {
     fails(&["check", &place.scene(), "--adapter", "0"], 3, &["but this scene needs ", "a smaller system needs less"]);
 }
 
+/// At the first step and at a later one of its trial, which are those of the run.
+#[test]
+fn check_fails_where_its_own_trial_does() {
+    let place = place().with("/time", json!({"step": 0.04, "steps": 60}));
+    let scene = place.scene();
+    let hot = [scene.as_str(), "--set", "temperature=300"];
+    let said = fails(&[&["check"], &hot[..]].concat(), 4, &["became unstable at step 0", "try a time step of "]);
+    let ran = fails(&[&["run", "--out", &place.argument("out")], &hot[..]].concat(), 4, &[]);
+    let reason = said.lines().find(|line| line.contains("became unstable")).unwrap();
+    assert!(ran.contains(reason), "{said} {ran}");
+    fails(&["check", "edpd-fluid", "--set", "time.step=0.1"], 4, &["became unstable at step ", "try a time step of "]);
+}
+
 #[test]
 fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
-    let said = succeeds(&["check", "dpd-fluid"]);
+    let said = succeeds(&["check", "-v", "dpd-fluid"]);
     for part in [
         "by theory up to a step of 0.129 (oscillation ω dt = 2)",
         "by experience up to a step of 0.133 (friction Γ dt = 1/4)",
@@ -404,19 +422,21 @@ fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
     assert!(!said.contains("pays for"), "{said}");
-    let said = succeeds(&["check", "dpd-fluid", "--set", "time.step=0.03"]);
+    let said = succeeds(&["check", "-v", "dpd-fluid", "--set", "time.step=0.03"]);
     assert!(
         said.contains("off, interpolated between steps of 0.02 and 0.04 that were measured (DPD fluid, 20"),
         "{said}"
     );
-    let said = succeeds(&["check", "edpd-fluid", "--set", "time.step=0.1"]);
+    // It becomes unstable, which is said when everything else has been.
+    let output = mesoscope(&["check", "edpd-fluid", "--set", "time.step=0.1"]);
+    let said = text(&output.stdout);
     assert!(
         said.contains("not measured at this step; ") && said.contains("off at a step of 0.06, the nearest"),
         "{said}"
     );
     // B + W = dt²(1 + 1000 tanh(500 dt)/(500 dt)), which is 4 at dt = 1.236.
     let forgotten = ["interactions.1.bath.rate=1000", "output.energies.every=1"];
-    let said = succeeds(&["check", "gle-oscillator", "--set", forgotten[0], "--set", forgotten[1]]);
+    let said = succeeds(&["check", "-v", "gle-oscillator", "--set", forgotten[0], "--set", forgotten[1]]);
     for part in [
         "by theory up to a step of 1.24 (B + W = 4)",
         "reports: about 50 % of the time",
@@ -429,11 +449,11 @@ fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
         said.contains("bath times displacement 0.05277") && said.contains("known exactly for this scheme"),
         "{said}"
     );
-    let said = succeeds(&["check", "coloured-noise", "--set", "output.energies.every=1"]);
+    let said = succeeds(&["check", "-v", "coloured-noise", "--set", "output.energies.every=1"]);
     let command = "`mesoscope tradeoff coloured-noise --set output.energies.every=1 --vary time.step=";
     assert!(said.contains("not measured of a scene like this") && said.contains(command), "{said}");
     let quoted = "--set 'output.energies={\"every\":20}'";
-    let said = succeeds(&["check", "gle-oscillator", "--set", "output.energies={\"every\":20}"]);
+    let said = succeeds(&["check", "-v", "gle-oscillator", "--set", "output.energies={\"every\":20}"]);
     assert!(said.contains(quoted), "{said}");
     // Choices that cost time and change nothing, where they do not.
     let staged = r#"integrator={"type":"splitting","relaxation":"two-stages"}"#;
@@ -451,7 +471,7 @@ fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
         ("shallow-water", &[chebyshev, "interactions.0.mesh=[60,64]"], None),
     ] {
         let changes = set.iter().flat_map(|change| ["--set", change]);
-        let said = succeeds(&["check", scene].into_iter().chain(changes).collect::<Vec<_>>());
+        let said = succeeds(&["check", "-v", scene].into_iter().chain(changes).collect::<Vec<_>>());
         match what {
             Some(what) => assert!(said.contains(&format!("pays for    {what}")), "{scene} {set:?}: {said}"),
             None => assert!(!said.contains("pays for"), "{scene} {set:?}: {said}"),
@@ -463,12 +483,14 @@ fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
 fn check_prints_the_plan() {
     let place = place().with("/output/radial_distribution", json!({"every": 5, "range": 2}));
     let short = succeeds(&["check", &place.scene()]);
-    for part in
-        ["small fluid", "375 in 3 dimensions", "bytes a particle", "  time  ", "within a factor of", "  files  "]
-    {
+    // Three lines for a beginner: time, what is written, and how far off it is.
+    let starts: Vec<&str> = short.lines().map(|line| line.split_whitespace().next().unwrap_or_default()).collect();
+    assert_eq!(starts, ["small", "time", "files", "accuracy", "-v"], "{short}");
+    for part in ["steps of 375 particles", "for pictures, within a factor of", " in the memory of an adapter"] {
         assert!(short.contains(part), "`{part}` is not in: {short}");
     }
-    assert!(!short.contains("scatter_particles"), "{short}");
+    let long = succeeds(&["check", "-v", &place.scene()]);
+    assert!(long.contains("bytes a particle") && !long.contains("scatter_particles"), "{long}");
     let said = succeeds(&["check", &place.scene(), "--kernels"]);
     for part in [
         "small fluid",

@@ -252,7 +252,9 @@ fn mistakes_are_named_before_anything_runs() {
     }
     fails(&borrowed(&arguments(&place, &["--vary", "time.step=0.1..1/1"])), 2, &["1 point; accepted: 2 to 200"]);
     fails(&borrowed(&arguments(&place, &["--set", "time.steps=900000000000"])), 2, &["--yes", "at most "]);
-    fails(&["stability", "--resume", &place.argument("nothing")], 5, &["there is no map of stability"]);
+    fails(&["stability", "--resume", &place.argument("nothing")], 5, &["nothing` is no directory"]);
+    std::fs::create_dir(place.path("empty")).unwrap();
+    fails(&["stability", "--resume", &place.argument("empty")], 5, &["there is no map of stability"]);
     assert!(!place.path("out").exists());
 }
 

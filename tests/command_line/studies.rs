@@ -10,7 +10,7 @@ use mesoscope::stability::{Request, StabilityRun, StabilitySummary};
 use mesoscope::study::StudyEvent;
 use serde_json::{Value, json};
 
-use crate::support::program::{Place, command, fails, listing, succeeds, text};
+use crate::support::program::{Place, bytes, command, fails, listing, succeeds, text};
 
 /// A fluid of 64 particles that start from `start.xyz`.
 fn place() -> Place {
@@ -252,7 +252,14 @@ fn a_study_replaces_one_of_another_kind_only_when_asked_and_wholly() {
         let goes_on = format!("`mesoscope {next} --resume {}`", place.argument("out"));
         fails(&["resume", &place.argument("out")], 2, &["not a run", &goes_on]);
         if next != "sweep" {
-            fails(&["plot", &place.argument("out")], 2, &[&goes_on, "draws its pictures again"]);
+            // The same pictures again, and with another look other ones.
+            let picture = expected.iter().find(|name| name.ends_with(".png")).unwrap();
+            let before = bytes(&out.join(picture));
+            fs::remove_file(out.join(picture)).unwrap();
+            assert!(succeeds(&["plot", &place.argument("out")]).contains(picture));
+            assert!(bytes(&out.join(picture)) == before, "{picture}");
+            succeeds(&["plot", &place.argument("out"), "--set", "output.plot.theme=dark"]);
+            assert!(bytes(&out.join(picture)) != before, "{picture}");
         }
         assert!(expected.iter().all(|name| found.iter().any(|own| own == name)), "{next}: {found:?}");
         let others = ["sweep", "tradeoff", "stability", "seed=", "step="].into_iter().filter(|start| match next {

@@ -206,7 +206,7 @@ fn wrong_scenes_run_nothing() {
 
 #[test]
 fn check_says_what_the_scene_requires() {
-    let said = succeeds(&["check", "voronoi-energy"]);
+    let said = succeeds(&["check", "-v", "voronoi-energy"]);
     for part in [
         "search grid",
         "gradient: constant masses",
@@ -219,9 +219,9 @@ fn check_says_what_the_scene_requires() {
     ] {
         assert!(said.contains(part), "`{part}` is not in: {said}");
     }
-    let said = succeeds(&["check", "voronoi-dpd"]);
+    let said = succeeds(&["check", "-v", "voronoi-dpd"]);
     assert!(said.contains("paper: cells exchange mass") && !said.contains("conjugate gradients"), "{said}");
-    let said = succeeds(&["check", "voronoi-shear"]);
+    let said = succeeds(&["check", "-v", "voronoi-shear"]);
     assert!(said.contains("shear_wave.csv, shear_wave.png") && !said.contains("neighbours.csv"), "{said}");
     let said = succeeds(&["scenes"]);
     for name in ["voronoi-dpd", "voronoi-energy", "voronoi-shear"] {

@@ -8,6 +8,7 @@ mod body_forces;
 mod cost;
 mod couplings;
 mod damage;
+mod directories;
 mod fuzzing;
 mod many_body;
 mod molecules;

@@ -11,28 +11,30 @@ use mesoscope::engine::EngineError;
 use mesoscope::families::{self, Model};
 use mesoscope::gpu::GpuError;
 use mesoscope::numbers::{bytes, grouped};
-use mesoscope::plan::{Hardware, Options, Plan};
+use mesoscope::plan::{Hardware, Options, Part, Plan};
 use mesoscope::printable;
 use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
 use mesoscope::scene::{Integrator, Scene};
 
 use super::table::{aligned, dimensions};
-use super::{AdapterArgument, Failure, RanksArgument, SceneArguments, print};
+use super::{AdapterArgument, Failure, RanksArgument, SceneArguments, heading, print, print_exactly};
 
-/// Check a scene: all mistakes at once, or else what it requires - memory, time, files, warnings
+/// Check a scene: all mistakes at once, or else what to expect - time, files, errors, warnings - and with -v what it consists of
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The time is an estimate: a few steps are run on the adapter and timed, of the scene itself if it is small. That takes about a
-quarter of a second, and the adapter has to start and compile the kernels first; without an adapter there is no estimate.
+The time is an estimate: a few steps are run on the adapter and timed, of the scene itself if it is small, and pictures are counted. \
+That takes about a quarter of a second, and the adapter has to start and compile the kernels first; without an adapter there is no \
+estimate.
 
-`stable` and `reliable` are what theory and experience say of the time step, `accuracy` what was measured of a scene of the same
-physics and is shipped with the program. `mesoscope stability SCENE` measures how far a scene of your own may go, `mesoscope
-tradeoff` how far off it is.
+`accuracy` is what was measured of a scene of the same physics and is shipped with the program. With -v, `stable` and `reliable` are what \
+theory and experience say of the time step. `mesoscope stability SCENE` measures how far a scene of your own may go, `mesoscope tradeoff` \
+how far off it is.
 
-Exit code 0 means that the adapter (the one named, else the best) can run the scene.
+Exit code 0 means that the adapter (the one named, else the best) can run the scene, and that its first steps went well.
 
 Examples:
   mesoscope check my-scene.json
+  mesoscope check my-scene.json -v
   mesoscope check dpd-fluid --kernels
   mesoscope check dpd-fluid --shader scatter
   mesoscope check dpd-fluid --ranks 4
@@ -47,47 +49,71 @@ pub struct Arguments {
     #[command(flatten)]
     ranks: RanksArgument,
 
-    /// List kernels, buffers and their bytes too
-    #[arg(long)]
+    /// Say more: what the scene consists of, how long its steps may be, when files are written
+    #[arg(long, short, help_heading = heading::OUTPUT)]
+    verbose: bool,
+
+    /// The same, with kernels, buffers and their bytes
+    #[arg(long, help_heading = heading::OUTPUT)]
     kernels: bool,
 
     /// Print the WGSL of a kernel, each part with its file and line, and nothing else
-    #[arg(long, value_name = "KERNEL")]
+    #[arg(long, help_heading = heading::OUTPUT, value_name = "KERNEL")]
     shader: Option<String>,
 }
 
 /// Checks the scene.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let (scene, notices) = arguments.scene.load()?;
+    let (scene, notices) = arguments.ranks.load(&arguments.scene, &arguments.adapter, None)?;
     let model = Model::new(&scene);
     let mut warnings: Vec<String> =
         notices.iter().chain(&families::warnings(&scene)).map(ToString::to_string).collect();
     warnings.extend(run::lettering(&scene));
     let division = arguments.ranks.division((&scene, &model), &arguments.adapter, None)?;
-    let opened = match run::adapter_for(&scene, &arguments.adapter.choice()) {
+    warnings.extend(RanksArgument::warning(division, &arguments.adapter, None));
+    let opened = match run::adapter_for_rank(&scene, division, &arguments.adapter.choice()) {
         Err(error @ (RunError::Scene(_) | RunError::Gpu(GpuError::NoSuchAdapter { .. }))) => return Err(error.into()),
         opened => opened,
     };
     let hardware = opened.as_ref().map_or(Hardware::default(), Hardware::from);
-    let plan = run::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
+    let plan_of = |options| run::plan(&model, scene.time.equilibration, &scene.output, hardware, options);
+    let plan = plan_of(Options { part: division.map(|division| Part { division, rank: 0 }), ..Options::default() });
     if let Some(kernel) = &arguments.shader {
-        return print(&kernels::shader(&plan, kernel)?);
+        return print_exactly(&kernels::shader(&plan, kernel)?);
     }
     let trial = opened.as_ref().ok().filter(|_| scene.time.steps > 0).map(|gpu| run::expected_time(&scene, gpu));
-    let time = trial.as_ref().map(|trial| expected_time(&scene, trial));
     let adapter = match &opened {
-        Ok(gpu) => gpu.description().name.clone(),
-        Err(RunError::Gpu(GpuError::NoAdapter)) => "none found; this is the plan for any adapter".to_owned(),
-        Err(_) => "none that can run it; this is the plan for any adapter".to_owned(),
+        Ok(gpu) => gpu.description().in_words(),
+        Err(RunError::Gpu(GpuError::NoAdapter)) => "no adapter found; this is the plan for any".to_owned(),
+        Err(_) => "no adapter that can run it; this is the plan for any".to_owned(),
     };
-    let sizes = Sizes::of(&scene, &model, &plan);
-    let mut rows = overview(&scene, &model, &plan, &adapter, time, &sizes);
+    // The files are those of all ranks.
+    let whole = division.map(|_| plan_of(Options::default()));
+    let sizes = Sizes::of(&scene, &model, whole.as_ref().unwrap_or(&plan));
+    let time = time(&scene, &model, trial.as_ref());
+    let one = if division.is_some() { " of one rank" } else { "" };
+    let mut rows = vec![
+        ("time", format!("{time}{one}, on {adapter}")),
+        ("files", format!("about {}, and {} in the memory of an adapter", bytes(sizes.total()), bytes(plan.bytes()))),
+        ("accuracy", predictions::accuracy(&arguments.scene.as_argument(), &scene)),
+    ];
+    rows.extend(model.composition(&scene));
+    let verbose = arguments.verbose || arguments.kernels;
+    if verbose {
+        rows.extend(overview(&scene, &model, &plan, trial.as_ref()));
+    }
     let step = trial.as_ref().and_then(|trial| Some(trial.as_ref().ok()?.step));
     rows.extend(division.into_iter().flat_map(|division| ranks::rows(&scene, &model, division, (step, hardware))));
-    rows.extend(predictions::rows(&arguments.scene.as_argument(), (&scene, &model), &plan, hardware));
+    if verbose {
+        rows.extend(predictions::rows(&arguments.scene.as_argument(), (&scene, &model), &plan, hardware));
+    }
     let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
     let mut text = format!("{}\n{}", printable::name(&scene.title), aligned(&rows, "  "));
-    text.push_str(&files::outputs(&scene, &model, &sizes));
+    if verbose {
+        text.push_str(&files::outputs(&scene, &model, &sizes));
+    } else {
+        text.push_str("  -v says what the scene consists of, how long its steps may be, and when files are written\n");
+    }
     if arguments.kernels {
         kernels::kernels(&mut text, &plan)?;
     }
@@ -97,29 +123,38 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     print(&text)?;
     opened?;
     match trial {
-        // A run that becomes unstable is a matter of the scene, not of the adapter.
-        Some(Err(error @ (RunError::Gpu(_) | RunError::Engine(EngineError::GaveUp { .. })))) => Err(error.into()),
+        Some(Err(
+            error @ (RunError::Gpu(_) | RunError::UnstableTrial(_) | RunError::Engine(EngineError::GaveUp { .. })),
+        )) => Err(error.into()),
+        Some(Ok(ExpectedTime { unstable: Some(unstable), .. })) => Err(RunError::UnstableTrial(unstable).into()),
         _ => Ok(()),
     }
 }
 
+/// What a trial of the first steps says, if there was one.
+type Tried<'t> = Option<&'t Result<ExpectedTime, RunError>>;
+
 /// How long the run takes here, in words.
-fn expected_time(scene: &Scene, trial: &Result<ExpectedTime, RunError>) -> String {
-    let expected = match trial {
-        Ok(expected) => expected,
-        Err(error) => return format!("unknown: a trial of the first steps ended with: {error}"),
-    };
-    let basis = if expected.of_scene {
-        format!("{} of its steps were timed", grouped(expected.steps))
-    } else {
-        "from its arithmetic and the speed of a small fluid".to_owned()
-    };
-    format!(
-        "about {} for {} steps, within a factor of {} ({basis})",
-        duration(expected.seconds),
-        grouped(scene.time.steps),
-        expected.factor
-    )
+fn time(scene: &Scene, model: &Model, trial: Tried<'_>) -> String {
+    let what = format!("{} steps of {} particles", grouped(scene.time.steps), grouped(model.particle_count()));
+    match trial {
+        None => format!("{what}; how long they take is not known"),
+        Some(Err(_)) => format!("{what}; how long they take is not known, for the first ones failed"),
+        Some(Ok(ExpectedTime { seconds, drawing, factor, .. })) => format!(
+            "about {} for {what}, and {} for pictures, within a factor of {factor}",
+            duration(*seconds),
+            duration(*drawing)
+        ),
+    }
+}
+
+/// What the time is estimated from.
+fn basis(trial: Tried<'_>) -> Option<String> {
+    Some(match trial? {
+        Err(error) => format!("a trial of the first steps ended with: {error}"),
+        Ok(expected) if expected.of_scene => format!("{} steps of the scene were timed", grouped(expected.steps)),
+        Ok(_) => "from the arithmetic of the scene and the speed of a small fluid".to_owned(),
+    })
 }
 
 /// A time in two units, or with two digits.
@@ -139,36 +174,28 @@ fn two_digits(value: f64) -> String {
 }
 
 /// The rows of the overview: names and what is to be said of them.
-fn overview(
-    scene: &Scene,
-    model: &Model,
-    plan: &Plan,
-    adapter: &str,
-    time: Option<String>,
-    sizes: &Sizes,
-) -> Vec<(&'static str, String)> {
+fn overview(scene: &Scene, model: &Model, plan: &Plan, trial: Tried<'_>) -> Vec<(&'static str, String)> {
     let lengths: Vec<String> = scene.space.lengths.iter().map(ToString::to_string).collect();
     let integrator = match scene.integrator {
         Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
         _ => scene.integrator.name().to_owned(),
     };
-    let memory = match plan.particles {
-        0 => bytes(plan.bytes()),
-        count => format!("{}, {:.1} bytes a particle", bytes(plan.bytes()), plan.bytes() as f64 / count as f64),
+    let memory = match (plan.particles, &plan.part) {
+        (0, _) => bytes(plan.bytes()),
+        (_, Some(_)) => format!("{} of a rank", bytes(plan.bytes())),
+        (count, None) => format!("{}, {:.1} bytes a particle", bytes(plan.bytes()), plan.bytes() as f64 / count as f64),
     };
     let particles = model.particles_in_words();
     let cells =
         plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × ");
     let dimensions = dimensions(lengths.len());
-    let mut rows = vec![("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × ")))];
-    rows.extend(model.composition(scene));
-    rows.push(("memory", memory));
-    rows.extend(time.map(|time| ("time", time)));
-    rows.extend([
-        ("files", format!("about {}", bytes(sizes.total()))),
-        ("adapter", adapter.to_owned()),
-        ("integrator", format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps))),
-    ]);
+    let mut rows =
+        vec![("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × "))), ("memory", memory)];
+    rows.extend(basis(trial).map(|basis| ("estimate", basis)));
+    rows.extend([(
+        "integrator",
+        format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps)),
+    )]);
     rows.extend(model.description(scene, plan, &cells));
     let operations = grouped(plan.operations_per_particle as u64);
     rows.push(("arithmetic", format!("about {operations} operations a particle and step")));

@@ -13,6 +13,17 @@ const MUCH: f64 = 0.2;
 /// A memory of which a step leaves less than this is no memory.
 const FORGOTTEN: f64 = 1e-3;
 
+/// How far off results will be, as far as that is known.
+pub fn accuracy(source: &str, scene: &Scene) -> String {
+    let (step, half) = (three_digits(scene.time.step), three_digits(0.5 * scene.time.step));
+    let unknown = || {
+        format!(
+            "not measured of a scene like this; `mesoscope tradeoff {source} --vary time.step={half},{step}` measures it"
+        )
+    };
+    calibration::expected(scene).map_or_else(unknown, |expected| expected.to_string())
+}
+
 /// Rows of the overview.
 pub fn rows(
     source: &str,
@@ -29,13 +40,6 @@ pub fn rows(
     if !steps.is_empty() && scene.time.steps > 0 {
         rows.push(("measure", format!("`mesoscope stability {source}` runs it with longer and longer steps")));
     }
-    let (step, half) = (three_digits(scene.time.step), three_digits(0.5 * scene.time.step));
-    let unknown = || {
-        format!(
-            "not measured of a scene like this; `mesoscope tradeoff {source} --vary time.step={half},{step}` measures it"
-        )
-    };
-    rows.push(("accuracy", calibration::expected(scene).map_or_else(unknown, |expected| expected.to_string())));
     rows.extend(unneeded(scene, model, plan, hardware).into_iter().map(|what| ("pays for", what)));
     rows
 }

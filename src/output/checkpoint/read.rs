@@ -2,10 +2,10 @@
 
 use super::{Checkpoint, CheckpointError};
 use crate::families::Model;
-use crate::output::{Extent, Id, OutputError};
+use crate::numbers::counted;
+use crate::output::{Extent, Id, OutputError, own_file};
 use crate::scene::{self, FileStart, Scene, SceneError};
 use crate::state_file::checkpoint::{self, BUFFER, Content, ContentError, MAGIC, START, VERSION};
-use crate::state_file::open_regular_file;
 use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
@@ -25,13 +25,14 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
             return Err(ContentError::Malformed(problem).into());
         }
         if count != asked {
-            let problem = format!("it has {count} particles, and its scene {asked}");
+            let problem = format!("it has {}, and its scene {asked}", counted(count, "particle"));
             return Err(ContentError::Malformed(problem).into());
         }
         early = Some(scene);
         Ok(())
     };
-    let content = checkpoint::read(path, check).map_err(|refusal: Refusal| refusal.of(path))?;
+    let file = own_file::open(path).map_err(|error| Refusal::from(ContentError::Io(error)).of(path))?;
+    let content = checkpoint::read(file, check).map_err(|refusal: Refusal| refusal.of(path))?;
     let malformed = |problem: &str| Refusal::from(ContentError::Malformed(problem.to_owned())).of(path);
     let run_id = Id::parse(&content.run_id).ok_or_else(|| malformed("its run id is none"))?;
     let Content { scene: text, state, files, mut sections, .. } = content;
@@ -54,7 +55,7 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
 /// The id of the run that wrote a checkpoint, of which only the beginning is read; none where it cannot be.
 pub(in crate::output) fn id_of(path: &Path) -> Option<Id> {
     let mut beginning = Vec::new();
-    open_regular_file(path).ok()?.take(BUFFER as u64).read_to_end(&mut beginning).ok()?;
+    own_file::open(path).ok()?.take(BUFFER as u64).read_to_end(&mut beginning).ok()?;
     let payload = beginning.strip_prefix(&MAGIC)?.strip_prefix(&VERSION.to_le_bytes())?.get(8..)?;
     let (length, rest) = payload.split_first_chunk()?;
     let text = rest.get(..usize::try_from(u64::from_le_bytes(*length)).ok()?)?;

@@ -15,10 +15,9 @@
 
 use super::{Description, Format, Frames};
 use crate::output::records::RecordFile;
-use crate::output::{Extent, Id, OutputError, files, id};
+use crate::output::{Extent, Id, OutputError, files, id, own_file};
 use crate::state::State;
 use crate::state_file::{FROZEN, elements};
-use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
 
@@ -67,7 +66,7 @@ impl Frames for ExtendedXyz {
 /// The id in the comment line of the first frame.
 fn id_of(path: &Path) -> Option<Id> {
     // A line that never ends is no comment of ours.
-    let mut lines = BufReader::new(File::open(path).ok()?.take(1 << 12)).lines();
+    let mut lines = BufReader::new(own_file::open(path).ok()?.take(1 << 12)).lines();
     let comment = lines.nth(1)?.ok()?;
     let key = |word: &str| word.strip_prefix(id::RUN_KEY)?.strip_prefix('=').and_then(Id::parse);
     comment.split(' ').find_map(key)

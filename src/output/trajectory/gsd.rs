@@ -11,10 +11,9 @@ use super::{Description, Format, Frames};
 use crate::output::extent::Checksum;
 use crate::output::temporary::Temporary;
 use crate::output::watch::Watch;
-use crate::output::{Extent, Id, OutputError, files};
+use crate::output::{Extent, Id, OutputError, files, own_file};
 use crate::state::State;
 use crate::state_file::{Chunk, Cursor, FROZEN_IN_GSD, GsdError, GsdReader, GsdWriter, Number};
-use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -164,7 +163,7 @@ impl Frames for GsdTrajectory {
 
 /// The id in the first frame.
 fn id_of(path: &Path) -> Option<Id> {
-    let text = GsdReader::new(File::open(path).ok()?).ok()?.array::<u8, 1>(0, RUN).ok()??;
+    let text = GsdReader::new(own_file::open(path).ok()?).ok()?.array::<u8, 1>(0, RUN).ok()??;
     Id::parse(std::str::from_utf8(text.as_flattened()).ok()?)
 }
 
@@ -405,7 +404,7 @@ fn copy_frames(path: &Path, mut old: GsdReader, frames: u64) -> Result<GsdReader
 }
 
 fn open(path: &Path) -> Result<GsdReader, OutputError> {
-    let file = File::options().read(true).write(true).open(path).map_err(OutputError::io("continue", path))?;
+    let file = own_file::open_to_continue(path).map_err(OutputError::io("continue", path))?;
     GsdReader::new(file).map_err(|error| refused("continue", path, error))
 }
 

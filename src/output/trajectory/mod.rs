@@ -3,7 +3,7 @@
 mod extended_xyz;
 mod gsd;
 
-use super::{Extent, Id, OutputError, files};
+use super::{Extent, Id, OutputError, files, own_file};
 use crate::families::{Angles, Bonds, Model, ShearedBox, Species};
 use crate::scene::TrajectoryFormat;
 use crate::state::{State, Units};
@@ -217,6 +217,7 @@ impl TrajectoryWriter {
         written: Extent,
     ) -> Result<Self, OutputError> {
         let format = format_of(format);
+        own_file::check_to_continue(path).map_err(OutputError::io("continue", path))?;
         run.check(path, (format.id_of)(path), files::CHECKPOINT)?;
         Ok(Self { description: Description::new(model, run), file: (format.resume)(path, written)? })
     }

@@ -4,7 +4,7 @@ use crate::families::{Angles, Bonds, Family, Model};
 use crate::scene::{FileStart, Scene, parse_kept};
 use crate::state::{State, StateArray};
 use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
-use crate::state_file::{Links, Mistake, ParticleFile, frozen_layers, open_regular_file};
+use crate::state_file::{Fits, Links, Mistake, ParticleFile, frozen_layers, open_regular_file};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,17 +20,36 @@ pub(super) fn of(path: &Path) -> Option<PathBuf> {
 }
 
 /// The particles of a checkpoint, in the order and with the positions and velocities that they have there.
-pub(super) fn particles(path: &Path) -> Result<ParticleFile, Mistake> {
+pub(super) fn particles(path: &Path, fits: &Fits<'_>) -> Result<ParticleFile, Mistake> {
     if !path.exists() {
         let found = format!("the directory has no `{FILE}`: no run has saved its state there");
         return Err(Mistake::new("", found, "the directory of a run with a checkpoint, or a file"));
     }
-    let content = checkpoint::read(path, |_, _, _| Ok::<(), ContentError>(())).map_err(|error| refusal(&error))?;
+    let content = open_regular_file(path).map_err(ContentError::Io);
+    let content = content.map_err(|error| refusal(&error))?;
+    // Its arrays are in the file, or it is refused: their number is no news to anyone but the adapter.
+    let content = checkpoint::read(content, |_, _, count| fits(count).map_err(Refusal::Mistake));
+    let content = content.map_err(|refusal| match refusal {
+        Refusal::Content(error) => self::refusal(&error),
+        Refusal::Mistake(mistake) => mistake,
+    })?;
     let start = content.sections.iter().find(|(name, _)| name == START);
     let start = start.and_then(|(_, bytes)| FileStart::from_bytes(bytes)).map(Arc::new);
     let scene = parse_kept("its scene", &content.scene, &[], start)
         .map_err(|error| damaged(&format!("its scene is refused ({error})")))?;
     of_state(&scene, &content.state)
+}
+
+/// Why a checkpoint is refused.
+enum Refusal {
+    Content(ContentError),
+    Mistake(Mistake),
+}
+
+impl From<ContentError> for Refusal {
+    fn from(error: ContentError) -> Self {
+        Self::Content(error)
+    }
 }
 
 fn refusal(error: &ContentError) -> Mistake {

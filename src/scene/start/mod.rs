@@ -4,6 +4,7 @@
 mod checkpoint;
 mod molecules;
 mod places;
+mod weight;
 
 use super::{
     FileStart, FileType, Interaction, KeptStart, OutsidePositions, Placement, Problem, Problems, Scene, SceneError,
@@ -11,23 +12,30 @@ use super::{
 };
 use crate::document::number_of_copies;
 use crate::families;
+use crate::host_memory;
+use crate::numbers::counted;
 use crate::state::MOST_PARTICLES;
 use crate::state_file::{self, AtomStyle, Links, Mistake, ParticleFile, ROUNDING, StateFileError};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
+use weight::Weighing;
+
+pub use weight::Fits;
 
 /// Species are numbered by eight bits.
 const MOST_SPECIES: usize = 256;
 
 /// Reads the file of a scene's state, if it has one, which lies beside a scene of that name or where `files` says; `masses` says which
 /// groups give theirs. Completes the scene by the box, the numbers of particles, masses and the checksum. Notices say what is not used.
+/// `fits` decides of the number of particles before they are read or placed.
 ///
 /// # Errors
-/// [`SceneError::StateChanged`] if the file is not what it was.
+/// [`SceneError::StateChanged`] if the file is not what it was, and what `fits` returns.
 pub(super) fn read(
     scene: &mut Scene,
     masses: &[bool],
     (name, files): (&str, &StateFiles),
+    fits: Option<&Fits<'_>>,
     notices: &mut Vec<Warning>,
 ) -> Result<Problems, SceneError> {
     let mut problems = Problems::default();
@@ -38,9 +46,14 @@ pub(super) fn read(
     if !problems.is_empty() {
         return Ok(problems);
     }
-    let Some(state) = scene.state.clone() else { return Ok(of_molecules(scene, masses, problems, notices)) };
+    let Some(state) = scene.state.clone() else { return of_molecules(scene, masses, fits, problems, notices) };
     let path = files.path(name, &state.file);
-    let file = match particles(&path, &state) {
+    let weighing = Weighing::of(scene, fits);
+    let read = particles(&path, &state, &|count| weighing.file(count));
+    if let Some(refusal) = weighing.refusal() {
+        return Err(refusal);
+    }
+    let file = match read {
         Ok(file) => file,
         Err(error) if files.known(&state).is_some() => {
             let found = error.mistakes.first().map(|mistake| mistake.found.clone()).unwrap_or_default();
@@ -59,8 +72,23 @@ pub(super) fn read(
 }
 
 /// Places the molecules of a scene and completes it, as by a file.
-fn of_molecules(scene: &mut Scene, masses: &[bool], mut problems: Problems, notices: &mut Vec<Warning>) -> Problems {
-    let Some(file) = molecules::particles(scene, &mut problems) else { return problems };
+fn of_molecules(
+    scene: &mut Scene,
+    masses: &[bool],
+    fits: Option<&Fits<'_>>,
+    mut problems: Problems,
+    notices: &mut Vec<Warning>,
+) -> Result<Problems, SceneError> {
+    molecules::check(scene, &mut problems);
+    if problems.is_empty()
+        && let Err(mistake) = Weighing::of(scene, fits).molecules(host_memory::free())?
+    {
+        problems.push(Problem::new(MOLECULES, mistake.found, mistake.accepted));
+    }
+    if !problems.is_empty() {
+        return Ok(problems);
+    }
+    let Some(file) = molecules::particles(scene, &mut problems) else { return Ok(problems) };
     let state = StateFile {
         file: MOLECULES.to_owned(),
         frame: -1,
@@ -73,7 +101,7 @@ fn of_molecules(scene: &mut Scene, masses: &[bool], mut problems: Problems, noti
     let mut reader = Reader { state: &state, file: &file, problems, notices: Vec::new() };
     reader.adopt(scene, masses);
     notices.extend(reader.notices.into_iter().map(|message| Warning { path: MOLECULES.to_owned(), message }));
-    reader.problems
+    Ok(reader.problems)
 }
 
 /// Where the file of a scene of that name is.
@@ -82,15 +110,15 @@ pub(super) fn path(name: &str, file: &str) -> PathBuf {
 }
 
 /// The particles of a file or of a run.
-fn particles(path: &Path, state: &StateFile) -> Result<ParticleFile, StateFileError> {
+fn particles(path: &Path, state: &StateFile, fits: &state_file::Fits<'_>) -> Result<ParticleFile, StateFileError> {
     let style = state.atom_style.as_deref();
     match checkpoint::of(path) {
         Some(checkpoint) => {
             let all = state_file::only_frame(state.frame).and_then(|()| state_file::no_atom_style(style));
-            let all = all.and_then(|()| checkpoint::particles(&checkpoint));
+            let all = all.and_then(|()| checkpoint::particles(&checkpoint, fits));
             all.map_err(|mistake| StateFileError { path: path.to_path_buf(), mistakes: vec![mistake] })
         }
-        None => state_file::read(path, state.frame, style),
+        None => state_file::read_fitting(path, state.frame, style, fits),
     }
 }
 
@@ -173,11 +201,6 @@ fn shared(start: FileStart) -> Arc<FileStart> {
     start
 }
 
-/// A number of particles.
-fn particles_in_words(count: u64) -> String {
-    format!("{count} particle{}", if count == 1 { "" } else { "s" })
-}
-
 /// The first group of a species.
 fn group_of(scene: &Scene, species: &str) -> usize {
     scene.particles.iter().position(|group| group.species == species).unwrap_or(0)
@@ -214,7 +237,7 @@ impl Reader<'_> {
         let copies = number_of_copies(self.state.copies());
         let total = copies.saturating_mul(self.file.len() as u64);
         if total > MOST_PARTICLES {
-            let found = format!("found {total} particles in {copies} copies of {}", self.file.len());
+            let found = format!("found {} in {copies} copies of {}", counted(total, "particle"), self.file.len());
             self.push(
                 "state.replicate",
                 found,
@@ -339,7 +362,7 @@ impl Reader<'_> {
         for kind in (0..counts.len()).filter(|kind| counts[*kind] > 0 && found.get(*kind).is_none_or(Option::is_none)) {
             let (name, count) = (file.species.get(kind).map_or("", String::as_str), counts[kind]);
             let what = if file.labelled { "the species" } else { "type" };
-            let found = format!("`{}`: found {} of {what} `{name}`", self.state.file, particles_in_words(count));
+            let found = format!("`{}`: found {} of {what} `{name}`", self.state.file, counted(count, "particle"));
             let known = names.names().iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
             let accepted = if file.labelled {
                 format!("the species of some particle group: {known}; or a group with that `type`")
@@ -446,7 +469,7 @@ impl Reader<'_> {
             let first = groups[0];
             if groups.len() > 1 && !groups.iter().all(given) {
                 let accepted =
-                    format!("a `count` in each of the groups of `{name}`, {} in all", particles_in_words(count));
+                    format!("a `count` in each of the groups of `{name}`, {} in all", counted(count, "particle"));
                 self.push(
                     format!("particles[{first}]"),
                     format!("found `{name}` in {} groups", groups.len()),
@@ -456,7 +479,7 @@ impl Reader<'_> {
                 let key = if scene.particles[first].count.is_some() { "count" } else { "number_density" };
                 let accepted =
                     format!("{count}, the number of particles of `{name}` in `{}`, or no `{key}`", self.state.file);
-                self.push(format!("particles[{first}].{key}"), format!("found {}", particles_in_words(sum)), accepted);
+                self.push(format!("particles[{first}].{key}"), format!("found {}", counted(sum, "particle")), accepted);
             }
             for (group, found) in groups.iter().zip(found) {
                 let group = &mut scene.particles[*group];

@@ -30,11 +30,11 @@ const ROUNDS: u32 = 2000;
 /// Part of the spacing by which a bond of a ring may be longer or shorter.
 const SLACK: f64 = 1e-3;
 
-/// All particles of the molecules of a scene; none where they are not right.
-pub(super) fn particles(scene: &Scene, problems: &mut Problems) -> Option<ParticleFile> {
+/// Checks the molecules of a scene, by arithmetic.
+pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     let names = SpeciesNames::of(scene);
     for (index, molecule) in scene.molecules.iter().enumerate() {
-        check(scene, &names, molecule, &format!("molecules[{index}]"), problems);
+        check_kind(scene, &names, molecule, &format!("molecules[{index}]"), problems);
     }
     let volume = scene.space.volume();
     let beads = |molecule: &Molecule| molecule.resolved_count(volume).saturating_mul(molecule.beads.len() as u64);
@@ -46,9 +46,11 @@ pub(super) fn particles(scene: &Scene, problems: &mut Problems) -> Option<Partic
         );
         problems.push(Problem::new("molecules", found, accepted));
     }
-    if !problems.is_empty() {
-        return None;
-    }
+}
+
+/// All particles of molecules that are right by themselves; none where some find no places.
+pub(super) fn particles(scene: &Scene, problems: &mut Problems) -> Option<ParticleFile> {
+    let names = SpeciesNames::of(scene);
     let mut all = ParticleFile {
         species: names.names().iter().map(|name| (*name).to_owned()).collect(),
         labelled: true,
@@ -77,7 +79,7 @@ fn mass(scene: &Scene, name: &str) -> Option<f64> {
 }
 
 /// Checks molecules of one kind by themselves.
-fn check(scene: &Scene, names: &SpeciesNames<'_>, molecule: &Molecule, path: &str, problems: &mut Problems) {
+fn check_kind(scene: &Scene, names: &SpeciesNames<'_>, molecule: &Molecule, path: &str, problems: &mut Problems) {
     for (bead, name) in molecule.beads.iter().enumerate() {
         names.check(name, &format!("{path}.beads[{bead}]"), problems);
     }
