@@ -35,7 +35,7 @@ const READ: [(&str, Section); 8] = [
     ("Angle Type Labels", Section::AngleLabels),
 ];
 
-const SKIPPED: [&str; 22] = [
+const SKIPPED: [&str; 23] = [
     "Dihedrals",
     "Impropers",
     "Ellipsoids",
@@ -58,6 +58,7 @@ const SKIPPED: [&str; 22] = [
     "AngleAngleTorsion Coeffs",
     "BondBond13 Coeffs",
     "AngleAngle Coeffs",
+    "CMAP",
 ];
 
 /// The most types that a file may announce.
