@@ -103,6 +103,22 @@ pub fn seed_key(seed: u64, stream: u32) -> [u32; 2] {
     threefry2x32([stream, 0], [seed as u32, (seed >> 32) as u32])
 }
 
+/// The seed of a run with that seed whose particles were read somewhere, by the CRC-32 of what was read: noise must not be what has moved
+/// them before.
+///
+/// ```
+/// use mesoscope::noise::seed_from_state;
+///
+/// assert_ne!(seed_from_state(1, 0xcafe), seed_from_state(1, 0xcaff));
+/// assert_ne!(seed_from_state(1, 0xcafe), seed_from_state(2, 0xcafe));
+/// ```
+#[must_use]
+pub fn seed_from_state(seed: u64, checksum: u32) -> u64 {
+    // Of the words of this key `seed_key` has those whose second counter is zero.
+    let [low, high] = threefry2x32([checksum, 1], [seed as u32, (seed >> 32) as u32]);
+    u64::from(high) << 32 | u64::from(low)
+}
+
 /// The key of one stream at one step, from which all words of that step are drawn.
 ///
 /// ```

@@ -168,6 +168,79 @@ pub struct State {
     pub images: Vec<[i32; 3]>,
 }
 
+/// Particles as a report of a step finds them, ordered by id: what is measured, shown and written into trajectories. A run goes on from a
+/// [`State`], whose momenta are half a step behind, and with what baths remember; none goes on from a report.
+///
+/// ```
+/// use mesoscope::state::{Reported, State};
+///
+/// // At step 0, where a state has the momenta of its report, they are the same.
+/// let state = State { positions: vec![[1, 2, 3]], momenta: vec![[4, 5, 6]], species: vec![0], ..State::default() };
+/// let reported = Reported::from(state);
+/// assert_eq!((reported.len(), reported.total_momentum()), (1, [4, 5, 6]));
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Reported {
+    /// The step.
+    pub step: u64,
+    /// Positions as fractions of the box.
+    pub positions: Vec<[u32; 3]>,
+    /// Momenta at the full step, in units of [`Units::momentum`].
+    pub momenta: Vec<[i32; 3]>,
+    /// Index of each particle's species.
+    pub species: Vec<u32>,
+    /// Masses, as [`State::masses`].
+    pub masses: Vec<u32>,
+    /// Energies, as [`State::energies`].
+    pub energies: Vec<i32>,
+    /// How often each particle has gone round the box, as [`State::images`].
+    pub images: Vec<[i32; 3]>,
+}
+
+impl From<State> for Reported {
+    fn from(state: State) -> Self {
+        let State { step, positions, momenta, species, masses, energies, images, .. } = state;
+        Self { step, positions, momenta, species, masses, energies, images }
+    }
+}
+
+impl Reported {
+    /// How often a particle has gone round the box along every axis, as far as that is known.
+    #[must_use]
+    pub fn image(&self, particle: usize) -> [i32; 3] {
+        self.images.get(particle).copied().unwrap_or_default()
+    }
+
+    /// Number of particles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there are no particles.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+
+    /// Total momentum in integer units.
+    #[must_use]
+    pub fn total_momentum(&self) -> [i64; 3] {
+        total(&self.momenta)
+    }
+}
+
+/// The sum of momenta.
+fn total(momenta: &[[i32; 3]]) -> [i64; 3] {
+    let mut total = [0; 3];
+    for momentum in momenta {
+        for axis in 0..3 {
+            total[axis] += i64::from(momentum[axis]);
+        }
+    }
+    total
+}
+
 /// An array that some states have and others not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StateArray {
@@ -465,12 +538,6 @@ impl State {
         StateArray::ALL.into_iter().filter(|array| array.is_of_particles()).find(wrong)
     }
 
-    /// How often a particle has gone round the box along every axis, as far as that is known.
-    #[must_use]
-    pub fn image(&self, particle: usize) -> [i32; 3] {
-        self.images.get(particle).copied().unwrap_or_default()
-    }
-
     /// Number of particles.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -510,12 +577,6 @@ impl State {
     /// ```
     #[must_use]
     pub fn total_momentum(&self) -> [i64; 3] {
-        let mut total = [0; 3];
-        for momentum in &self.momenta {
-            for axis in 0..3 {
-                total[axis] += i64::from(momentum[axis]);
-            }
-        }
-        total
+        total(&self.momenta)
     }
 }

@@ -1,6 +1,7 @@
 //! What a scene keeps of the file that its particles start from, or of the molecules that they form.
 
 use super::{Scene, number_of_copies};
+use crate::state::State;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -22,6 +23,8 @@ pub struct FileStart {
     pub angles: Vec<Arc<FileLinks<3>>>,
     /// How dense it is around the particles, where there is a pair force.
     pub surroundings: Option<Surroundings>,
+    /// How the noise begins; none without a file, and where a run of an earlier version continues, whose noise is that of the scene's seed.
+    pub origin: Option<Origin>,
     /// Places and velocities; none where a run continues, whose checkpoint has them.
     pub places: Option<FilePlaces>,
 }
@@ -43,6 +46,29 @@ impl Surroundings {
     }
 }
 
+/// How the noise of a run begins whose particles are from a file.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Origin {
+    /// With a seed of its own, made of that of the scene and of what was read.
+    Anew,
+    /// Where that of an earlier run ended, with which it goes on.
+    Earlier(EarlierRun),
+}
+
+/// What a run has of an earlier one with the same forces, baths and time step: it takes the steps that the other would have taken
+/// next, to the last bit.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EarlierRun {
+    /// Seed of its noise.
+    pub seed: u64,
+    /// Steps before the first: noise and what depends on time are counted on from there.
+    pub steps: u64,
+    /// Value of one unit of integer momentum.
+    pub momentum_unit: f64,
+    /// The largest velocity along an axis that is expected of a particle.
+    pub expected_velocity: f64,
+}
+
 /// Where the particles of a file are in its box, and how fast.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FilePlaces {
@@ -54,6 +80,8 @@ pub struct FilePlaces {
     pub images: Vec<[i32; 3]>,
     /// The points that particles are tied to, as fractions of the same box; empty where the file does not say.
     pub tethers: Vec<[u32; 3]>,
+    /// The state of a run that goes on, in place of all these.
+    pub state: Option<State>,
 }
 
 /// Bonds or angles of one type in a file.
@@ -108,6 +136,8 @@ struct Description {
     angles: Vec<DescribedLinks>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     surroundings: Option<Surroundings>,
+    #[serde(default)]
+    origin: Option<Origin>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -177,6 +207,7 @@ impl FileStart {
             bonds: described(&self.bonds),
             angles: described(&self.angles),
             surroundings: self.surroundings.clone(),
+            origin: self.origin,
         };
         // Numbers and text, which can always be written.
         let text = serde_json::to_vec(&description).unwrap_or_default();
@@ -219,7 +250,7 @@ impl FileStart {
         }
         let mut bytes = bytes;
         let length = u64::from_le_bytes(take(&mut bytes, 8)?.try_into().ok()?);
-        let Description { copies, particles, fastest, bonds, angles, surroundings } =
+        let Description { copies, particles, fastest, bonds, angles, surroundings, origin } =
             serde_json::from_slice(take(&mut bytes, length)?).ok()?;
         let species = take(&mut bytes, particles.into())?.to_vec();
         let bonds = links(&mut bytes, bonds, copies, particles)?;
@@ -231,6 +262,7 @@ impl FileStart {
             bonds,
             angles,
             surroundings,
+            origin,
             places: None,
         })
     }
@@ -296,6 +328,12 @@ mod tests {
                 angles: vec![links(vec![[0, 1, 4]], vec![[[0; 3], [1; 3], [-1; 3]]; shifts(1)], copies)],
                 surroundings: (copies == [1; 3])
                     .then(|| Surroundings { densest: vec![vec![0.1; 3]; 3], mean: 1.0 / 3.0 }),
+                origin: Some(Origin::Earlier(EarlierRun {
+                    seed: u64::MAX,
+                    steps: 7,
+                    momentum_unit: 1e-8 / 3.0,
+                    expected_velocity: 0.1,
+                })),
                 places: None,
             };
             let bytes = start.to_bytes();

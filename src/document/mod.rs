@@ -28,7 +28,7 @@ pub use crate::noise::Generator;
 pub use bath::{Bath, BathScheme};
 pub(crate) use error::did_you_mean;
 pub use error::{Problem, SceneError, Warning};
-pub use file_start::{FileLinks, FilePlaces, FileStart, KeptStart, Surroundings};
+pub use file_start::{EarlierRun, FileLinks, FilePlaces, FileStart, KeptStart, Origin, Surroundings};
 pub use files::{Checkpoint, Energies, Trajectory, TrajectoryFormat};
 pub use groups::{Chain, FileType, ParticleGroup, Placement, Velocities, WallSide};
 pub use integrator::{Integrator, PairRelaxation};

@@ -1,9 +1,10 @@
 //! The scene as a whole: box, clock, noise.
 
 use super::{
-    FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, Output, ParticleGroup, Shear,
-    StateFile, StateVelocities, Walls,
+    EarlierRun, FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, Origin, Output,
+    ParticleGroup, Shear, StateFile, StateVelocities, Walls,
 };
+use crate::noise::seed_from_state;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -122,6 +123,26 @@ impl Scene {
                 let index = super::SpeciesNames::of(self).place(species)?;
                 self.start()?.fastest.get(index).copied()
             }
+        }
+    }
+
+    /// The earlier run that it goes on with, to the last bit, if it does.
+    #[must_use]
+    pub fn earlier_run(&self) -> Option<EarlierRun> {
+        match self.start()?.origin? {
+            Origin::Anew => None,
+            Origin::Earlier(run) => Some(run),
+        }
+    }
+
+    /// The seed of the noise: that of the scene, unless particles are from a file.
+    #[must_use]
+    pub fn noise_seed(&self) -> u64 {
+        let checksum = || u32::from_str_radix(self.state.as_ref()?.checksum.as_ref()?, 16).ok();
+        match self.start().and_then(|start| start.origin) {
+            None => self.seed,
+            Some(Origin::Anew) => checksum().map_or(self.seed, |checksum| seed_from_state(self.seed, checksum)),
+            Some(Origin::Earlier(run)) => run.seed,
         }
     }
 

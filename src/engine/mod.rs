@@ -27,7 +27,7 @@ use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
 use crate::plan::{Failure, FailureKind, Hardware, Misfit, PARTICLE_WORDS, Paths, Plan, TIDYING};
 use crate::shaders::Array;
-use crate::state::{State, crossings};
+use crate::state::{Reported, State, crossings};
 use exchange::Exchange;
 use pipeline::Stage;
 use readback::Readback;
@@ -360,7 +360,8 @@ impl<'a> Engine<'a> {
 
     /// Begins at a step, with the state in place.
     fn begin(&mut self, first: u64) {
-        let step = [first as u32, (first >> 32) as u32];
+        let clock = self.plan.steps_before.wrapping_add(first);
+        let step = [clock as u32, (clock >> 32) as u32];
         let control = Control {
             step,
             next: step,
@@ -446,7 +447,7 @@ impl<'a> Engine<'a> {
     /// [`EngineError`] if the device failed or the run became unstable.
     pub fn finish(&mut self) -> Result<Vec<Sample>, EngineError> {
         let mut recording = Recording::new(self.gpu, "samples at the end");
-        if !matches!(self.phase, Phase::Sorted { reported: true }) {
+        if self.plan.samplers.iter().any(|sampler| sampler.due(self.step) && !sampler.gathered) {
             self.record_sample(&mut recording)?;
         }
         self.submit(recording.finish())?;
@@ -459,11 +460,11 @@ impl<'a> Engine<'a> {
         std::mem::take(&mut self.collected)
     }
 
-    /// The state to continue from, ordered by id. Only directly after [`Self::advance`] or [`Self::upload`], before the samples of the
-    /// current step are taken.
+    /// The state to continue from, ordered by id. Only before a sample or a report of the current step is taken, which move the particles
+    /// on: after [`Self::advance`], [`Self::upload`], and [`Self::finish`] where no sample was due.
     ///
     /// # Errors
-    /// [`EngineError`] if the device failed, or if the step has been reported already.
+    /// [`EngineError`] if the device failed, or if the step has been sampled or reported already.
     pub fn state(&mut self) -> Result<State, EngineError> {
         self.check_advanced()?;
         self.download()
@@ -506,7 +507,11 @@ impl<'a> Engine<'a> {
         if self.phase == Phase::Advanced {
             return Ok(());
         }
-        Err(EngineError::State { reason: "the current step has been reported already".to_owned() })
+        let reason = format!(
+            "step {} has been sampled or reported already, which moves its particles on: read the state before, or advance",
+            self.step
+        );
+        Err(EngineError::State { reason })
     }
 
     fn part(&self) -> Result<&Exchange<'a>, EngineError> {
@@ -520,22 +525,47 @@ impl<'a> Engine<'a> {
         self.exchange.as_ref().map(|exchange| exchange.traffic).unwrap_or_default()
     }
 
-    /// The particles at the current step, ordered by id, with full-step momenta: what a snapshot shows.
+    /// The particles at the report of the current step, ordered by id: what a snapshot shows. In a split step they are half a drift further
+    /// than the forces, with the momenta of that drift.
     ///
     /// # Errors
     /// [`EngineError`] if the device failed or the run became unstable.
-    pub fn reported(&mut self) -> Result<State, EngineError> {
+    pub fn reported(&mut self) -> Result<Reported, EngineError> {
         self.report_now()?;
-        let Some((buffer, layout)) = self.plan.reported.clone() else {
-            let mut state = self.download()?;
-            state.predicted.clear();
-            return Ok(state);
-        };
+        let Some((buffer, layout)) = self.plan.reported.clone() else { return Ok(self.download()?.into()) };
         let words = self.words(buffer)?;
         let state = layout.unpack(self.step, &[&words], self.plan.particles as usize);
         let mut state = state.map_err(|reason| EngineError::State { reason })?;
         self.complete_images(&mut state)?;
-        Ok(state)
+        Ok(state.into())
+    }
+
+    /// The particles where the forces of the current step are evaluated, with their momenta there, as the table of energies sees them: what
+    /// a run that starts from them takes for its step 0. Only where [`Self::state`] may be read, and of a scene with a trajectory.
+    ///
+    /// # Errors
+    /// As [`Self::state`] and [`Self::reported`].
+    pub fn frame(&mut self) -> Result<Reported, EngineError> {
+        if !self.plan.has_buffer(Array::ReportedMomenta) {
+            return self.reported();
+        }
+        let before = self.state()?;
+        self.report_now()?;
+        let words = self.words(Array::ReportedMomenta)?;
+        let momenta = words.chunks_exact(4).map(|word| [word[0], word[1], word[2]].map(u32::cast_signed)).collect();
+        Ok(Reported { momenta, ..before.into() })
+    }
+
+    /// The momenta of [`Self::frame`] that one of several ranks knows, two words an axis, and zero for the particles of others.
+    ///
+    /// # Errors
+    /// As [`Self::reported`], or if the plan is of no part.
+    pub fn own_momenta(&mut self) -> Result<Vec<Vec<u32>>, EngineError> {
+        self.part()?;
+        self.report_now()?;
+        let words = self.words(Array::ReportedMomenta)?;
+        let wide = |word: &u32| [*word, if word.cast_signed() < 0 { u32::MAX } else { 0 }];
+        Ok(vec![Vec::new(), words.chunks_exact(4).flat_map(|word| &word[..3]).flat_map(wide).collect()])
     }
 
     /// The same of one of several ranks: its own particles, as they are stored, and its part of what is summed over all.
@@ -705,6 +735,12 @@ impl<'a> Engine<'a> {
     fn record_report(&mut self, recording: &mut Recording<'_>) -> Result<(), EngineError> {
         if self.phase == (Phase::Sorted { reported: false }) {
             self.look_ahead(self.step, true);
+            if self.exchange.is_some()
+                && let Some(momenta) = self.buffers.get(&Array::ReportedMomenta)
+            {
+                // What other ranks report now is theirs alone.
+                recording.clear(momenta);
+            }
             record(&self.plan.report, &self.stages, &mut self.exchange, self.step, recording)?;
             self.phase = Phase::Sorted { reported: true };
         }

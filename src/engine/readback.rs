@@ -76,7 +76,8 @@ impl Readback {
             let width = row_bytes(plan, sampler) as usize;
             for row in bytes[offset as usize..].chunks_exact(width).take(rows as usize) {
                 let words: Vec<i64> = row.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();
-                samples.push(Sample { sampler, step: words[0] as u64, sums: words[1..].to_vec() });
+                let step = (words[0] as u64).wrapping_sub(plan.steps_before);
+                samples.push(Sample { sampler, step, sums: words[1..].to_vec() });
             }
         }
         // By step and not by sampler, so that the order does not depend on how steps were batched.

@@ -26,6 +26,12 @@ impl<'a> Recording<'a> {
         }
     }
 
+    /// Records that a buffer is filled with zeros.
+    pub(super) fn clear(&mut self, buffer: &wgpu::Buffer) {
+        self.pass = None;
+        self.encoder.clear_buffer(buffer, 0, None);
+    }
+
     /// Submits the kernels that have not been submitted, if there are any.
     pub(super) fn submit(&mut self) {
         if self.pass.is_some() {

@@ -1,12 +1,12 @@
 //! The particles of a picture: all, or of very many a sample that their numbers alone decide, so that any number of ranks shows the same.
 
-use crate::state::State;
+use crate::state::Reported;
 
 /// Particles as a report leaves them, in order of their numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shown {
     /// Their positions, momenta and species.
-    pub state: State,
+    pub state: Reported,
     /// Their numbers, if they are a sample.
     pub numbers: Option<Vec<u32>>,
 }
@@ -64,11 +64,11 @@ impl Shown {
     ///
     /// ```
     /// use mesoscope::engine::Shown;
-    /// use mesoscope::state::State;
+    /// use mesoscope::state::Reported;
     ///
     /// let count = 10_000;
     /// let positions = (0..count).map(|number| [number, 0, 0]).collect();
-    /// let state = State { positions, ..State::default() };
+    /// let state = Reported { positions, ..Reported::default() };
     /// assert_eq!(Shown::of(state.clone(), 10_000).numbers, None);
     /// let shown = Shown::of(state, 1_000);
     /// assert!(shown.state.len().abs_diff(1_000) < 150);
@@ -76,22 +76,22 @@ impl Shown {
     /// assert_eq!(shown.numbers, Some(positions.collect()));
     /// ```
     #[must_use]
-    pub fn of(state: State, most: u64) -> Self {
+    pub fn of(state: Reported, most: u64) -> Self {
         let Some(sampling) = Sampling::new(state.len() as u64, most) else { return Self::all(state) };
         let numbers = sampling.numbers(state.len() as u64);
-        let sample = State {
+        let sample = Reported {
             step: state.step,
             positions: some_of(&state.positions, &numbers),
             momenta: some_of(&state.momenta, &numbers),
             species: some_of(&state.species, &numbers),
-            ..State::default()
+            ..Reported::default()
         };
         Self { state: sample, numbers: Some(numbers) }
     }
 
     /// All particles of a state.
     #[must_use]
-    pub fn all(state: State) -> Self {
+    pub fn all(state: Reported) -> Self {
         Self { state, numbers: None }
     }
 

@@ -3,7 +3,7 @@
 use super::{Engine, EngineError, Sample, Shown, Traffic};
 use crate::plan::Plan;
 use crate::shaders::Array;
-use crate::state::State;
+use crate::state::{Reported, State};
 
 /// One of several ranks that share a state.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -29,7 +29,8 @@ pub trait Stepper {
     fn finish(&mut self) -> Result<Vec<Sample>, EngineError>;
     fn take_samples(&mut self) -> Vec<Sample>;
     fn state(&mut self) -> Result<State, EngineError>;
-    fn reported(&mut self) -> Result<State, EngineError>;
+    fn reported(&mut self) -> Result<Reported, EngineError>;
+    fn frame(&mut self) -> Result<Reported, EngineError>;
 
     /// The particles of a report that a picture shows: about so many, if there are more.
     fn shown(&mut self, most: u64) -> Result<Shown, EngineError> {
@@ -86,8 +87,12 @@ impl Stepper for Engine<'_> {
         self.state()
     }
 
-    fn reported(&mut self) -> Result<State, EngineError> {
+    fn reported(&mut self) -> Result<Reported, EngineError> {
         self.reported()
+    }
+
+    fn frame(&mut self) -> Result<Reported, EngineError> {
+        self.frame()
     }
 
     fn limited_exchanges(&mut self) -> Result<u64, EngineError> {

@@ -49,7 +49,7 @@ pub use registry::Family;
 pub(crate) use registry::{check_interactions, complete};
 pub(crate) use shallow_water::model::{LARGEST_DEPTH, chebyshev_iterations};
 pub use shallow_water::model::{ShallowWater, Tracers};
-pub use start::initial_state;
+pub use start::{initial_state, start_in_words};
 pub(crate) use tally::{Counted, Tally};
 pub use voronoi::model::Voronoi;
 pub use warnings::warnings;
@@ -57,7 +57,7 @@ pub use warnings::warnings;
 use crate::document::{FieldQuantity, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
 use crate::numbers::grouped;
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
-use crate::state::State;
+use crate::state::{Reported, State};
 use crate::tessellation::Tessellation;
 use pictures::{CellValues, EnergyChart, MeshPictures};
 use std::ops::Range;
@@ -250,12 +250,12 @@ pub(crate) trait Physics {
     }
 
     /// Values of cells for a colour, if that is not the one of the species; of [`PictureKind::Cells`] only.
-    fn cell_values(&self, _: SnapshotColor, _: &State, _: &Tessellation, _: &Model) -> Option<CellValues> {
+    fn cell_values(&self, _: SnapshotColor, _: &Reported, _: &Tessellation, _: &Model) -> Option<CellValues> {
         None
     }
 
     /// Fields of a state with such a depth on the nodes; of [`PictureKind::Fields`] only.
-    fn mesh_pictures(&self, _: &[FieldQuantity], _: &State, _: &[f64], _: &Model) -> Option<MeshPictures> {
+    fn mesh_pictures(&self, _: &[FieldQuantity], _: &Reported, _: &[f64], _: &Model) -> Option<MeshPictures> {
         None
     }
 

@@ -52,6 +52,8 @@ pub struct Model {
     pub time_step: f64,
     /// Seed of all random numbers.
     pub seed: u64,
+    /// Steps of an earlier run before the first, where it goes on with one.
+    pub steps_before: u64,
     /// Random number generator.
     pub generator: Generator,
     /// Distribution of the pair noise; where pairs relax in two stages it is Gaussian.
@@ -86,19 +88,23 @@ impl Model {
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
         let family = Family::of(scene, &mut species);
-        let momentum = family.physics().momentum_unit(scene, &species);
+        let earlier = scene.earlier_run();
+        let momentum =
+            earlier.map_or_else(|| family.physics().momentum_unit(scene, &species), |earlier| earlier.momentum_unit);
         let gaps = family.physics().gaps(scene);
         let edges = lengths;
         let lengths: [f64; 3] = std::array::from_fn(|axis| edges[axis] + gaps[axis]);
         // The rounded sum less this is the edge again.
         let gaps = std::array::from_fn(|axis| lengths[axis] - edges[axis]);
-        let expected_velocity = speeds::expected(scene, &species, family.physics());
+        let expected_velocity = earlier
+            .map_or_else(|| speeds::expected(scene, &species, family.physics()), |earlier| earlier.expected_velocity);
         let mut model = Self {
             units: Units { dimension: scene.space.lengths.len(), lengths, gaps, momentum },
             species,
             temperature: scene.temperature,
             time_step: scene.time.step,
-            seed: scene.seed,
+            seed: scene.noise_seed(),
+            steps_before: earlier.map_or(0, |earlier| earlier.steps),
             generator: scene.noise.generator,
             distribution: scene.noise.distribution,
             integrator: scene.integrator.clone(),
@@ -110,6 +116,25 @@ impl Model {
             model.distribution = Distribution::Gaussian;
         }
         model
+    }
+
+    /// What noise and forces that depend on time go by at a step: the steps since the first of the earlier runs that it goes on with. At zero
+    /// momenta are those of the report point; later they are half a step behind.
+    #[must_use]
+    pub fn clock(&self, step: u64) -> u64 {
+        self.steps_before.wrapping_add(step)
+    }
+
+    /// Whether its steps are those of another model, whenever they begin.
+    #[must_use]
+    pub(crate) fn has_the_steps_of(&self, other: &Self) -> bool {
+        let (mut one, mut other) = (self.clone(), other.clone());
+        one.steps_before = other.steps_before;
+        match (&mut one.family, &mut other.family) {
+            (Family::Particles(mine), Family::Particles(theirs)) => mine.take_links_alike(theirs),
+            _ => return false,
+        }
+        one == other
     }
 
     /// Whether any force derives from a potential.
@@ -208,6 +233,7 @@ impl Model {
             particles: self.particle_count(),
             cells,
             seed_key: noise::seed_key(self.seed, stream),
+            steps_before: self.steps_before,
             time_step: self.time_step,
             suggested_step: (0.25 * self.time_step)
                 .min(speeds::longest_step(self))

@@ -4,6 +4,7 @@ use super::particles::{chains, layers};
 use crate::document::{FileStart, Generator, ParticleGroup, Placement, Scene, StateVelocities, Velocities};
 use crate::families::Model;
 use crate::noise::{self, stream};
+use crate::numbers::grouped;
 use crate::state::{State, crossings};
 use std::ops::Range;
 
@@ -29,6 +30,9 @@ use std::ops::Range;
 pub fn initial_state(scene: &Scene, model: &Model) -> State {
     let mut state = State::default();
     let mut thermal = Vec::new();
+    if let Some(state) = scene.start().and_then(|start| start.places.as_ref()?.state.clone()) {
+        return count_turns(state, scene, model);
+    }
     if let Some(velocities) = scene.start_velocities() {
         if let Some(start) = scene.start() {
             state = from_file(start, velocities, model);
@@ -57,9 +61,30 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
     complete(state, scene, model, &thermal)
 }
 
+/// What a run takes from the file that its particles are from, in words: where the noise begins, and what steps and times are counted from.
+#[must_use]
+pub fn start_in_words(scene: &Scene, model: &Model) -> Option<String> {
+    let file = &scene.state.as_ref()?.file;
+    if scene.earlier_run().is_some() {
+        let steps = grouped(model.steps_before);
+        return Some(format!(
+            "goes on with the run in `{file}` after {steps} steps, to the last bit: noise, baths and whatever depends on time or adds up do; \
+             `step` and `time` are counted from there"
+        ));
+    }
+    let remembers = model.has_memory() || model.particles().coloured_noise.is_some();
+    let forgets = if remembers { "; what baths remember is drawn anew" } else { "" };
+    Some(format!("particles of `{file}`, with noise of its own{forgets}; `step` and `time` are counted from 0"))
+}
+
 /// Completes a state whose particles have places and momenta; `thermal` are those whose momenta were drawn.
 fn complete(mut state: State, scene: &Scene, model: &Model, thermal: &[usize]) -> State {
     model.physics().complete_start(&mut state, scene, model, thermal);
+    count_turns(state, scene, model)
+}
+
+/// A state with the times round the box, where a trajectory needs them.
+fn count_turns(mut state: State, scene: &Scene, model: &Model) -> State {
     if !model.follows_paths(&scene.output) {
         state.images = Vec::new();
     } else if state.images.is_empty() {

@@ -1,6 +1,7 @@
 //! The summary of a run, `run.json`.
 
 use super::{Extent, Found, Id, OutputError, RunDirectory, files, of_one_run, own_file, write_atomically};
+use crate::families::{Model, start_in_words};
 use crate::gpu::AdapterDescription;
 use crate::measure::statistics::Estimate;
 use crate::scene::Scene;
@@ -42,6 +43,9 @@ pub struct Summary {
     /// The ranks that shared the run, if there were several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ranks: Option<RanksSummary>,
+    /// What it has from the file that its particles are from, if they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start: Option<StartSummary>,
     /// Number of particles.
     pub particles: u64,
     /// What the particles of a file or of molecules are, and what acts on which of them.
@@ -74,6 +78,26 @@ pub struct Summary {
     pub files: Option<Vec<String>>,
     /// The scene with every default filled in.
     pub scene: Scene,
+}
+
+/// What a run has from the file that its particles are from.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct StartSummary {
+    /// In words, with what its steps and times are counted from.
+    pub what: String,
+    /// Steps of earlier runs that it goes on with, to the last bit; zero where it begins anew.
+    pub steps_before: u64,
+    /// Seed of its noise.
+    pub noise_seed: u64,
+}
+
+impl StartSummary {
+    /// That of a scene and its model, if its particles are from a file.
+    #[must_use]
+    pub fn new(scene: &Scene, model: &Model) -> Option<Self> {
+        let what = start_in_words(scene, model)?;
+        Some(Self { what, steps_before: model.steps_before, noise_seed: model.seed })
+    }
 }
 
 /// Means that include the way to equilibrium.
@@ -218,6 +242,7 @@ impl Summary {
             run_id,
             adapter,
             ranks: None,
+            start: None,
             particles,
             composition: Vec::new(),
             steps: 0,

@@ -93,6 +93,8 @@ pub struct Plan {
     pub quanta: Quanta,
     /// Key of the noise stream.
     pub seed_key: [u32; 2],
+    /// Steps that the clock of the device is ahead, where a run goes on with an earlier one.
+    pub steps_before: u64,
     /// Time step.
     pub time_step: f64,
     /// The force of one unit in the buffer of forces that a report leaves by id; zero where no analysis asks for them.
@@ -150,6 +152,7 @@ impl Plan {
             layout: Layout::new(layout),
             quanta,
             seed_key: [0; 2],
+            steps_before: 0,
             time_step: 0.0,
             force_unit: 0.0,
             stress_unit: 0.0,

@@ -29,6 +29,8 @@ pub(crate) struct Measured {
     pub range: f64,
     /// Whether particles are followed.
     pub follows: bool,
+    /// Whether frames of a trajectory are read.
+    pub frames: bool,
 }
 
 impl Measured {

@@ -94,6 +94,7 @@ pub(super) fn execute(
             let part = engine.plan().part.as_ref();
             portions.divide(part, sampled(part, Sampling::of_word(sample), own))
         }),
+        Command::Momenta => engine.own_momenta(),
         Command::Next => Ok(vec![portions.next()]),
         Command::End => Ok(Vec::new()),
     };

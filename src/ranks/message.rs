@@ -21,6 +21,8 @@ pub(super) enum Command {
     Report,
     /// The same of a sample of them, of which this word tells.
     Show { sample: u32 },
+    /// Give the momenta of the report.
+    Momenta,
     /// Give those with the next numbers.
     Next,
     /// Nothing more is to be done.

@@ -6,7 +6,7 @@ use super::message::{Answer, Command, Contents, Introduction, Problem, join, rea
 use crate::engine::{Engine, EngineError, RankReport, Sample, Sampling, Shown, Stepper, Traffic};
 use crate::plan::{PARTICLE_WORDS, Places, Plan, Sampler};
 use crate::shaders::Array;
-use crate::state::State;
+use crate::state::{Reported, State};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::time::Duration;
@@ -333,11 +333,12 @@ impl<'a> Team<'a> {
             layout.place(&particles, places, state).map_err(problem)
         };
         let (state, _) = self.gather((Command::Show { sample: sampling.word() }, count as u64), begin, place)?;
-        let State { step, positions, momenta, mut species, .. } = state;
+        let Reported { step, positions, momenta, mut species, .. } = state.into();
         if species.is_empty() {
             species = numbers.iter().filter_map(|number| self.species.get(*number as usize).copied()).collect();
         }
-        Ok(Shown { state: State { step, positions, momenta, species, ..State::default() }, numbers: Some(numbers) })
+        let state = Reported { step, positions, momenta, species, ..Reported::default() };
+        Ok(Shown { state, numbers: Some(numbers) })
     }
 }
 
@@ -419,10 +420,20 @@ impl Stepper for Team<'_> {
         }
     }
 
-    fn reported(&mut self) -> Result<State, EngineError> {
-        let mut state = self.joined(Command::Report, true)?;
-        state.predicted.clear();
-        Ok(state)
+    fn reported(&mut self) -> Result<Reported, EngineError> {
+        Ok(self.joined(Command::Report, true)?.into())
+    }
+
+    fn frame(&mut self) -> Result<Reported, EngineError> {
+        if !self.plan().has_buffer(Array::ReportedMomenta) {
+            return self.reported();
+        }
+        let before = self.state()?;
+        let given = self.tell(Command::Momenta, &[])?;
+        let words = given.get(1).map_or(&[][..], Vec::as_slice);
+        // The high words are of the sign only.
+        let momenta = words.chunks_exact(6).map(|words| [0, 2, 4].map(|axis| words[axis].cast_signed())).collect();
+        Ok(Reported { momenta, ..before.into() })
     }
 }
 

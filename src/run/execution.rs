@@ -1,6 +1,6 @@
 //! A run under way: from one event to the next, and its files.
 
-use super::analyses::Analyses;
+use super::analyses::{Analyses, needs};
 use super::conservation::{conserved, not_conserved, warning_of_mixed_ranks};
 use super::energies::{self, EnergyRecorder};
 use super::kept_sums::{KeptSums, Sharing};
@@ -15,13 +15,14 @@ use crate::engine::{EngineError, Sample, Shown, Stepper};
 use crate::families::{KeptQuantity, Model, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
-use crate::output::summary::{AdapterSummary, RanksSummary};
+use crate::output::summary::{AdapterSummary, RanksSummary, StartSummary};
 use crate::output::{
     Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files, own_file,
 };
+use crate::plan::Need;
 use crate::ranks::{computes_alike, remedy};
 use crate::scene::Scene;
-use crate::state::State;
+use crate::state::{Reported, State};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -183,23 +184,28 @@ impl<'a> Run<'a> {
             // Whatever follows can be done later too.
             self.obey()?;
         }
+        // A report moves the particles of split steps on.
+        let frame = self.schedule.frame(step).then(|| engine.frame());
+        let samples = if frame.is_some() { engine.take_samples() } else { Vec::new() };
+        self.record(&samples, engine)?;
+        let frame = frame.transpose()?;
         let samples = engine.finish()?;
         pace.finished();
         self.record(&samples, engine)?;
         self.energies.flush()?;
+        if let (Some(mut frame), Some(trajectory)) = (frame, &mut self.trajectory) {
+            with_flow(&mut frame, self.scene, self.model);
+            trajectory.append(&frame)?;
+            trajectory.flush()?;
+            engine.keep_alive();
+        }
         let number = self.schedule.snapshot(step);
-        let frame = self.schedule.frame(step);
         let taken = self.analyses.take_state(step);
-        if number.is_some() || frame || taken || last {
+        if number.is_some() || taken || last {
             let most = most_shown(self.scene, self.model);
-            let all = if frame || taken { Shown::all(engine.reported()?) } else { engine.shown(most)? };
+            let all = if taken { Shown::all(engine.reported()?) } else { engine.shown(most)? };
             let state = &all.state;
             self.analyses.add_state(state, self.model);
-            if let (true, Some(trajectory)) = (frame, &mut self.trajectory) {
-                trajectory.append(state)?;
-                trajectory.flush()?;
-                engine.keep_alive();
-            }
             if self.model.picture() == PictureKind::Fields {
                 let depth = mesh_depth(engine, self.model)?;
                 for number in number.map(Some).into_iter().chain(last.then_some(None)) {
@@ -309,6 +315,7 @@ impl<'a> Run<'a> {
         };
         let adapter = AdapterSummary::from(self.gpu.description());
         let mut summary = Summary::new(self.task.id, self.scene.clone(), adapter, self.model.particle_count());
+        summary.start = StartSummary::new(self.scene, self.model);
         let last_step = self.scene.time.steps;
         summary.set_duration(last_step, steps, spent.as_secs_f64());
         if let Some(earlier) = self.task.earlier.as_deref().filter(|earlier| steps == 0 && earlier.steps == last_step) {
@@ -350,6 +357,19 @@ impl<'a> Run<'a> {
         summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
         summary.save(&path)?;
         Ok(Outcome { summary, files: written, snapshots: self.schedule.snapshots_before(last_step + 1) })
+    }
+}
+
+/// Adds the momenta of the linear profile that analyses of a sheared box leave out of those of split steps.
+fn with_flow(frame: &mut Reported, scene: &Scene, model: &Model) {
+    let particles = model.particles();
+    let Some(shear) =
+        particles.shear.as_ref().filter(|_| particles.splits(model) && needs(&scene.output).contains(&Need::Momenta))
+    else {
+        return;
+    };
+    for ((momentum, position), species) in frame.momenta.iter_mut().zip(&frame.positions).zip(&frame.species) {
+        momentum[0] += shear.flow(*species as usize, position[shear.gradient], model).round_ties_even() as i32;
     }
 }
 

@@ -20,7 +20,7 @@ use crate::plot::{
 };
 use crate::scene::{self, AnalysisId, AnalysisTable, Scene, Snapshot, SnapshotColor};
 use crate::shaders::Array;
-use crate::state::{State, crossings};
+use crate::state::{Reported, crossings};
 use crate::table::Table;
 use crate::tessellation::Tessellation;
 use image::RgbaImage;
@@ -277,7 +277,7 @@ impl<'a> Pictures<'a> {
     }
 
     /// Draws the cells of a tessellation.
-    fn cells(&mut self, name: &str, state: &State, model: &Model) -> Result<(), RunError> {
+    fn cells(&mut self, name: &str, state: &Reported, model: &Model) -> Result<(), RunError> {
         let units = model.units;
         let lengths = [units.lengths[0], units.lengths[1]];
         let positions: Vec<[f64; 2]> =
@@ -321,7 +321,7 @@ impl<'a> Pictures<'a> {
     pub(super) fn fields(
         &mut self,
         number: Option<u64>,
-        state: &State,
+        state: &Reported,
         depth: &[f64],
         model: &Model,
     ) -> Result<Vec<String>, RunError> {
@@ -433,7 +433,7 @@ pub fn lettering(scene: &Scene) -> Option<String> {
 }
 
 /// The time of a state.
-fn at_time(state: &State, model: &Model) -> String {
+fn at_time(state: &Reported, model: &Model) -> String {
     format!("t = {} time units", rounded(state.step as f64 * model.time_step))
 }
 

@@ -27,7 +27,8 @@ use crate::scene::Output;
 pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
     let range = output.radial_distribution.as_ref().map_or(0.0, |asked| asked.range);
     let follows = model.follows_paths(output);
-    let measured = Measured { every: output.energies.every, needs: needs(output), range, follows };
+    let (every, needs, frames) = (output.energies.every, needs(output), output.trajectory.is_some());
+    let measured = Measured { every, needs, range, follows, frames };
     let mut physics = model.physics().plan(model, &measured, hardware, options);
     add_samplers(&mut Planner::new(model, output, equilibration, options, &mut physics));
     let mut plan = physics.plan;

@@ -8,9 +8,10 @@ use crate::families::{Model, initial_state};
 use crate::gpu::{AdapterChoice, Gpu, adapters_by_turns};
 use crate::plan::{Division, Options, Part, Plan};
 use crate::ranks::{Channel, Introduction, Processes, Team, decline, serve, threads};
-use crate::scene::{self, Scene};
+use crate::scene::{self, FileStart, KeptStart, Scene};
 use crate::state::State;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 use std::thread;
 
 /// Opens the other ranks of a run, of which this adapter's is the first, and gives all of them their part of a state. Ranks that do not
@@ -139,6 +140,8 @@ enum Call {
     Share {
         version: String,
         scene: Box<Scene>,
+        /// What the scene keeps of the file that its particles are from, as bytes.
+        start: Option<Vec<u8>>,
         division: [u32; 3],
         /// How often it has been repeated with more room.
         repeated: u32,
@@ -173,7 +176,11 @@ pub(super) fn team_of_processes<'a>(
     let version = VERSION.to_owned();
     let scene_told = Box::new(scene.clone());
     let (repeated, lengthened) = (options.list_growth, options.lengthened);
-    call(processes, &Call::Share { version, scene: scene_told, division: division.parts, repeated, lengthened })?;
+    let start = scene.start().map(|start| start.to_bytes());
+    call(
+        processes,
+        &Call::Share { version, scene: scene_told, start, division: division.parts, repeated, lengthened },
+    )?;
     let options = Options { part: Some(Part { division, rank: 0 }), ..options };
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, options), processes.peers())?;
     Ok(Team::new(engine, introduction(gpu, scene, choice)?, processes.channel(), state, mixed)?)
@@ -200,7 +207,9 @@ pub fn follow(processes: &dyn Processes, rank: u32, choice: &AdapterChoice) -> R
             Call::Share { version, .. } if version != VERSION => {
                 decline(channel.as_mut(), format!("is of version {VERSION}, the first of {version}")).map_err(lost)?;
             }
-            Call::Share { scene, division, repeated, lengthened, .. } => {
+            Call::Share { mut scene, start, division, repeated, lengthened, .. } => {
+                let start = start.as_deref().and_then(FileStart::from_bytes).map(Arc::new);
+                scene.kept = start.map(KeptStart::of).unwrap_or_default();
                 let model = Model::new(&scene);
                 let roomy = |options: Options, _| options.with_room(model.particle_count());
                 let options = (0..repeated).fold(Options::default(), roomy);

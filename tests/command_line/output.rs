@@ -198,7 +198,7 @@ fn a_full_disk_is_reported_as_such() {
     let error = TrajectoryWriter::create(full, TrajectoryFormat::Gsd, &model, run_id()).unwrap_err();
     assert!(is_full(&error), "{error}");
     let mut trajectory = TrajectoryWriter::create(full, TrajectoryFormat::ExtendedXyz, &model, run_id()).unwrap();
-    trajectory.append(&state(0, 3)).unwrap();
+    trajectory.append(&state(0, 3).into()).unwrap();
     assert!(is_full(&trajectory.flush().unwrap_err()));
 }
 
@@ -303,7 +303,7 @@ fn a_file_that_vanishes_is_missed() {
         for format in [TrajectoryFormat::Gsd, TrajectoryFormat::ExtendedXyz] {
             let mut trajectory = TrajectoryWriter::create(&path, format, &model, run_id()).unwrap();
             for state in &states {
-                trajectory.append(state).unwrap();
+                trajectory.append(&state.clone().into()).unwrap();
                 trajectory.flush().unwrap();
                 trajectory.check().unwrap();
             }
@@ -481,7 +481,7 @@ fn gsd_holds_bonds_and_angles() {
     let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
     let mut extents = Vec::new();
     for step in [0, 10, 20] {
-        trajectory.append(&State { step, ..start.clone() }).unwrap();
+        trajectory.append(&State { step, ..start.clone() }.into()).unwrap();
         trajectory.flush().unwrap();
         extents.push(trajectory.extent());
     }
@@ -513,7 +513,7 @@ fn gsd_holds_what_hoomd_expects() {
     let model = Model::new(&scene(3));
     let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
     for step in [0, 10] {
-        trajectory.append(&state(step, 3)).unwrap();
+        trajectory.append(&state(step, 3).into()).unwrap();
     }
     trajectory.flush().unwrap();
     drop(trajectory);
@@ -548,7 +548,7 @@ fn gsd_holds_what_hoomd_expects() {
     let flat = root.path().join("flat.gsd");
     let model = Model::new(&scene(2));
     let mut trajectory = TrajectoryWriter::create(&flat, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
-    trajectory.append(&state(0, 2)).unwrap();
+    trajectory.append(&state(0, 2).into()).unwrap();
     trajectory.flush().unwrap();
     let mut file = gsd::open(&flat);
     assert_eq!(gsd::scalars::<u8>(&mut file, 0, "configuration/dimensions"), [2]);
@@ -560,7 +560,7 @@ fn gsd_holds_what_hoomd_expects() {
 fn write_frames(path: &Path, format: TrajectoryFormat, model: &Model, frames: u64) -> Vec<Extent> {
     let mut trajectory = TrajectoryWriter::create(path, format, model, run_id()).unwrap();
     let extents = (0..frames).map(|frame| {
-        trajectory.append(&state(10 * frame, 3)).unwrap();
+        trajectory.append(&state(10 * frame, 3).into()).unwrap();
         trajectory.flush().unwrap();
         trajectory.extent()
     });
@@ -584,7 +584,7 @@ fn trajectories_resume_at_the_step() {
                 TrajectoryWriter::resume(&path, format, &model, run_id(), extents[last as usize]).unwrap();
             assert_eq!(trajectory.extent(), extents[last as usize]);
             for frame in last + 1..50 {
-                trajectory.append(&state(10 * frame, 3)).unwrap();
+                trajectory.append(&state(10 * frame, 3).into()).unwrap();
                 trajectory.flush().unwrap();
             }
             assert_eq!(trajectory.extent(), extents[49]);
@@ -613,7 +613,7 @@ fn trajectories_with_changing_masses_are_cut_back_to_the_byte() {
     let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
     let mut written = Vec::new();
     for step in 0..9 {
-        trajectory.append(&State { step, ..start.clone() }).unwrap();
+        trajectory.append(&State { step, ..start.clone() }.into()).unwrap();
         trajectory.flush().unwrap();
         written.push((trajectory.extent(), fs::read(&path).unwrap()));
     }
@@ -693,13 +693,13 @@ fn extended_xyz_reads_as_documented_and_drops_an_unfinished_frame() {
     let path = root.path().join(files::TRAJECTORY_XYZ);
     let model = Model::new(&scene(2));
     let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::ExtendedXyz, &model, run_id()).unwrap();
-    trajectory.append(&state(0, 2)).unwrap();
+    trajectory.append(&state(0, 2).into()).unwrap();
     trajectory.flush().unwrap();
     let first = trajectory.extent();
-    trajectory.append(&state(5, 2)).unwrap();
+    trajectory.append(&state(5, 2).into()).unwrap();
     let mut wrong = state(6, 2);
     wrong.species[0] = 2;
-    assert!(matches!(trajectory.append(&wrong), Err(OutputError::State { step: 6, .. })));
+    assert!(matches!(trajectory.append(&wrong.into()), Err(OutputError::State { step: 6, .. })));
     trajectory.flush().unwrap();
     drop(trajectory);
     let text = fs::read_to_string(&path).unwrap();
@@ -744,7 +744,7 @@ fn files_of_another_run_are_recognised() {
                     if name == files::TRAJECTORY_GSD { TrajectoryFormat::Gsd } else { TrajectoryFormat::ExtendedXyz };
                 let mut trajectory = TrajectoryWriter::create(&path, format, &model, id).unwrap();
                 for step in [0, 10] {
-                    trajectory.append(&state(step, 3)).unwrap();
+                    trajectory.append(&state(step, 3).into()).unwrap();
                 }
                 trajectory.flush().unwrap();
                 let written = trajectory.extent();
@@ -791,7 +791,7 @@ fn a_trajectory_of_nothing_is_fine() {
     for format in [TrajectoryFormat::Gsd, TrajectoryFormat::ExtendedXyz] {
         let path = root.path().join("t");
         let mut trajectory = TrajectoryWriter::create(&path, format, &model, run_id()).unwrap();
-        trajectory.append(&State::default()).unwrap();
+        trajectory.append(&State::default().into()).unwrap();
         trajectory.flush().unwrap();
         let written = trajectory.extent();
         drop(trajectory);

@@ -2,6 +2,7 @@
 
 mod any_compiler;
 mod body_forces;
+mod continuations;
 mod couplings;
 mod many_body;
 mod molecules;

@@ -3,8 +3,14 @@
 use mesoscope::engine::EngineError;
 use mesoscope::families::reference::VoronoiReference;
 use mesoscope::plan::Options;
+use mesoscope::state::{Reported, State};
 
 use crate::support::{Device, ENERGY, Implementation, cells, engine, start, totals};
+
+/// What [`totals`] are of a report.
+fn reported(cells: Reported) -> ([i64; 3], i64, i64) {
+    totals(&State { momenta: cells.momenta, masses: cells.masses, energies: cells.energies, ..State::default() })
+}
 
 #[test]
 fn none_and_a_few_cells() {
@@ -59,7 +65,7 @@ fn no_temperature() {
         let first = run.observe();
         run.step(100);
         let last = run.observe();
-        assert_eq!(totals(&run.reported()), totals(&state));
+        assert_eq!(reported(run.reported()), totals(&state));
         assert!(last.kinetic_energy < 0.95 * first.kinetic_energy && last.kinetic_energy > 0.0);
         if energy.is_some() {
             let heat = last.cells.unwrap().internal_energy - first.cells.unwrap().internal_energy;
@@ -91,7 +97,7 @@ fn viscosities_from_nothing_to_much() {
             let mut run = Device::from_state(&scene, &state, Options::default());
             run.step(200);
             let row = run.observe();
-            assert_eq!(totals(&run.reported()), totals(&state));
+            assert_eq!(reported(run.reported()), totals(&state));
             // 798 degrees of freedom: ±.05; the sound of a start from a lattice may warm it.
             let temperature = row.kinetic_temperature();
             println!("{changes:?}: {temperature:.3}, {:?}", row.cells.unwrap().iterations);
@@ -145,7 +151,7 @@ fn dense_and_dilute_and_long_boxes() {
         let mut run = Device::from_state(&scene, &state, Options::default());
         run.step(100);
         let row = run.observe();
-        assert_eq!(totals(&run.reported()), totals(&state));
+        assert_eq!(reported(run.reported()), totals(&state));
         assert!((row.cells.unwrap().volume / volume - 1.0).abs() < 1e-5);
         assert!((row.kinetic_temperature() - 1.0).abs() < 0.5, "{lengths}: {}", row.kinetic_temperature());
     }
@@ -203,7 +209,7 @@ fn a_huge_conductivity() {
     let mut run = Device::from_state(&scene, &state, Options::default());
     run.step(100);
     let row = run.observe();
-    assert_eq!(totals(&run.reported()), totals(&state));
+    assert_eq!(reported(run.reported()), totals(&state));
     assert!(row.cells.unwrap().limited_exchanges > 1000);
     assert!((row.cells.unwrap().internal_temperature - 1.0).abs() < 0.1);
 }

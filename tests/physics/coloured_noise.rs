@@ -7,7 +7,7 @@ use mesoscope::engine::Engine;
 use mesoscope::families::{ColouredNoise, Model};
 use mesoscope::plan::Options;
 use mesoscope::scene::{self, Scene};
-use mesoscope::state::State;
+use mesoscope::state::{Reported, State};
 
 use crate::support::{Device, Implementation, Measured, built_in, changed, engine, start};
 
@@ -43,7 +43,8 @@ fn forces(scene: &Scene, steps: usize) -> Vec<Vec<[f64; 3]>> {
 
 /// The same of some steps only.
 fn forces_at(scene: &Scene, steps: &[u64]) -> Vec<Vec<[f64; 3]>> {
-    let (model, mut before, mut engine) = run(scene);
+    let (model, start, mut engine) = run(scene);
+    let mut before = Reported::from(start);
     let forces = steps.iter().map(|&step| {
         if engine.step() < step {
             engine.advance(step - engine.step(), 50).unwrap();

@@ -18,7 +18,7 @@ use mesoscope::families::reference::{CouplingsReference, Reference};
 use mesoscope::measure::Observables;
 use mesoscope::plan::Options;
 use mesoscope::scene::{self, Scene};
-use mesoscope::state::{PairBath, State};
+use mesoscope::state::{PairBath, Reported, State};
 
 use crate::support::{
     Device, Implementation, Measured, changed, deviate, fluid, largest_difference, oscillators, start,
@@ -152,10 +152,10 @@ fn settle(state: &mut State, model: &Model, law: &Linear) {
 }
 
 /// q, p, s and the half-step p of every degree of freedom at the current step, which ends with this.
-type Coordinates = dyn Fn(&Model, &State, &State) -> Vec<[f64; 4]>;
+type Coordinates = dyn Fn(&Model, &Reported, &State) -> Vec<[f64; 4]>;
 
 /// The coordinates of particles on tethers, from the state at the report point and the one a step later, which has s.
-fn coordinates_of_oscillators(model: &Model, reported: &State, after: &State) -> Vec<[f64; 4]> {
+fn coordinates_of_oscillators(model: &Model, reported: &Reported, after: &State) -> Vec<[f64; 4]> {
     let particle = |id: usize| {
         let q = model.units.displacement(reported.positions[id], rest_of(after, id));
         let p = model.units.momentum(reported.momenta[id]);
@@ -323,15 +323,15 @@ fn pairs_on_springs_reach_the_stationary_law_of_their_mode() {
 }
 
 /// The coordinates in which two particles in a row move against each other.
-fn coordinates_of_pairs(model: &Model, reported: &State, after: &State) -> Vec<[f64; 4]> {
+fn coordinates_of_pairs(model: &Model, reported: &Reported, after: &State) -> Vec<[f64; 4]> {
     let against = |values: [f64; 2]| (values[1] - values[0]) * 0.5_f64.sqrt();
     let pair = |first: usize| {
         let apart = model.units.displacement(reported.positions[first + 1], reported.positions[first]);
-        let momenta = |state: &State| {
-            let [a, b] = [first, first + 1].map(|id| model.units.momentum(state.momenta[id]));
+        let momenta = |momenta: &[[i32; 3]]| {
+            let [a, b] = [first, first + 1].map(|id| model.units.momentum(momenta[id]));
             std::array::from_fn::<f64, 3, _>(|axis| against([a[axis], b[axis]]))
         };
-        let (p, half) = (momenta(reported), momenta(after));
+        let (p, half) = (momenta(&reported.momenta), momenta(&after.momenta));
         let bath = |id: usize| after.position_baths[id].map(|bits| f64::from(f32::from_bits(bits)));
         let (a, b) = (bath(first), bath(first + 1));
         (0..3).map(move |axis| [apart[axis] * 0.5_f64.sqrt(), p[axis], against([a[axis], b[axis]]), half[axis]])
@@ -360,17 +360,17 @@ fn check_velocity_autocorrelation(precision: Precision) {
             settle(&mut state, &model, &law);
             let expected = law.autocorrelation(lags);
             for mut run in runs(&scene, &state) {
-                let momenta = |state: &State| -> Vec<f64> {
-                    state.momenta.iter().flatten().map(|units| f64::from(*units)).collect()
+                let momenta = |momenta: Vec<[i32; 3]>| -> Vec<f64> {
+                    momenta.iter().flatten().map(|units| f64::from(*units)).collect()
                 };
-                let first = momenta(&run.reported());
+                let first = momenta(run.reported().momenta);
                 let squares: f64 = first.iter().map(|p| p * p).sum();
                 run.step(1);
-                let mut before = momenta(&run.state());
+                let mut before = momenta(run.state().momenta);
                 for (lag, expected) in expected.iter().enumerate().skip(1) {
                     run.step(1);
                     // A half kick closes a step and opens the next: p(n) is the mean of the half steps around it.
-                    let after = momenta(&run.state());
+                    let after = momenta(run.state().momenta);
                     let now: Vec<f64> =
                         before.iter().zip(&after).map(|(before, after)| 0.5 * (before + after)).collect();
                     before = after;
@@ -591,16 +591,16 @@ fn settle_dimers(state: &mut State, model: &Model, law: &Linear) {
     }
 }
 
-fn coordinates_of_dimers(model: &Model, reported: &State, after: &State) -> Vec<[f64; 4]> {
+fn coordinates_of_dimers(model: &Model, reported: &Reported, after: &State) -> Vec<[f64; 4]> {
     let count = reported.len() / 2;
-    let relative = |state: &State, index: usize| {
-        let [first, second] = [index, count + index].map(|id| model.units.momentum(state.momenta[id])[0]);
+    let relative = |momenta: &[[i32; 3]], index: usize| {
+        let [first, second] = [index, count + index].map(|id| model.units.momentum(momenta[id])[0]);
         (3.0 * first - second) / 4.0
     };
     let dimer = |index: usize| {
         let r = model.units.displacement(reported.positions[index], reported.positions[count + index])[0];
         let s = after.bond_baths.get(index).map_or(0.0, |bits| f64::from(f32::from_bits(*bits)));
-        [r - LENGTH, relative(reported, index), s, relative(after, index)]
+        [r - LENGTH, relative(&reported.momenta, index), s, relative(&after.momenta, index)]
     };
     (0..count).map(dimer).collect()
 }
@@ -739,7 +739,7 @@ fn check_pairs(precision: Precision) {
             )],
         );
         let response = law.coupling() * (1.0 + persistence) / 2.0;
-        let coordinates = move |model: &Model, reported: &State, after: &State| -> Vec<[f64; 4]> {
+        let coordinates = move |model: &Model, reported: &Reported, after: &State| -> Vec<[f64; 4]> {
             let count = reported.len() / 2;
             let pair = |(index, bath): (usize, &PairBath)| {
                 assert_eq!([bath.first as usize, bath.second as usize], [index, count + index]);
@@ -747,8 +747,8 @@ fn check_pairs(precision: Precision) {
                 // What is kept is e s - λₑ(1+e)/2 φ.
                 let kept = f64::from(f32::from_bits(bath.memory));
                 let s = (kept + response * (r - 4.0)) / persistence;
-                let momentum = |state: &State| model.units.momentum(state.momenta[index])[0];
-                [r - 2.0, momentum(reported), s, momentum(after)]
+                let momentum = |momenta: &[[i32; 3]]| model.units.momentum(momenta[index])[0];
+                [r - 2.0, momentum(&reported.momenta), s, momentum(&after.momenta)]
             };
             after.pair_baths.iter().enumerate().map(pair).collect()
         };

@@ -30,7 +30,7 @@ fn settled(edge: f64, changes: &[&str], samples: u64) -> State {
         run.step(10);
     }
     let state = run.reported();
-    State { step: 0, ..state }
+    State { positions: state.positions, momenta: state.momenta, species: state.species, ..State::default() }
 }
 
 /// Standard errors of the two temperatures and the pressure in a run of so many particles and so many time units.

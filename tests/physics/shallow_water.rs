@@ -8,7 +8,7 @@ use mesoscope::measure::circulation::circulation;
 use mesoscope::measure::{MeshFlow, Observables};
 use mesoscope::plan::{Options, Storage};
 use mesoscope::scene::Scene;
-use mesoscope::state::State;
+use mesoscope::state::{Reported, State};
 
 use crate::support::{
     Device, GYRO, Implementation, Measured, ROTATE, WHITE, order, shear_flow, start, still_water, water_reference,
@@ -87,7 +87,8 @@ fn the_shear_flow_starts_with_the_check_values() {
     }
     // What the mesh holds is what tests and pictures form again from the particles.
     let reference = water_reference(&scene);
-    let flow = MeshFlow::new(reference.model(), reference.model().shallow_water().unwrap(), reference.state());
+    let flow =
+        MeshFlow::new(reference.model(), reference.model().shallow_water().unwrap(), &reference.state().clone().into());
     for (a, b) in reference.node_masses().iter().zip(flow.masses()) {
         assert!((a - b).abs() < 1e-13);
     }
@@ -189,11 +190,11 @@ fn with_loop(points: u32, changes: &[&str]) -> Scene {
 fn change_of_circulation(scene: &Scene, steps: u64) -> Vec<(String, f64)> {
     let (model, state) = start(scene);
     let water = model.shallow_water().unwrap();
-    let of = |state: &State| {
+    let of = |state: &Reported| {
         let first = water.carriers as usize;
         circulation(&model.units, &state.positions[first..], &state.momenta[first..], water.rotation)
     };
-    let before = of(&state);
+    let before = of(&state.into());
     let runs = implementations_with_room(scene).into_iter();
     runs.map(|mut run| {
         run.step(steps);
@@ -336,10 +337,9 @@ fn a_wave_oscillates_at_the_frequency_of_its_dispersion() {
     }
 }
 
-/// Root mean square difference of velocities between two states.
-fn difference(a: &State, b: &State) -> f64 {
-    let squares =
-        a.momenta.iter().zip(&b.momenta).flat_map(|(a, b)| [0, 1].map(|axis| f64::from(a[axis]) - f64::from(b[axis])));
+/// Root mean square difference of velocities.
+fn difference(a: &[[i32; 3]], b: &[[i32; 3]]) -> f64 {
+    let squares = a.iter().zip(b).flat_map(|(a, b)| [0, 1].map(|axis| f64::from(a[axis]) - f64::from(b[axis])));
     (squares.map(|difference| difference * difference).sum::<f64>() / a.len() as f64).sqrt()
 }
 
@@ -352,7 +352,7 @@ fn steps_are_of_their_order() {
             let steps = [0.008, 0.004, 0.002];
             let scenes = steps.map(|step| still_water(&[integrator, bath, &wave([1, 1], 0.1), &time_step(step)]));
             for set_up in IMPLEMENTATIONS {
-                let states: Vec<State> = scenes
+                let states: Vec<Reported> = scenes
                     .iter()
                     .zip(steps)
                     .map(|(scene, step)| {
@@ -361,8 +361,9 @@ fn steps_are_of_their_order() {
                         run.reported()
                     })
                     .collect();
-                let errors: Vec<(f64, f64)> =
-                    (0..2).map(|index| (steps[index], difference(&states[index], &states[index + 1]))).collect();
+                let errors: Vec<(f64, f64)> = (0..2)
+                    .map(|index| (steps[index], difference(&states[index].momenta, &states[index + 1].momenta)))
+                    .collect();
                 let found = order(&errors);
                 println!("{integrator}, {bath}: order {found:.3}");
                 assert!((found - expected).abs() < 0.12, "{integrator}, {bath}: order {found}, {errors:?}");
@@ -810,7 +811,7 @@ fn flat_water_at_rest_stays_there() {
                     assert_eq!(after.momenta, before.momenta, "{}: order {spline}, {mesh:?}", run.name());
                 } else {
                     // The lattice does not fit the mesh, and the splines see that: the better, the smoother.
-                    let speed = difference(&after, &before) * start(&scene).0.units.momentum;
+                    let speed = difference(&after.momenta, &before.momenta) * start(&scene).0.units.momentum;
                     assert!(speed < 0.05, "{}: order {spline}, {mesh:?}: {speed}", run.name());
                 }
             }
@@ -979,7 +980,7 @@ fn a_run_goes_on_from_its_state() {
         whole.run(10).unwrap();
         resumed.run(10).unwrap();
         // Bath variables are rounded to single precision, and masses of nodes to units.
-        let difference = difference(whole.state(), resumed.state()) * model.units.momentum;
+        let difference = difference(&whole.state().momenta, &resumed.state().momenta) * model.units.momentum;
         let allowed = if bath.contains("null") { 0.0 } else { 1e-6 };
         assert!(difference <= allowed, "{bath}: {difference}");
         // A state that lacks what the bath remembers is no state to go on from.

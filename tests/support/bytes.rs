@@ -3,7 +3,7 @@
 use mesoscope::engine::{EngineError, Sample, Stepper};
 use mesoscope::plan::{Options, Traversal};
 use mesoscope::scene::Scene;
-use mesoscope::state::State;
+use mesoscope::state::{Reported, State};
 use rand::rngs::StdRng;
 use rand::seq::SliceRandom as _;
 
@@ -13,7 +13,7 @@ use super::{engine, start};
 #[derive(Debug, PartialEq)]
 pub struct Bytes {
     pub state: State,
-    pub reported: State,
+    pub reported: Reported,
     pub samples: Vec<Sample>,
 }
 

@@ -6,7 +6,7 @@ use mesoscope::families::reference::{CouplingsReference, Reference, ShallowWater
 use mesoscope::measure::Observables;
 use mesoscope::plan::Options;
 use mesoscope::scene::Scene;
-use mesoscope::state::State;
+use mesoscope::state::{Reported, State};
 
 use super::{engine, start};
 
@@ -21,7 +21,7 @@ pub trait Implementation {
     /// Observables of the current step; on the device only of steps that `output.energies.every` divides.
     fn observe(&mut self) -> Observables;
     /// The particles at the current step with full-step momenta.
-    fn reported(&mut self) -> State;
+    fn reported(&mut self) -> Reported;
     /// The state to continue from; only before the current step is observed or reported.
     fn state(&mut self) -> State;
     /// Observables after every `every` steps, `samples` times.
@@ -55,7 +55,7 @@ macro_rules! reference {
                 <$reference>::observe(self).unwrap()
             }
 
-            fn reported(&mut self) -> State {
+            fn reported(&mut self) -> Reported {
                 self.reported_state().unwrap()
             }
 
@@ -148,7 +148,7 @@ impl Implementation for Device {
         self.last.filter(|row| row.step == step).expect("a step that is sampled")
     }
 
-    fn reported(&mut self) -> State {
+    fn reported(&mut self) -> Reported {
         self.engine.reported().unwrap()
     }
 

@@ -136,7 +136,7 @@ fn a_million_particles_are_read() {
     let id = Id::of_run(&written);
     for (format, name) in [(TrajectoryFormat::Gsd, "a.gsd"), (TrajectoryFormat::ExtendedXyz, "a.xyz")] {
         let mut writer = TrajectoryWriter::create(&root.path().join(name), format, &model, id).unwrap();
-        writer.append(&state).unwrap();
+        writer.append(&state.clone().into()).unwrap();
         writer.flush().unwrap();
     }
     fs::create_dir(root.path().join("run")).unwrap();

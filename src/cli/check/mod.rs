@@ -196,6 +196,7 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, trial: Tried<'_>) -> Vec<
         "integrator",
         format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps)),
     )]);
+    rows.extend(families::start_in_words(scene, model).map(|start| ("start", start)));
     rows.extend(model.description(scene, plan, &cells));
     let operations = grouped(plan.operations_per_particle as u64);
     rows.push(("arithmetic", format!("about {operations} operations a particle and step")));

@@ -194,6 +194,23 @@ impl Particles {
 }
 
 impl Particles {
+    /// Leaves out how bonds and angles are described where both have the same, which may be along chains or from a file, and who belongs
+    /// to a chain and how dense it is around particles, which no force depends on.
+    pub(super) fn take_links_alike(&mut self, other: &mut Self) {
+        other.chain_groups.clone_from(&self.chain_groups);
+        other.surroundings.clone_from(&self.surroundings);
+        if let (Some(mine), Some(theirs)) = (&self.bonds, &mut other.bonds)
+            && mine.iter().eq(theirs.iter())
+        {
+            theirs.runs = mine.runs.clone();
+        }
+        if let (Some(mine), Some(theirs)) = (&self.angles, &mut other.angles)
+            && mine.iter().eq(theirs.iter())
+        {
+            theirs.runs = mine.runs.clone();
+        }
+    }
+
     /// Whether a wall moves.
     pub(crate) fn walls_move(&self) -> bool {
         self.walls.iter().any(PlaneWalls::move_along)
@@ -399,8 +416,10 @@ impl Physics for Particles {
             };
             state.momenta.iter().zip(&state.species).map(frozen).sum()
         };
+        // A run that goes on with an earlier one starts with what had been put in and taken up.
+        let exchanged = state.exchanged_momentum();
         let of_axis = |(axis, sum): (usize, KeptSum)| {
-            let sum = KeptSum { total: sum.total - carried(axis), ..sum };
+            let sum = KeptSum { total: exchanged[axis] - carried(axis), ..sum };
             let sum = put_in.map_or(sum, |first| sum.but_for(first + axis));
             let sum = walls.map_or(sum, |(first, number)| sum.with_walls(first + axis, number));
             if self.shear.is_some() { sum.with_shear() } else { sum }

@@ -83,7 +83,7 @@ pub(super) fn check_extents(scene: &Scene, model: &Model, state: &State, problem
         let Some((extent, length)) = finite(bond.kind) else { continue };
         let [a, b] = bond.ends.map(|end| state.positions[end as usize]);
         let b = match &model.particles().shear {
-            Some(shear) => sheared_copy(a, b, (shear.gradient, shear.first_shift())),
+            Some(shear) => sheared_copy(a, b, (shear.gradient, shear.shift(model.clock(0).wrapping_mul(2)))),
             None => b,
         };
         let distance = model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt();

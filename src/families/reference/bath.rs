@@ -34,7 +34,7 @@ pub(crate) fn recalled(
 pub(crate) fn at_report(
     step: &BathStep,
     temperature: f64,
-    state_step: u64,
+    clock: u64,
     kept: Option<&mut u32>,
     change: f64,
     gaussian: f64,
@@ -43,7 +43,7 @@ pub(crate) fn at_report(
         return advanced(step, temperature, 0.0, change, gaussian);
     };
     let before = f64::from(f32::from_bits(*kept));
-    let value = if state_step == 0 { before } else { advanced(step, temperature, before, change, gaussian) };
+    let value = if clock == 0 { before } else { advanced(step, temperature, before, change, gaussian) };
     *kept = (value as f32).to_bits();
     value
 }

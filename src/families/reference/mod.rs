@@ -28,6 +28,12 @@ pub trait Stepper {
     /// # Errors
     /// [`Unstable`] when a number does not fit the integer state, which is then left as it was.
     fn step(&mut self) -> Result<(), Unstable>;
+
+    /// Momenta at the report point of the current step, in units of the state.
+    ///
+    /// # Errors
+    /// As [`Self::step`].
+    fn reported_momenta(&self) -> Result<Vec<[i32; 3]>, Unstable>;
 }
 
 /// What the references of all families have in common.
@@ -56,6 +62,10 @@ macro_rules! stepper {
 
             fn step(&mut self) -> Result<(), Unstable> {
                 self.step()
+            }
+
+            fn reported_momenta(&self) -> Result<Vec<[i32; 3]>, Unstable> {
+                Ok(self.reported_state()?.momenta)
             }
         }
     };

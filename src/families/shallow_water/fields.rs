@@ -5,13 +5,13 @@ use super::flow::MeshFlow;
 use crate::document::FieldQuantity;
 use crate::families::pictures::{MeshPictures, ShownField};
 use crate::families::{Field, Model, ShallowWater};
-use crate::state::State;
+use crate::state::Reported;
 
 /// Fields of a state with a smoothed depth, and loops of tracers that are still curves.
 pub(super) fn pictures(
     water: &ShallowWater,
     quantities: &[FieldQuantity],
-    state: &State,
+    state: &Reported,
     depth: &[f64],
     model: &Model,
 ) -> MeshPictures {
@@ -55,7 +55,7 @@ fn field(quantity: FieldQuantity, flow: &MeshFlow, depth: &[f64], model: &Model,
 }
 
 /// The points of every closed loop of tracers that is still a curve.
-fn closed_loops(state: &State, model: &Model, water: &ShallowWater) -> Vec<Vec<[f64; 2]>> {
+fn closed_loops(state: &Reported, model: &Model, water: &ShallowWater) -> Vec<Vec<[f64; 2]>> {
     let spacing = water.spacing(model.units.lengths);
     let loops = water.closed_loops();
     loops

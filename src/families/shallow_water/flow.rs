@@ -2,7 +2,7 @@
 
 use super::reference::mesh_splines;
 use crate::families::{Model, ShallowWater};
-use crate::state::State;
+use crate::state::Reported;
 
 /// Velocities on the nodes of a mesh, and what follows from them: Σ m V ψ / Σ m ψ over the particles that the B-splines
 /// of a node reach.
@@ -16,7 +16,7 @@ use crate::state::State;
 /// let small = ["interactions.0.mesh=[16,16]", "interactions.0.smoothing.length=0.8", "particles.0.count=1024"];
 /// let scene = scene::load("shallow-water", &small.map(str::to_owned))?;
 /// let model = Model::new(&scene);
-/// let mut state = mesoscope::families::initial_state(&scene, &model);
+/// let mut state = mesoscope::state::Reported::from(mesoscope::families::initial_state(&scene, &model));
 /// state.momenta.fill([3_000_000, 4_000_000, 0]);
 /// let water = model.shallow_water().ok_or("no shallow water")?;
 /// let flow = MeshFlow::new(&model, water, &state);
@@ -38,7 +38,7 @@ impl MeshFlow {
     /// The flow of the particles of a state, whose velocities are taken as they are: full-step ones, as a report gives
     /// them.
     #[must_use]
-    pub fn new(model: &Model, water: &ShallowWater, state: &State) -> Self {
+    pub fn new(model: &Model, water: &ShallowWater, state: &Reported) -> Self {
         let mesh = water.mesh.map(|nodes| nodes as usize);
         let mut nodes = vec![[0.0; 3]; mesh[0] * mesh[1]];
         let particles = state.positions.iter().zip(&state.momenta).zip(&state.masses);
@@ -113,7 +113,7 @@ mod tests {
     use crate::scene;
     use std::f64::consts::TAU;
 
-    fn start(mesh: [u32; 2], count: u32) -> (Model, State) {
+    fn start(mesh: [u32; 2], count: u32) -> (Model, Reported) {
         let text = format!(
             r#"{{"title": "test", "space": {{"box": [3, 5]}}, "time": {{"step": 0.1, "steps": 1}}, "temperature": 0,
             "particles": [{{"species": "water", "count": {count}, "placement": {{"type": "lattice"}},
@@ -124,7 +124,7 @@ mod tests {
         );
         let scene = scene::parse("test", &text, &[]).unwrap();
         let model = Model::new(&scene);
-        let state = initial_state(&scene, &model);
+        let state = initial_state(&scene, &model).into();
         (model, state)
     }
 

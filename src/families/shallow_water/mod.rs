@@ -29,7 +29,7 @@ use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, Smoothing
 use crate::numbers::{grouped, with_error};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
 use crate::shaders::Constant;
-use crate::state::State;
+use crate::state::{Reported, State};
 use plan::Arithmetic;
 use reference::ShallowWaterReference;
 use std::ops::Range;
@@ -200,7 +200,7 @@ impl Physics for ShallowWater {
     fn mesh_pictures(
         &self,
         quantities: &[FieldQuantity],
-        state: &State,
+        state: &Reported,
         depth: &[f64],
         model: &Model,
     ) -> Option<MeshPictures> {

@@ -23,7 +23,7 @@ use super::{
 };
 use crate::document::{InitialMasses, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
-use crate::state::State;
+use crate::state::{Reported, State};
 use crate::tessellation::Tessellation;
 use reference::VoronoiReference;
 use std::ops::Range;
@@ -130,7 +130,7 @@ impl Physics for Voronoi {
     fn cell_values(
         &self,
         color: SnapshotColor,
-        state: &State,
+        state: &Reported,
         tessellation: &Tessellation,
         model: &Model,
     ) -> Option<CellValues> {

@@ -3,14 +3,14 @@
 use crate::document::SnapshotColor;
 use crate::families::pictures::{CellValues, ValueScale};
 use crate::families::{Model, Voronoi};
-use crate::state::State;
+use crate::state::Reported;
 use crate::tessellation::Tessellation;
 
 /// Values of cells for a colour, if that is not the one of the species.
 pub(super) fn cell_values(
     cells: &Voronoi,
     color: SnapshotColor,
-    state: &State,
+    state: &Reported,
     tessellation: &Tessellation,
     model: &Model,
 ) -> Option<CellValues> {

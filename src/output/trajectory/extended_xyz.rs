@@ -16,7 +16,7 @@
 use super::{Description, Format, Frames};
 use crate::output::records::RecordFile;
 use crate::output::{Extent, Id, OutputError, files, id, own_file};
-use crate::state::State;
+use crate::state::Reported;
 use crate::state_file::{FROZEN, elements};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
@@ -51,7 +51,7 @@ impl Frames for ExtendedXyz {
         self.records.check()
     }
 
-    fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError> {
+    fn append(&mut self, description: &Description, state: &Reported) -> Result<(), OutputError> {
         description.check(self.records.path(), state)?;
         self.frame.clear();
         write_frame(&mut self.frame, description, state).map_err(OutputError::io("write", self.records.path()))?;
@@ -82,7 +82,7 @@ fn words(description: &Description) -> Vec<String> {
     description.species.iter().map(|species| word(&species.name)).collect()
 }
 
-fn write_frame(text: &mut Vec<u8>, description: &Description, state: &State) -> std::io::Result<()> {
+fn write_frame(text: &mut Vec<u8>, description: &Description, state: &Reported) -> std::io::Result<()> {
     let [x, y, z] = description.units.edges();
     let is_periodic = |axis: usize| axis < description.units.dimension.max(1) && description.units.gaps[axis] == 0.0;
     let periodic = [0, 1, 2].map(|axis| if is_periodic(axis) { "T" } else { "F" }).join(" ");

@@ -12,7 +12,7 @@ use crate::output::extent::Checksum;
 use crate::output::temporary::Temporary;
 use crate::output::watch::Watch;
 use crate::output::{Extent, Id, OutputError, files, own_file};
-use crate::state::State;
+use crate::state::Reported;
 use crate::state_file::{Chunk, Cursor, FROZEN_IN_GSD, GsdError, GsdReader, GsdWriter, Number};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -114,7 +114,7 @@ impl Frames for GsdTrajectory {
         self.watch.check(self.length)
     }
 
-    fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError> {
+    fn append(&mut self, description: &Description, state: &Reported) -> Result<(), OutputError> {
         description.check(&self.path, state)?;
         let first = self.empty;
         self.attempt(|frame| {
@@ -216,7 +216,7 @@ fn begin_array(checksum: &mut Checksum, name: &str, rows: u64) {
     checksum.add(&rows.to_le_bytes());
 }
 
-fn write_masses(frame: &mut Frame, description: &Description, state: &State) -> io::Result<()> {
+fn write_masses(frame: &mut Frame, description: &Description, state: &Reported) -> io::Result<()> {
     let masses = (0..state.len()).map(|particle| description.mass(state, particle) as f32);
     frame.scalars("particles/mass", masses)
 }
@@ -232,7 +232,7 @@ fn write_box(frame: &mut Frame, description: &Description, step: u64) -> io::Res
     frame.scalars("configuration/box", [x, y, z, xy, xz, 0.0])
 }
 
-fn write_constants(frame: &mut Frame, description: &Description, state: &State) -> io::Result<()> {
+fn write_constants(frame: &mut Frame, description: &Description, state: &Reported) -> io::Result<()> {
     frame.scalars("configuration/dimensions", [description.units.dimension.max(2) as u8])?;
     frame.scalars("particles/N", [state.len() as u32])?;
     frame.arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;

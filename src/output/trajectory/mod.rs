@@ -6,7 +6,7 @@ mod gsd;
 use super::{Extent, Id, OutputError, files, own_file};
 use crate::families::{Angles, Bonds, Model, ShearedBox, Species};
 use crate::scene::TrajectoryFormat;
-use crate::state::{State, Units};
+use crate::state::{Reported, Units};
 use std::fmt::Debug;
 use std::path::Path;
 
@@ -25,7 +25,7 @@ use std::path::Path;
 /// let state = mesoscope::families::initial_state(&scene, &model);
 /// let format = scene::TrajectoryFormat::ExtendedXyz;
 /// let mut trajectory = TrajectoryWriter::create(&path, format, &model, Id::of_run(&scene))?;
-/// trajectory.append(&state)?;
+/// trajectory.append(&state.into())?;
 /// trajectory.flush()?;
 /// let text = std::fs::read_to_string(&path)?;
 /// assert!(text.starts_with("81\n") && text.lines().count() == 2 + 81);
@@ -84,7 +84,7 @@ trait Frames: Debug {
     /// Looks whether the file under this name is still the one that was written.
     fn check(&self) -> Result<(), OutputError>;
     /// Adds a frame.
-    fn append(&mut self, description: &Description, state: &State) -> Result<(), OutputError>;
+    fn append(&mut self, description: &Description, state: &Reported) -> Result<(), OutputError>;
     /// Hands all frames to the disk.
     fn flush(&mut self) -> Result<(), OutputError>;
 }
@@ -102,7 +102,7 @@ struct Description {
     specific_momenta: bool,
     /// Whether particles exchange mass.
     changing_masses: bool,
-    /// Boundaries that shear, if there are any, and half steps since the step began at which its frame has the particles.
+    /// Boundaries that shear, if there are any, and how far their clock is ahead of the steps.
     shear: Option<(ShearedBox, u64)>,
     /// Numbers of bonded particles and kind of the bond.
     bonds: Vec<([u32; 2], u32)>,
@@ -120,7 +120,7 @@ impl Description {
             mass_unit: model.physics().mass_unit(),
             specific_momenta: model.physics().has_specific_momenta(),
             changing_masses: model.physics().changes_masses(),
-            shear: model.particles().shear.map(|shear| (shear, u64::from(model.particles().splits(model)))),
+            shear: model.particles().shear.map(|shear| (shear, model.clock(0))),
             bonds: model
                 .particles()
                 .bonds
@@ -140,18 +140,18 @@ impl Description {
         }
     }
 
-    fn species_of(&self, state: &State, particle: usize) -> &Species {
+    fn species_of(&self, state: &Reported, particle: usize) -> &Species {
         &self.species[state.species[particle] as usize]
     }
 
-    fn mass(&self, state: &State, particle: usize) -> f64 {
+    fn mass(&self, state: &Reported, particle: usize) -> f64 {
         match (self.mass_unit, state.masses.get(particle)) {
             (Some(unit), Some(mass)) => f64::from(*mass) * unit,
             _ => self.species_of(state, particle).mass,
         }
     }
 
-    fn velocity(&self, state: &State, particle: usize) -> [f64; 3] {
+    fn velocity(&self, state: &Reported, particle: usize) -> [f64; 3] {
         let mass = if self.specific_momenta { 1.0 } else { self.mass(state, particle) };
         self.units.momentum(state.momenta[particle]).map(|momentum| momentum / mass)
     }
@@ -159,8 +159,8 @@ impl Description {
     /// The axis across which boundaries shear, and how far the copy of the box above is displaced along x at a step, in edges from -½ to ½:
     /// a shorter vector of the cell does for the same copies.
     fn displaced(&self, step: u64) -> Option<(usize, f64)> {
-        let (shear, halves) = self.shear.as_ref()?;
-        let shift = shear.shift(step.wrapping_mul(2).wrapping_add(*halves)).cast_signed();
+        let (shear, ahead) = self.shear.as_ref()?;
+        let shift = shear.shift(ahead.wrapping_add(step).wrapping_mul(2)).cast_signed();
         Some((shear.gradient, f64::from(shift) / 4_294_967_296.0))
     }
 
@@ -174,13 +174,13 @@ impl Description {
     }
 
     /// Particles in layers behind walls, if there are any.
-    fn frozen_particles(&self, state: &State) -> Option<usize> {
+    fn frozen_particles(&self, state: &Reported) -> Option<usize> {
         let frozen = state.species.iter().filter(|species| self.species[**species as usize].frozen).count();
         (frozen > 0).then_some(frozen)
     }
 
     /// Frames index the arrays of a state by particle and the species by the state: both must fit.
-    fn check(&self, path: &Path, state: &State) -> Result<(), OutputError> {
+    fn check(&self, path: &Path, state: &Reported) -> Result<(), OutputError> {
         let wrong = |problem| OutputError::State { path: path.to_path_buf(), step: state.step, problem };
         if state.momenta.len() != state.len() || state.species.len() != state.len() {
             return Err(wrong("the arrays of the state differ in length"));
@@ -241,7 +241,7 @@ impl TrajectoryWriter {
     /// # Errors
     /// [`OutputError::State`] when the state does not fit the model; [`OutputError::Io`] when a full buffer cannot be
     /// written.
-    pub fn append(&mut self, state: &State) -> Result<(), OutputError> {
+    pub fn append(&mut self, state: &Reported) -> Result<(), OutputError> {
         self.file.append(&self.description, state)
     }
 
@@ -276,7 +276,7 @@ mod tests {
             "interactions": [{"type": "voronoi", "form": "paper", "initial_masses": "uniform-density"}]}"#;
         let scene = scene::parse("t", scene, &[]).unwrap();
         let model = Model::new(&scene);
-        let state = initial_state(&scene, &model);
+        let state: Reported = initial_state(&scene, &model).into();
         let description = Description::new(&model, Id::of_run(&scene));
         assert!(description.changing_masses);
         let masses = [0, 1, 2].map(|cell| description.mass(&state, cell));
@@ -291,7 +291,7 @@ mod tests {
     fn particles_of_water_have_masses_of_their_own_and_tracers_none() {
         let scene = scene::load("jet-instability", &[]).unwrap();
         let model = Model::new(&scene);
-        let state = initial_state(&scene, &model);
+        let state: Reported = initial_state(&scene, &model).into();
         let description = Description::new(&model, Id::of_run(&scene));
         let masses: Vec<f64> = (0..state.len()).map(|particle| description.mass(&state, particle)).collect();
         let nodes = 128.0 * 128.0;

@@ -8,7 +8,7 @@ use crate::plot::{
     Chart, chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart,
 };
 use crate::scene::{Interaction, Scene};
-use crate::state::{State, Units};
+use crate::state::{Reported, Units};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
@@ -269,14 +269,14 @@ impl Chains {
 }
 
 impl OfStates for Chains {
-    fn add(&mut self, state: &State, _: &Model) {
+    fn add(&mut self, state: &Reported, _: &Model) {
         let step = state.step as f64;
         if self.pulses.last().is_some_and(|last| last.step >= step) {
             return;
         }
         let [pulse, thermal] = self.trios.strands();
         let clusters = |number: usize, strand: &Strand| {
-            let (displacements, momenta) = strand.motion(state, &self.units);
+            let (displacements, momenta) = strand.motion(&state.positions, &state.momenta, &self.units);
             match Likeness::ALL[number] {
                 Likeness::Micro => self.trios.pulse.coarse_grained(&displacements, &momenta),
                 _ => (displacements, momenta),

@@ -7,7 +7,7 @@ use crate::numbers::grouped;
 use crate::plan::{Need, Plan, Sampler};
 use crate::plot::Chart;
 use crate::scene::{Output, Scene};
-use crate::state::State;
+use crate::state::Reported;
 use crate::table::Table;
 use serde_json::Value;
 
@@ -142,7 +142,7 @@ pub(super) trait OfSamples: Analysis {
 /// An analysis of states.
 pub(super) trait OfStates: Analysis {
     /// Adds a state with full-step momenta. A step that was added already, before a run went back, is left out.
-    fn add(&mut self, state: &State, model: &Model);
+    fn add(&mut self, state: &Reported, model: &Model);
 }
 
 /// What an analysis leaves.

@@ -8,7 +8,7 @@ use crate::measure::neighbours::{MOST_NEIGHBOURS, NeighbourCounts, RANDOM_POINTS
 use crate::measure::statistics::Estimate;
 use crate::plot::{Chart, neighbours_chart};
 use crate::scene::Scene;
-use crate::state::State;
+use crate::state::Reported;
 use crate::table::Table;
 use crate::tessellation::Tessellation;
 use serde_json::{Value, json};
@@ -54,7 +54,7 @@ struct Counts {
 }
 
 impl OfStates for Counts {
-    fn add(&mut self, state: &State, model: &Model) {
+    fn add(&mut self, state: &Reported, model: &Model) {
         if self.last.is_none_or(|last| last < state.step) {
             self.last = Some(state.step);
             let lengths = [model.units.lengths[0], model.units.lengths[1]];
@@ -118,7 +118,7 @@ mod tests {
     fn samples_survive_a_checkpoint_and_come_once() {
         let scene = super::super::shear_wave::tests::scene();
         let model = Model::new(&scene);
-        let mut state = initial_state(&scene, &model);
+        let mut state: Reported = initial_state(&scene, &model).into();
         let mut counts = Counts::default();
         for step in [0, 10, 10, 5] {
             state.step = step;

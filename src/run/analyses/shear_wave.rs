@@ -6,7 +6,7 @@ use crate::measure::shear_wave::WaveDecay;
 use crate::numbers::with_error;
 use crate::plot::{Chart, shear_wave_chart};
 use crate::scene::{Scene, shear_waves};
-use crate::state::State;
+use crate::state::Reported;
 use crate::table::Table;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -63,7 +63,7 @@ struct Decay {
 }
 
 impl OfStates for Decay {
-    fn add(&mut self, state: &State, model: &Model) {
+    fn add(&mut self, state: &Reported, model: &Model) {
         if self.samples.last().is_none_or(|[last, _]| *last < state.step as f64) {
             self.samples.push([state.step as f64, amplitude(state, model, self.periods)]);
         }
@@ -92,7 +92,7 @@ impl Analysis for Decay {
 }
 
 /// The amplitude of the wave of the velocity along x, 2 Σ P sin(2πny/L) / ΣM.
-fn amplitude(state: &State, model: &Model, periods: f64) -> f64 {
+fn amplitude(state: &Reported, model: &Model, periods: f64) -> f64 {
     let each = state.momenta.iter().zip(&state.positions).map(|(momentum, position)| {
         let turns = f64::from(position[1]) / 4_294_967_296.0 * periods;
         f64::from(momentum[0]) * (TAU * turns).sin()
@@ -186,7 +186,7 @@ pub(super) mod tests {
         let scene = scene();
         let model = Model::new(&scene);
         let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
-        let mut state = initial_state(&scene, &model);
+        let mut state: Reported = initial_state(&scene, &model).into();
         let at = |step: u64, sections: &[(String, Vec<u8>)]| {
             Analyses::new(&scene, &model, &plan, &Sections::new(Path::new("checkpoint.bin"), step, sections))
         };
@@ -222,7 +222,7 @@ pub(super) mod tests {
     fn the_amplitude_is_that_of_the_start() {
         let scene = scene();
         let model = Model::new(&scene);
-        let state = initial_state(&scene, &model);
+        let state: Reported = initial_state(&scene, &model).into();
         // On a lattice the squares of sines add up to a half, which jitter changes to 0.4 √(1/8N) · 2 or so.
         let found = amplitude(&state, &model, 2.0);
         assert!((found - 0.25).abs() < 0.03, "{found}");

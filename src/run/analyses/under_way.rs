@@ -10,7 +10,7 @@ use crate::plan::{Plan, SamplerId};
 use crate::run::RunError;
 use crate::run::sections::{Sections, samples};
 use crate::scene::{AnalysisId, Scene};
-use crate::state::State;
+use crate::state::Reported;
 
 /// An analysis of samples under way.
 struct Sampled {
@@ -114,7 +114,7 @@ impl Analyses {
     }
 
     /// Adds a state to those that take it.
-    pub(in crate::run) fn add_state(&mut self, state: &State, model: &Model) {
+    pub(in crate::run) fn add_state(&mut self, state: &Reported, model: &Model) {
         for observed in self.observed.iter_mut().filter(|observed| observed.is_due(state.step)) {
             observed.analysis.add(state, model);
         }

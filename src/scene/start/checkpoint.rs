@@ -1,7 +1,7 @@
 //! The particles of an earlier run, from its last checkpoint.
 
 use crate::families::{Angles, Bonds, Family, Model};
-use crate::scene::{FileStart, Scene, parse_kept};
+use crate::scene::{EarlierRun, FileStart, Scene, parse_kept};
 use crate::state::{State, StateArray};
 use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
 use crate::state_file::{Fits, Links, Mistake, ParticleFile, frozen_layers, open_regular_file};
@@ -19,8 +19,63 @@ pub(super) fn of(path: &Path) -> Option<PathBuf> {
     (start == MAGIC).then(|| path.to_path_buf())
 }
 
-/// The particles of a checkpoint, in the order and with the positions and velocities that they have there.
-pub(super) fn particles(path: &Path, fits: &Fits<'_>) -> Result<ParticleFile, Mistake> {
+/// An earlier run, as its checkpoint has it.
+#[derive(Debug)]
+pub(super) struct Run {
+    seed: u64,
+    model: Model,
+    state: State,
+}
+
+impl Run {
+    /// What a scene has of it that goes on with it.
+    pub fn earlier(&self) -> EarlierRun {
+        EarlierRun {
+            seed: self.model.seed,
+            steps: self.model.clock(self.state.step),
+            momentum_unit: self.model.units.momentum,
+            expected_velocity: self.model.expected_velocity,
+        }
+    }
+
+    /// Whether a scene has the seed, forces, baths and time step of it, so that it goes on with it: a model of the scene was made with
+    /// [`Self::earlier`].
+    pub fn goes_on_with(&self, scene: &Scene, model: &Model) -> bool {
+        scene.seed == self.seed && model.has_the_steps_of(&self.model)
+    }
+
+    /// The state where the other run begins.
+    pub fn state(&self) -> State {
+        State { step: 0, ..self.state.clone() }
+    }
+
+    /// What of it a scene with other steps cannot take, in words.
+    pub fn forgotten(&self) -> impl Iterator<Item = &'static str> {
+        let there = StateArray::ALL.into_iter().filter(|array| self.state.length(*array) > 0);
+        let mut known: Vec<&str> = Vec::new();
+        there.filter_map(lost).filter(move |lost| {
+            let new = !known.contains(lost);
+            known.push(lost);
+            new
+        })
+    }
+
+    /// Velocities at the report point, where those in a checkpoint are half a step behind: the float64 reference closes the step with
+    /// the forces, baths and time step of the run itself.
+    pub fn velocities(&self) -> Result<Vec<[f64; 3]>, Mistake> {
+        let reference = self.model.physics().reference(&self.model, &self.state);
+        let momenta = reference.and_then(|reference| reference.reported_momenta().ok());
+        let momenta = momenta.ok_or_else(|| damaged("the last step of its run cannot be completed"))?;
+        let velocity = |(momentum, species): (&[i32; 3], &u32)| {
+            self.model.units.momentum(*momentum).map(|part| part / self.model.species[*species as usize].mass)
+        };
+        Ok(momenta.iter().zip(&self.state.species).map(velocity).collect())
+    }
+}
+
+/// The particles of a checkpoint, in the order that they have there, and the run. Their momenta are those with which they came to their
+/// positions.
+pub(super) fn particles(path: &Path, fits: &Fits<'_>) -> Result<(ParticleFile, Run), Mistake> {
     if !path.exists() {
         let found = format!("the directory has no `{FILE}`: no run has saved its state there");
         return Err(Mistake::new("", found, "the directory of a run with a checkpoint, or a file"));
@@ -37,7 +92,9 @@ pub(super) fn particles(path: &Path, fits: &Fits<'_>) -> Result<ParticleFile, Mi
     let start = start.and_then(|(_, bytes)| FileStart::from_bytes(bytes)).map(Arc::new);
     let scene = parse_kept("its scene", &content.scene, &[], start)
         .map_err(|error| damaged(&format!("its scene is refused ({error})")))?;
-    of_state(&scene, &content.state)
+    let model = Model::new(&scene);
+    let particles = of_state(&model, &content.state)?;
+    Ok((particles, Run { seed: scene.seed, model, state: content.state }))
 }
 
 /// Why a checkpoint is refused.
@@ -72,9 +129,8 @@ fn damaged(problem: &str) -> Mistake {
     Mistake::new("", problem, "a checkpoint as a run has left it")
 }
 
-/// The particles of a state of a scene.
-fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
-    let model = Model::new(scene);
+/// The particles of a state of a model.
+fn of_state(model: &Model, state: &State) -> Result<ParticleFile, Mistake> {
     if !matches!(model.family, Family::Particles(_)) || model.particles().chains.is_some() {
         let found = "found a run whose particles have more than a species, a position and a momentum";
         return Err(Mistake::new("", found, "a run of particles with forces between them"));
@@ -88,12 +144,6 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
     }
     let mass = |particle: usize| species(particle).map_or(1.0, |species| species.mass);
     let velocity = |particle: usize| model.units.momentum(state.momenta[particle]).map(|part| part / mass(particle));
-    let mut unused: Vec<String> = Vec::new();
-    for lost in StateArray::ALL.into_iter().filter(|array| state.length(*array) > 0).filter_map(lost) {
-        if !unused.iter().any(|known| known == lost) {
-            unused.push(lost.to_owned());
-        }
-    }
     Ok(ParticleFile {
         species: model.species.iter().map(|species| species.name.clone()).collect(),
         labelled: true,
@@ -101,7 +151,7 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
         masses: model.species.iter().map(|species| Some(species.mass)).collect(),
         dimension: Some(model.units.dimension),
         lengths: Some(model.units.edges()),
-        displacements: displacements(&model, state.step),
+        displacements: displacements(model, model.clock(state.step)),
         positions: state.positions.iter().map(|position| model.units.position(*position)).collect(),
         velocities: (0..state.len()).map(velocity).collect(),
         images: state.images.clone(),
@@ -111,16 +161,15 @@ fn of_state(scene: &Scene, state: &State) -> Result<ParticleFile, Mistake> {
             model.particles().angles.iter().flat_map(Angles::iter).map(|angle| (angle.ends, angle.kind)),
         ),
         tethers: state.tethers.iter().map(|tether| model.units.position(*tether)).collect(),
-        unused,
         ..ParticleFile::default()
     })
 }
 
-/// How far copies of the box above it are displaced along x after so many steps.
-fn displacements(model: &Model, step: u64) -> [f64; 3] {
+/// How far copies of the box above it are displaced along x after so many steps of the clock.
+fn displacements(model: &Model, clock: u64) -> [f64; 3] {
     let mut displacements = [0.0; 3];
     if let Some(shear) = &model.particles().shear {
-        let boxes = f64::from(shear.shift(step.wrapping_mul(2))) / 4_294_967_296.0;
+        let boxes = f64::from(shear.shift(clock.wrapping_mul(2))) / 4_294_967_296.0;
         displacements[shear.gradient] = boxes * model.units.lengths[0];
     }
     displacements
@@ -129,13 +178,15 @@ fn displacements(model: &Model, step: u64) -> [f64; 3] {
 /// What another run cannot take from an array of a state.
 const fn lost(array: StateArray) -> Option<&'static str> {
     match array {
-        // Tethers and images are taken; neighbours are listed anew, and what is put in is counted from the start of each run.
-        StateArray::Tethers | StateArray::Images | StateArray::Anchors | StateArray::Account | StateArray::Walls => {
-            None
-        }
+        // Tethers and images are taken; neighbours are listed anew, and what is put in is counted from the start of such a run.
+        StateArray::Tethers
+        | StateArray::Images
+        | StateArray::Anchors
+        | StateArray::Account
+        | StateArray::Walls
+        | StateArray::Predicted => None,
         StateArray::PairBaths | StateArray::PositionBaths | StateArray::BondBaths => Some("what its baths remember"),
         StateArray::Holds => Some("its coloured noise"),
-        StateArray::Predicted => Some("the momenta that its integrator predicted"),
         StateArray::Masses | StateArray::Energies => Some("masses and energies of single particles"),
         StateArray::NodeMasses | StateArray::NodeBath => Some("what its mesh remembers"),
     }

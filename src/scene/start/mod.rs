@@ -6,12 +6,13 @@ mod molecules;
 mod places;
 mod weight;
 
+use super::semantics;
 use super::{
-    FileStart, FileType, Interaction, KeptStart, OutsidePositions, Placement, Problem, Problems, Scene, SceneError,
-    SpeciesNames, StateFile, StateFiles, StateVelocities, Velocities, Warning, nearest,
+    FileStart, FileType, Interaction, KeptStart, Origin, OutsidePositions, Placement, Problem, Problems, Scene,
+    SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities, Velocities, Warning, nearest,
 };
-use crate::document::number_of_copies;
-use crate::families;
+use crate::document::{FilePlaces, number_of_copies};
+use crate::families::{self, Model};
 use crate::host_memory;
 use crate::numbers::counted;
 use crate::state::MOST_PARTICLES;
@@ -53,8 +54,8 @@ pub(super) fn read(
     if let Some(refusal) = weighing.refusal() {
         return Err(refusal);
     }
-    let file = match read {
-        Ok(file) => file,
+    let (file, run) = match read {
+        Ok(found) => found,
         Err(error) if files.known(&state).is_some() => {
             let found = error.mistakes.first().map(|mistake| mistake.found.clone()).unwrap_or_default();
             return Err(SceneError::StateChanged { path, reason: found });
@@ -64,8 +65,10 @@ pub(super) fn read(
             return Ok(problems);
         }
     };
-    files.check(&path, &state, &places::checksum(&file))?;
-    let mut reader = Reader { state: &state, file: &file, problems, notices: Vec::new() };
+    let checksum = places::checksum(&file);
+    files.check(&path, &state, &checksum)?;
+    let mut reader =
+        Reader { state: &state, file: &file, run, checksum: Some(checksum), problems, notices: Vec::new() };
     reader.adopt(scene, masses);
     notices.extend(reader.notices.into_iter().map(|message| Warning { path: "state.file".to_owned(), message }));
     Ok(reader.problems)
@@ -98,7 +101,7 @@ fn of_molecules(
         outside: OutsidePositions::Refuse,
         checksum: None,
     };
-    let mut reader = Reader { state: &state, file: &file, problems, notices: Vec::new() };
+    let mut reader = Reader { state: &state, file: &file, run: None, checksum: None, problems, notices: Vec::new() };
     reader.adopt(scene, masses);
     notices.extend(reader.notices.into_iter().map(|message| Warning { path: MOLECULES.to_owned(), message }));
     Ok(reader.problems)
@@ -109,16 +112,21 @@ pub(super) fn path(name: &str, file: &str) -> PathBuf {
     Path::new(name).parent().unwrap_or(Path::new("")).join(file)
 }
 
-/// The particles of a file or of a run.
-fn particles(path: &Path, state: &StateFile, fits: &state_file::Fits<'_>) -> Result<ParticleFile, StateFileError> {
+/// The particles of a file, or of a run and that run.
+fn particles(
+    path: &Path,
+    state: &StateFile,
+    fits: &state_file::Fits<'_>,
+) -> Result<(ParticleFile, Option<checkpoint::Run>), StateFileError> {
     let style = state.atom_style.as_deref();
     match checkpoint::of(path) {
         Some(checkpoint) => {
             let all = state_file::only_frame(state.frame).and_then(|()| state_file::no_atom_style(style));
             let all = all.and_then(|()| checkpoint::particles(&checkpoint, fits));
-            all.map_err(|mistake| StateFileError { path: path.to_path_buf(), mistakes: vec![mistake] })
+            all.map(|(file, run)| (file, Some(run)))
+                .map_err(|mistake| StateFileError { path: path.to_path_buf(), mistakes: vec![mistake] })
         }
-        None => state_file::read_fitting(path, state.frame, style, fits),
+        None => state_file::read_fitting(path, state.frame, style, fits).map(|file| (file, None)),
     }
 }
 
@@ -210,6 +218,10 @@ fn group_of(scene: &Scene, species: &str) -> usize {
 struct Reader<'a> {
     state: &'a StateFile,
     file: &'a ParticleFile,
+    /// The run that the file is of, if that is known.
+    run: Option<checkpoint::Run>,
+    /// Of what was read, if anything was.
+    checksum: Option<String>,
     problems: Problems,
     notices: Vec<String>,
 }
@@ -260,15 +272,51 @@ impl Reader<'_> {
         if !self.problems.is_empty() {
             return;
         }
-        self.note_what_is_not_used(scene, dimension);
-        self.note_missing_masses(scene, masses, &species);
         let species_of_scene = SpeciesNames::of(scene).count();
         let mut start =
             places::start(self.file, self.state, &species, (dimension, walled, sheared), lengths, species_of_scene);
         start.surroundings = families::surroundings(scene, &start, &lengths[..dimension]);
         self.check_order(scene, &start);
         self.adopt_checksum(scene);
+        let mut unused = self.file.unused.clone();
+        let start = match self.run.take() {
+            Some(run) => self.continue_run(scene, start, &run, &mut unused),
+            None => FileStart { origin: self.checksum.is_some().then_some(Origin::Anew), ..start },
+        };
+        self.note_what_is_not_used(scene, dimension, unused);
+        self.note_missing_masses(scene, masses, &species);
         scene.kept = KeptStart::of(shared(start));
+    }
+
+    /// A scene with the steps of the run before goes on with it, to the last bit; any other begins at its last report.
+    fn continue_run(
+        &mut self,
+        scene: &mut Scene,
+        mut start: FileStart,
+        run: &checkpoint::Run,
+        unused: &mut Vec<String>,
+    ) -> FileStart {
+        let moves_on = self.state.velocities == StateVelocities::File;
+        if moves_on && start.copies == [1; 3] {
+            let places = start.places.take();
+            start.origin = Some(Origin::Earlier(run.earlier()));
+            scene.kept = KeptStart::of(Arc::new(start.clone()));
+            // A model needs a scene that makes sense.
+            let goes_on = semantics::check(scene).is_empty() && run.goes_on_with(scene, &Model::new(scene));
+            start.places = places.map(|places| FilePlaces { state: goes_on.then(|| run.state()), ..places });
+            if goes_on {
+                return start;
+            }
+        }
+        start.origin = Some(Origin::Anew);
+        if moves_on {
+            match run.velocities() {
+                Ok(velocities) => places::set_in_motion(&mut start, &velocities, scene.space.lengths.len()),
+                Err(mistake) => refuse(self.state, vec![mistake], &mut self.problems),
+            }
+        }
+        unused.extend(run.forgotten().map(str::to_owned));
+        start
     }
 
     /// The box of the file; that of the scene follows from it, or has to be the same.
@@ -589,7 +637,7 @@ impl Reader<'_> {
 
     /// A checksum in the scene has to be that of what was read.
     fn adopt_checksum(&mut self, scene: &mut Scene) {
-        let found = places::checksum(self.file);
+        let Some(found) = self.checksum.clone() else { return };
         if let Some(given) = self.state.checksum.as_ref().filter(|given| **given != found) {
             let found = format!("found \"{given}\", and \"{found}\" of `{}`", self.state.file);
             self.push("state.checksum", found, "the file as it was, or no `checksum`");
@@ -600,8 +648,7 @@ impl Reader<'_> {
     }
 
     /// Says what is in the file, and nowhere in the scene.
-    fn note_what_is_not_used(&mut self, scene: &Scene, dimension: usize) {
-        let mut unused = self.file.unused.clone();
+    fn note_what_is_not_used(&mut self, scene: &Scene, dimension: usize, mut unused: Vec<String>) {
         let mut note = |noun: &str, names: Vec<&str>| {
             if !names.is_empty() {
                 unused.push(format!(

@@ -29,17 +29,6 @@ pub(super) fn start(
     let positions: Vec<[u32; 3]> = fractions(&file.positions);
     let species: Vec<u8> =
         file.types.iter().map(|kind| species.get(*kind as usize).copied().flatten().unwrap_or(0)).collect();
-    let mut fastest = vec![0.0_f64; species_of_scene];
-    let mut velocities = Vec::new();
-    if state.velocities == StateVelocities::File {
-        let flat =
-            |velocity: &[f64; 3]| std::array::from_fn(|axis| if axis < dimension { velocity[axis] } else { 0.0 });
-        velocities = file.velocities.iter().map(flat).collect();
-        for (velocity, species) in velocities.iter().zip(&species) {
-            let most = &mut fastest[usize::from(*species)];
-            *most = velocity.iter().fold(*most, |most: f64, part: &f64| most.max(part.abs()));
-        }
-    }
     let image = |(particle, position): (usize, &[f64; 3])| -> [i32; 3] {
         let (image, folded) = (file.images.get(particle).copied().unwrap_or_default(), folded(position));
         std::array::from_fn(|axis| if axis < dimension { image[axis].saturating_add(folded[axis].1) } else { 0 })
@@ -51,14 +40,26 @@ pub(super) fn start(
     let bonds = file.bonds.iter().map(|links| of_box.links(links)).collect();
     let angles = file.angles.iter().map(|links| of_box.links(links)).collect();
     let tethers = fractions(&file.tethers);
-    FileStart {
-        copies,
-        species,
-        fastest,
-        bonds,
-        angles,
-        surroundings: None,
-        places: Some(FilePlaces { positions, velocities, images, tethers }),
+    let places = Some(FilePlaces { positions, velocities: Vec::new(), images, tethers, state: None });
+    let fastest = vec![0.0; species_of_scene];
+    let mut start = FileStart { copies, species, fastest, bonds, angles, surroundings: None, origin: None, places };
+    if state.velocities == StateVelocities::File {
+        set_in_motion(&mut start, &file.velocities, dimension);
+    }
+    start
+}
+
+/// Gives particles velocities, of which so many components count.
+pub(super) fn set_in_motion(start: &mut FileStart, velocities: &[[f64; 3]], dimension: usize) {
+    start.fastest.fill(0.0);
+    let flat = |velocity: &[f64; 3]| std::array::from_fn(|axis| if axis < dimension { velocity[axis] } else { 0.0 });
+    let velocities: Vec<[f64; 3]> = velocities.iter().map(flat).collect();
+    for (velocity, species) in velocities.iter().zip(&start.species) {
+        let most = &mut start.fastest[usize::from(*species)];
+        *most = velocity.iter().fold(*most, |most: f64, part: &f64| most.max(part.abs()));
+    }
+    if let Some(places) = &mut start.places {
+        places.velocities = velocities;
     }
 }
 

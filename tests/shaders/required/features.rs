@@ -39,6 +39,12 @@ fn no_other_paths(scene: &mut Value) {
     write(scene, "diffusion", Value::Null);
 }
 
+/// Nothing that keeps the momenta of a report.
+fn no_momenta(scene: &mut Value) {
+    no_analyses(scene);
+    write(scene, "trajectory", Value::Null);
+}
+
 /// Pairs without friction.
 fn without_frictions(scene: &mut Value) {
     leave_out(scene, "dpd", &["pairs", "bath", "friction", "many_body"]);
@@ -619,7 +625,7 @@ pub fn features() -> Vec<Feature> {
         },
         Feature {
             name: "autocorrelation of velocities",
-            ground: no_analyses,
+            ground: no_momenta,
             with: |scene| {
                 write(
                     scene,
@@ -665,7 +671,7 @@ pub fn features() -> Vec<Feature> {
         },
         Feature {
             name: "histogram of velocities",
-            ground: no_analyses,
+            ground: no_momenta,
             with: |scene| {
                 write(scene, "histograms", json!([{"quantity": "velocity", "every": 2, "range": 9, "frame": "box"}]));
             },
@@ -684,7 +690,7 @@ pub fn features() -> Vec<Feature> {
         },
         Feature {
             name: "histogram of speeds",
-            ground: no_analyses,
+            ground: no_momenta,
             with: |scene| {
                 write(scene, "histograms", json!([{"quantity": "speed", "every": 2, "range": 9, "frame": "box"}]));
             },
@@ -786,7 +792,7 @@ pub fn features() -> Vec<Feature> {
             with: |scene| write(scene, "trajectory", json!({"every": 5})),
             without: |scene| write(scene, "trajectory", Value::Null),
             own: Some(&["kernel follow", "array paths"]),
-            more: &["follow", "follow_tracers", "paths"],
+            more: &["follow", "follow_tracers", "paths", "reported_momenta"],
             instead: &[],
             always: true,
         },

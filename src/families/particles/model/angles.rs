@@ -9,7 +9,7 @@ pub struct Angles {
     /// Stiffness k of each interaction `angles`, in order.
     pub stiffness: Vec<f64>,
     /// The angles, interaction by interaction.
-    runs: Runs<3>,
+    pub(crate) runs: Runs<3>,
 }
 
 /// An angle.

@@ -40,20 +40,20 @@ pub struct Strand {
 }
 
 impl Strand {
-    /// Displacements and momenta of the beads in a state, free of where the chain crosses the edges of the box.
+    /// Displacements and momenta of the beads among those of all particles, free of where the chain crosses the edges of the box.
     #[must_use]
-    pub fn motion(&self, state: &State, units: &Units) -> (Vec<f64>, Vec<f64>) {
+    pub fn motion(&self, positions: &[[u32; 3]], momenta: &[[i32; 3]], units: &Units) -> (Vec<f64>, Vec<f64>) {
         let beads = self.first..self.first + self.chain.beads;
         let mut before = self.ends[0];
         let mut displacement = 0.0;
         let displacements = beads.clone().map(|bead| {
-            let apart = units.displacement(state.positions[bead], state.positions[before])[0];
+            let apart = units.displacement(positions[bead], positions[before])[0];
             before = bead;
             displacement += apart - self.spacing;
             displacement
         });
         let displacements = displacements.collect();
-        (displacements, state.momenta[beads].iter().map(|momentum| units.momentum(*momentum)[0]).collect())
+        (displacements, momenta[beads].iter().map(|momentum| units.momentum(*momentum)[0]).collect())
     }
 
     /// Places and moves the beads of a state.
@@ -249,18 +249,18 @@ mod tests {
         trios.fill(&mut state, &UNITS, 1);
         let [pulse, thermal] = trios.strands();
         let shape = super::super::Pulse { amplitude: 5.0, width: 1.0 };
-        let (beads, still) = pulse[0].motion(&state, &UNITS);
+        let (beads, still) = pulse[0].motion(&state.positions, &state.momenta, &UNITS);
         for (found, expected) in beads.iter().zip(shape.displacements(&CHAIN)) {
             assert!((found - expected).abs() < 1e-7);
         }
         let clusters = CHAIN.coarse_grained(&beads, &still).0;
         for strand in &pulse[1..] {
-            let (found, still) = strand.motion(&state, &UNITS);
+            let (found, still) = strand.motion(&state.positions, &state.momenta, &UNITS);
             assert!(found.iter().zip(&clusters).all(|(found, expected)| (found - expected).abs() < 1e-6));
             assert!(still.iter().all(|momentum| *momentum == 0.0));
         }
         // Different draws, none of them at rest.
-        let momenta = thermal.map(|strand| strand.motion(&state, &UNITS).1);
+        let momenta = thermal.map(|strand| strand.motion(&state.positions, &state.momenta, &UNITS).1);
         assert!(momenta.iter().flatten().all(|momentum| *momentum != 0.0));
         assert_ne!(momenta[1], momenta[2]);
     }

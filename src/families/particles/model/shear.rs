@@ -16,6 +16,11 @@ pub struct ShearedBox {
     first: u32,
 }
 
+/// What a displacement has grown by after some halves of time steps, in 2⁻³² of the box.
+fn grown(halves: u64, increment: u64) -> u32 {
+    (halves.wrapping_mul(increment) >> 32) as u32
+}
+
 impl ShearedBox {
     /// That of a scene; none at a rate of zero, unless boundaries are displaced.
     pub(crate) fn of(scene: &Scene) -> Option<Self> {
@@ -26,11 +31,14 @@ impl ShearedBox {
         let velocity = shear.rate * edge(gradient);
         let boxes = (0.5 * scene.time.step * velocity / edge(0)).fract();
         let increment = (boxes * 2_f64.powi(64)).round_ties_even() as i128 as u64;
-        Some(Self { gradient, velocity, increment, first: shear.first_shift(&scene.space.lengths) })
+        // That of the scene is where they are when its first step begins.
+        let steps = scene.earlier_run().map_or(0, |earlier| earlier.steps);
+        let first = shear.first_shift(&scene.space.lengths).wrapping_sub(grown(steps.wrapping_mul(2), increment));
+        Some(Self { gradient, velocity, increment, first })
     }
 
-    /// How far the copy of the box above it is displaced along x after some halves of time steps, in 2⁻³² of the box: exactly, after any
-    /// number of them.
+    /// How far the copy of the box above it is displaced along x after some halves of time steps of the [clock](Model::clock), in 2⁻³² of
+    /// the box: exactly, after any number of them.
     ///
     /// ```
     /// use mesoscope::{families::Model, scene};
@@ -45,10 +53,10 @@ impl ShearedBox {
     /// ```
     #[must_use]
     pub fn shift(&self, halves: u64) -> u32 {
-        self.first.wrapping_add((halves.wrapping_mul(self.increment) >> 32) as u32)
+        self.first.wrapping_add(grown(halves, self.increment))
     }
 
-    /// How far it is displaced at the start, in the same unit.
+    /// How far it is displaced where the clock begins, in the same unit.
     #[must_use]
     pub fn first_shift(&self) -> u32 {
         self.first

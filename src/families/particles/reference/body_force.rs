@@ -39,7 +39,7 @@ fn impulse(model: &Model, forces: &BodyForces, species: u32, place: [u32; 3], st
 pub(super) fn impulses(model: &Model, state: &State) -> Option<Vec<[i64; 3]>> {
     let forces = model.particles().body_forces.as_ref()?;
     let particles = state.species.iter().zip(&state.positions);
-    Some(particles.map(|(species, place)| impulse(model, forces, *species, *place, state.step)).collect())
+    Some(particles.map(|(species, place)| impulse(model, forces, *species, *place, model.clock(state.step))).collect())
 }
 
 /// Adds the impulses of all particles in the step of a state, if there are body forces.
@@ -51,7 +51,9 @@ pub(super) fn kick(model: &Model, state: &State, kick: &mut [[i64; 3]]) {
 
 /// The work over the drift that has brought the particles where they are.
 fn work(model: &Model, state: &State, masses: &[f64], impulses: &[[i64; 3]]) -> f64 {
-    let Some(forces) = model.particles().body_forces.as_ref().filter(|_| state.step > 0) else { return 0.0 };
+    let Some(forces) = model.particles().body_forces.as_ref().filter(|_| model.clock(state.step) > 0) else {
+        return 0.0;
+    };
     let parts = if model.particles().splits(model) { 2 } else { 1 };
     let drifts = end_of_step::drifts(model, masses, &state.momenta, parts);
     let mut work = 0.0;
@@ -64,7 +66,7 @@ fn work(model: &Model, state: &State, masses: &[f64], impulses: &[[i64; 3]]) -> 
             let start = walls::before(model, state, particle, parts);
             (start.place, start.momentum)
         };
-        let first = impulse(model, forces, state.species[particle], before, state.step - 1);
+        let first = impulse(model, forces, state.species[particle], before, model.clock(state.step) - 1);
         for axis in 0..3 {
             let sum = first[axis] as f64 * first_momentum[axis] as f64
                 + impulses[particle][axis] as f64 * momentum[axis] as f64;
@@ -83,7 +85,7 @@ fn sum(impulses: &[[i64; 3]]) -> [i64; 3] {
 pub(super) fn account(model: &Model, state: &State, masses: &[f64]) -> Vec<Account> {
     let Some(impulses) = impulses(model, state) else { return Vec::new() };
     let so_far = state.account.first().copied().unwrap_or_default();
-    let halves = if state.step > 0 { 2 } else { 1 };
+    let halves = if model.clock(state.step) > 0 { 2 } else { 1 };
     let [given, sum] = [so_far.momentum(), sum(&impulses)];
     let work = (work(model, state, masses, &impulses) / quanta(model).energy).round() as i64;
     vec![Account::new(std::array::from_fn(|axis| given[axis] + halves * sum[axis]), so_far.work() + work)]
@@ -94,7 +96,7 @@ pub(super) fn put_in(model: &Model, state: &State, masses: &[f64]) -> PutIn {
     let Some(impulses) = impulses(model, state) else { return PutIn::default() };
     let so_far = state.account.first().copied().unwrap_or_default();
     let [given, sum] = [so_far.momentum(), sum(&impulses)];
-    let closed = if state.step > 0 { sum } else { [0; 3] };
+    let closed = if model.clock(state.step) > 0 { sum } else { [0; 3] };
     PutIn {
         momentum: std::array::from_fn(|axis| (given[axis] + closed[axis]) as f64 * model.units.momentum),
         work: so_far.work() as f64 * quanta(model).energy + work(model, state, masses, &impulses),

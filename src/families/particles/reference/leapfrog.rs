@@ -46,7 +46,7 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
     body_force::kick(model, state, &mut kick);
     let mut momenta = widen(&state.momenta);
     // The momenta of step 0 are those of the report point already.
-    if state.step > 0 {
+    if model.clock(state.step) > 0 {
         add(&mut momenta, &kick);
     }
     Report { momenta, kick, virials }
@@ -62,7 +62,7 @@ pub(super) fn half_kicks(
     kick: &mut [[i64; 3]],
     virials: &mut Virials,
 ) {
-    let key = noise::step_key(model.seed, stream::PAIR, state.step);
+    let key = noise::step_key(model.seed, stream::PAIR, model.clock(state.step));
     let densities = Densities::of(model, state.len(), found);
     for pair in found {
         let forces = Forces::between(model, &state.species, pair);

@@ -25,7 +25,7 @@ use crate::document::Integrator;
 use crate::families::Model;
 use crate::families::Observables;
 use crate::families::reference::{Unstable, add, narrow};
-use crate::state::State;
+use crate::state::{Reported, State};
 use pairs::Pair;
 use shear::Images;
 use stress::Virials;
@@ -121,11 +121,11 @@ impl Reference {
     ///
     /// # Errors
     /// [`Unstable`] when a momentum does not fit the integer state or a bond is too long.
-    pub fn reported_state(&self) -> Result<State, Unstable> {
+    pub fn reported_state(&self) -> Result<Reported, Unstable> {
         let mut momenta = self.report(&self.pairs())?.momenta;
         layers::hold(&self.model, &self.state, &mut momenta);
         let momenta = narrow(&momenta, self.state.step)?;
-        Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
+        Ok(Reported { momenta, ..self.state.clone().into() })
     }
 
     /// The share of each particle of the virials at the report point, for the stress.

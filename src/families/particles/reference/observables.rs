@@ -39,7 +39,7 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
 pub(super) fn observe(reference: &Reference, configuration: &State, halves: u64, report: &Report) -> Observables {
     let (model, state) = (&reference.model, &reference.state);
     let motion = of_motion(model, state, &reference.masses, &report.momenta);
-    let images = Images::after(model, state.step.wrapping_mul(2).wrapping_add(halves));
+    let images = Images::after(model, model.clock(state.step).wrapping_mul(2).wrapping_add(halves));
     of_configuration(model, configuration, &images, &Observables { total_virial: report.virials.total, ..motion })
 }
 

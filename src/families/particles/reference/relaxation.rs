@@ -13,7 +13,7 @@ use crate::state::State;
 /// p' = c p + √(mkT(1 - c²)) ξ with c = exp(-γdt/m).
 pub(super) fn of_particles(model: &Model, state: &State, masses: &[f64], momenta: &mut [[i64; 3]]) {
     let Some(bath) = model.particles().position_bath.as_ref().filter(|bath| !bath.memory) else { return };
-    let key = noise::step_key(model.seed, stream::PARTICLE, state.step);
+    let key = noise::step_key(model.seed, stream::PARTICLE, model.clock(state.step));
     for (particle, momentum) in momenta.iter_mut().enumerate() {
         let mass = masses[particle];
         let friction = 0.5 * model.time_step * bath.steps[state.species[particle] as usize].coupling;
@@ -34,7 +34,7 @@ pub(super) fn of_bonds(model: &Model, state: &State, masses: &[f64], momenta: &m
         return;
     };
     let images = Images::of_step(model, state.step);
-    let key = noise::step_key(model.seed, stream::BOND, state.step);
+    let key = noise::step_key(model.seed, stream::BOND, model.clock(state.step));
     for (place, bond) in bonds.rounds().into_iter().flatten() {
         let kind = &bonds.kinds[bond.kind as usize];
         let Some(bath) = &kind.bath else { continue };

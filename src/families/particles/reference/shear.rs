@@ -32,7 +32,7 @@ impl<'a> Images<'a> {
 
     /// Those of a model where a step begins.
     pub fn of_step(model: &'a Model, step: u64) -> Self {
-        Self::after(model, step.wrapping_mul(2))
+        Self::after(model, model.clock(step).wrapping_mul(2))
     }
 
     /// Whether boundaries shear.
@@ -86,7 +86,7 @@ pub(super) fn move_on(
         let jump = i64::from(shear.jump(state.species[particle] as usize, model));
         for part in 1..=parts {
             let halves = (2 * part / of_parts) as u64;
-            let shift = i64::from(shear.shift(state.step.wrapping_mul(2).wrapping_add(halves)));
+            let shift = i64::from(shear.shift(model.clock(state.step).wrapping_mul(2).wrapping_add(halves)));
             let mut place = state.positions[particle].map(i64::from);
             for axis in 0..3 {
                 let velocity = momentum[axis] as f64 * model.units.momentum / masses[particle];

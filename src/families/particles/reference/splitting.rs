@@ -78,7 +78,7 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Un
     }
     body_force::kick(model, state, &mut kick);
     let mut momenta = widen(&state.momenta);
-    if state.step > 0 {
+    if model.clock(state.step) > 0 {
         add(&mut momenta, &kick);
         relaxation::of_particles(model, state, &reference.masses, &mut momenta);
         relaxation::of_bonds(model, state, &reference.masses, &mut momenta, &mut virials);
@@ -94,7 +94,7 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Un
 /// The sums of the impulses of O, whose virials over the time of a step are added.
 fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]], virials: &mut Virials) -> Vec<[i64; 3]> {
     let (model, state) = (&reference.model, &reference.state);
-    let key = noise::step_key(model.seed, stream::PAIR, state.step);
+    let key = noise::step_key(model.seed, stream::PAIR, model.clock(state.step));
     let couplings: Vec<_> = found
         .iter()
         .map(|pair| {

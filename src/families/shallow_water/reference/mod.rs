@@ -38,7 +38,7 @@ use crate::families::Observables;
 use crate::families::reference::{Unstable, bath, drift};
 use crate::families::{Model, ShallowWater};
 use crate::noise::{self, stream};
-use crate::state::State;
+use crate::state::{Reported, State};
 use depth::{Smoothing, spread};
 use motion::{Motion, half_kick};
 
@@ -205,10 +205,10 @@ impl ShallowWaterReference {
     ///
     /// # Errors
     /// As [`Self::observe`].
-    pub fn reported_state(&self) -> Result<State, Unstable> {
+    pub fn reported_state(&self) -> Result<Reported, Unstable> {
         let velocities = self.report()?.velocities;
         let momenta = velocities.iter().map(|[u, v]| [*u as i32, *v as i32, 0]).collect();
-        Ok(State { momenta, ..self.state.clone() })
+        Ok(Reported { momenta, ..self.state.clone().into() })
     }
 
     fn report(&self) -> Result<Report, Unstable> {

@@ -38,7 +38,7 @@ use crate::families::Observables;
 use crate::families::reference::{Unstable, drift, whole_fractions};
 use crate::families::{Model, Voronoi};
 use crate::noise::{self, stream};
-use crate::state::State;
+use crate::state::{Reported, State};
 use crate::tessellation::{self, Tessellation};
 use exchange::{Exchange, Ledger};
 use faces::{Cells, Face, dot};
@@ -128,8 +128,8 @@ impl VoronoiReference {
     ///
     /// # Errors
     /// None; the other references have some.
-    pub fn reported_state(&self) -> Result<State, Unstable> {
-        Ok(self.state.clone())
+    pub fn reported_state(&self) -> Result<Reported, Unstable> {
+        Ok(self.state.clone().into())
     }
 
     /// The step of the integrator `splitting`.

@@ -642,13 +642,16 @@ impl Builder<'_> {
         Ordered { choices: self.choices(), kernels: Vec::new(), grid: self.grid, needs_report: self.splits() }
     }
 
-    /// Keeps the momenta of a split step's report, where an analysis needs them.
+    /// Keeps the momenta of a split step's report, where an analysis or a trajectory needs them: analyses of a sheared box without those of
+    /// the flow.
     fn momenta(&mut self) -> Option<pairs::ReportedMomentum> {
-        if !self.measured.needs(Need::Momenta) {
+        let analysed = self.measured.needs(Need::Momenta);
+        if !analysed && !self.measured.frames {
             return None;
         }
         self.plan.add_buffer(Array::ReportedMomenta, 16 * self.particles);
-        Some(if self.is_sheared() { pairs::ReportedMomentum::Peculiar } else { pairs::ReportedMomentum::Kept })
+        let peculiar = analysed && self.is_sheared();
+        Some(if peculiar { pairs::ReportedMomentum::Peculiar } else { pairs::ReportedMomentum::Kept })
     }
 
     /// Keeps the forces of a report, where an analysis needs them.

@@ -31,7 +31,7 @@ pub(super) fn kick(
     bath_sums: &mut BathSums,
     virials: &mut Virials,
 ) -> Result<Vec<u32>, Unstable> {
-    let key = noise::step_key(model.seed, stream::BOND, state.step);
+    let key = noise::step_key(model.seed, stream::BOND, model.clock(state.step));
     let images = Images::of_step(model, state.step);
     let mut baths = state.bond_baths.clone();
     for (index, bond) in bonds.iter().enumerate() {
@@ -47,7 +47,7 @@ pub(super) fn kick(
             let seen = if step.remembers() { None } else { motion.approach(&pair) };
             let change = seen.unwrap_or_else(|| motion.change_of_distance(&pair));
             let kept = baths.get_mut(index);
-            let value = bath::at_report(step, kind.temperature, state.step, kept, change, gaussian);
+            let value = bath::at_report(step, kind.temperature, model.clock(state.step), kept, change, gaussian);
             bath_sums.add(step, value);
             friction = -value;
         }

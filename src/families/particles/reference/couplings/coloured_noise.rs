@@ -19,7 +19,7 @@ pub(super) fn advance(model: &Model, noise: &ColouredNoise, state: &State) -> He
     let count = state.len();
     let mut held = Held { closing: vec![[0; 3]; count], opening: vec![[0; 3]; count], holds: state.holds.clone() };
     for (particle, hold) in held.holds.iter_mut().enumerate() {
-        if state.step > 0 {
+        if model.clock(state.step) > 0 {
             push(&mut held.closing[particle], half_step(model, noise, particle as u32, hold), model.units.momentum);
         }
         push(&mut held.opening[particle], half_step(model, noise, particle as u32, hold), model.units.momentum);

@@ -31,7 +31,7 @@ use crate::families::particles::reference::stress::{Virial, Virials};
 use crate::families::particles::reference::{body_force, end_of_step, layers};
 use crate::families::reference::bath::BathSums;
 use crate::families::reference::{Unstable, add, narrow, widen};
-use crate::state::State;
+use crate::state::{Reported, State};
 
 /// A model of couplings and baths and its state, stepped on the CPU: the reference of every scene whose model
 /// [is coupled](crate::families::Particles::are_coupled).
@@ -120,11 +120,11 @@ impl CouplingsReference {
     ///
     /// # Errors
     /// [`Unstable`] when a momentum does not fit the integer state or a bond is too long.
-    pub fn reported_state(&self) -> Result<State, Unstable> {
+    pub fn reported_state(&self) -> Result<Reported, Unstable> {
         let mut momenta = self.evaluate()?.momenta;
         layers::hold(&self.model, &self.state, &mut momenta);
         let momenta = narrow(&momenta, self.state.step)?;
-        Ok(State { momenta, predicted: Vec::new(), ..self.state.clone() })
+        Ok(Reported { momenta, ..self.state.clone().into() })
     }
 
     /// The share of each particle of the virials at the report point, for the stress.
@@ -167,7 +167,7 @@ impl CouplingsReference {
 
         let mut momenta = widen(&state.momenta);
         let mut opening = kick.clone();
-        if state.step > 0 {
+        if model.clock(state.step) > 0 {
             add(&mut momenta, &kick);
         }
         if let Some(noise) = model.particles().coloured_noise.as_ref() {

@@ -21,7 +21,7 @@ pub(super) fn renew(model: &Model, force: &PairForce, state: &State) -> (Vec<Pai
     if listed && !state.positions.iter().zip(&state.anchors).any(is_far) {
         return (state.pair_baths.clone(), state.anchors.clone());
     }
-    let key = noise::step_key(model.seed, stream::PAIR_START, state.step);
+    let key = noise::step_key(model.seed, stream::PAIR_START, model.clock(state.step));
     let excluded = super::pairs::excluded_pairs(model);
     let pairs = find_pairs(&Images::of_step(model, state.step), &state.positions, force.cutoff + force.skin);
     let mut numbers: Vec<[u32; 2]> = pairs.iter().map(|pair| [pair.first as u32, pair.second as u32]).collect();
@@ -48,5 +48,11 @@ fn fresh(model: &Model, force: &PairForce, state: &State, key: [u32; 2], [first,
     let value =
         step.deviation(force.temperature) * noise::gaussian(noise::words(model.generator, key, [first, second]));
     let memory = (step.persistence * value) as f32;
-    PairBath { first, second, memory: memory.to_bits(), stamp: (state.step as u32).wrapping_sub(1), spared: 0 }
+    PairBath {
+        first,
+        second,
+        memory: memory.to_bits(),
+        stamp: (model.clock(state.step) as u32).wrapping_sub(1),
+        spared: 0,
+    }
 }

@@ -29,7 +29,7 @@ pub(super) fn kick(
         leapfrog::half_kicks((model, force), state, motion, &found, &excluded_pairs(model), kick, virials);
         return;
     }
-    let key = noise::step_key(model.seed, stream::PAIR, state.step);
+    let key = noise::step_key(model.seed, stream::PAIR, model.clock(state.step));
     for memory in baths {
         let (first, second) = (memory.first as usize, memory.second as usize);
         let pair = Pair::of(&images, &state.positions, first, second);
@@ -39,14 +39,14 @@ pub(super) fn kick(
         let species = [first, second].map(|end| state.species[end] as usize);
         let step = force.bath_step(species[0], species[1], model.time_step);
         let gaussian = noise::gaussian(noise::words(model.generator, key, [memory.first, memory.second]));
-        let steps = (state.step as u32).wrapping_sub(memory.stamp);
+        let steps = (model.clock(state.step) as u32).wrapping_sub(memory.stamp);
         let remembered = f64::from(f32::from_bits(memory.memory));
         // At step 0 the pair has always been where it is, and its bath is at rest.
         let coupled = coupling(force, species, pair.distance);
-        let change = if state.step == 0 { 0.0 } else { coupled };
+        let change = if model.clock(state.step) == 0 { 0.0 } else { coupled };
         let value = bath::recalled(&step, force.temperature, remembered, steps, change, gaussian);
         let kept = step.persistence * value - step.response() * coupled;
-        (memory.memory, memory.stamp) = ((kept as f32).to_bits(), state.step as u32);
+        (memory.memory, memory.stamp) = ((kept as f32).to_bits(), model.clock(state.step) as u32);
         let forces = Forces::between(model, &state.species, &pair);
         let repulsion = if memory.spared == 1 { 0.0 } else { forces.potential.force() };
         pairs::push_apart(model, &pair, repulsion - forces.weight * value, kick);

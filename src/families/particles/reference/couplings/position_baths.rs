@@ -16,7 +16,7 @@ pub(super) fn kick(
     kick: &mut [[i64; 3]],
     bath_sums: &mut BathSums,
 ) -> Vec<[u32; 3]> {
-    let key = noise::step_key(model.seed, stream::PARTICLE, state.step);
+    let key = noise::step_key(model.seed, stream::PARTICLE, model.clock(state.step));
     let mut baths = state.position_baths.clone();
     for (particle, sum) in kick.iter_mut().enumerate() {
         let step = &bath.steps[state.species[particle] as usize];
@@ -25,7 +25,7 @@ pub(super) fn kick(
         for axis in 0..model.units.dimension {
             let gaussian = noise::gaussian(noise::words(model.generator, key, [particle as u32, axis as u32]));
             let kept = baths.get_mut(particle).map(|bath| &mut bath[axis]);
-            let value = bath::at_report(step, bath.temperature, state.step, kept, drift[axis], gaussian);
+            let value = bath::at_report(step, bath.temperature, model.clock(state.step), kept, drift[axis], gaussian);
             if !is_fixed(model, state, particle) {
                 bath_sums.add(step, value);
             }
