@@ -9,10 +9,11 @@ use serde::{Deserialize, Serialize};
 pub enum Integrator {
     /// Splitting A(½) B(½) O B(½) A(½) with the pair velocities relaxed at the half-drifted positions; one neighbour
     /// traversal per step. The default: both temperatures are within about one per cent at a step of 0.04 in the
-    /// standard fluid; with strong friction they are too low unless `relaxation` has two stages. Baths without memory
-    /// on particles and along bonds relax exactly. In Voronoi DPD O is friction and noise by Crank-Nicolson.
+    /// standard fluid. Baths without memory on particles and along bonds relax exactly. In Voronoi DPD O is friction and
+    /// noise by Crank-Nicolson.
     Splitting {
-        /// How O relaxes pairs that share particles; `mean-field` unless it is given.
+        /// How O relaxes pairs that share particles. Left out, `mean-field`, unless that is expected to leave the temperature or the
+        /// viscosity of the scene more than 1 % too low: then `two-stages`. The scene in run.json has the choice.
         #[serde(default, skip_serializing_if = "Option::is_none")]
         relaxation: Option<PairRelaxation>,
     },
@@ -61,15 +62,15 @@ impl Default for Integrator {
 }
 
 /// How the integrator `splitting` relaxes the velocities of pairs that share particles, at positions that stand still.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum PairRelaxation {
-    /// All pairs at once, each at the rate that its particles feel on average: one visit of the pairs. The temperature is low
-    /// by a share that grows with friction times step, and more so that of long waves.
-    #[default]
+    /// All pairs at once, each at the rate that its particles feel on average: one visit of the pairs. Exact for a pair alone. Friction of
+    /// a flow is too weak and the temperature too low by shares that grow with friction times step.
     MeanField,
-    /// The same in two stages with the same Gaussian noise, which leave every mode of the velocities at its temperature within
-    /// 1.1 %, up to a friction that relaxes velocities 20 times over in a step: two visits of the pairs.
+    /// The same in two stages with the same Gaussian noise, which leave the friction of a flow, up to a friction that relaxes most of
+    /// a velocity in a step, and the temperature, up to one that relaxes it 20 times over: two visits of the pairs. Diffusion is a few per
+    /// cent too slow.
     TwoStages,
 }
 

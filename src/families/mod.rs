@@ -38,7 +38,7 @@ pub use model::{Model, Species};
 pub use observables::{BathProducts, CellObservables, Observables, OnWalls, PutIn};
 pub use particles::Particles;
 pub(crate) use particles::chains::mirrored;
-pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, FRICTION_LIMIT};
+pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, MOST_IN_STAGES, RelaxationErrors, TOLERANCE};
 pub use particles::model::{
     Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
     HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SpringChain, Strand,
@@ -46,7 +46,7 @@ pub use particles::model::{
 pub(crate) use particles::surroundings;
 pub use pictures::PictureKind;
 pub use registry::Family;
-pub(crate) use registry::{check_interactions, complete};
+pub(crate) use registry::{check_interactions, complete, settle};
 pub(crate) use shallow_water::model::{LARGEST_DEPTH, chebyshev_iterations};
 pub use shallow_water::model::{ShallowWater, Tracers};
 pub use start::{initial_state, start_in_words};
@@ -164,6 +164,11 @@ pub(crate) trait Physics {
 
     /// Means in equilibrium that are known exactly, of the motion and of the scheme.
     fn exact_means(&self, _: &Model) -> Vec<ExactMean> {
+        Vec::new()
+    }
+
+    /// What is expected of the errors that a step of the scene makes, measure by measure, in words.
+    fn estimates(&self, _: &Model) -> Vec<String> {
         Vec::new()
     }
 

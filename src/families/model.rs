@@ -288,6 +288,12 @@ impl Model {
         self.physics().unneeded(scene, self)
     }
 
+    /// What is expected of the errors that its step makes, measure by measure, in words.
+    #[must_use]
+    pub fn estimates(&self) -> Vec<String> {
+        self.physics().estimates(self)
+    }
+
     /// Warnings about its scene.
     #[must_use]
     pub fn warnings(&self, scene: &Scene) -> Vec<Warning> {

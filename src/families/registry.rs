@@ -1,6 +1,6 @@
 //! All families of models.
 
-use super::{Particles, Physics, ShallowWater, Species, Voronoi, particles, shallow_water, voronoi};
+use super::{Model, Particles, Physics, ShallowWater, Species, Voronoi, particles, shallow_water, voronoi};
 use crate::document::{Integrator, Interaction, Problem, Problems, Scene, SnapshotColor, SpeciesNames};
 
 /// A family, with what a model of it has.
@@ -94,5 +94,16 @@ pub(crate) fn complete(scene: &mut Scene, integrator: bool, colour: bool) {
         let first = species.next();
         let several = species.any(|other| Some(other) != first);
         scene.output.snapshot.color = if several { SnapshotColor::Species } else { SnapshotColor::Density };
+    }
+}
+
+/// Completes what depends on how all else of a scene without mistakes acts together: the rule by which pairs relax.
+pub(crate) fn settle(scene: &mut Scene) {
+    if scene.integrator != (Integrator::Splitting { relaxation: None }) {
+        return;
+    }
+    let model = Model::new(scene);
+    if model.particles().relaxes_pairs(&model) {
+        scene.integrator = Integrator::Splitting { relaxation: Some(model.advisable_relaxation()) };
     }
 }

@@ -11,12 +11,13 @@ pub struct Builtin {
 }
 
 /// What `mesoscope tradeoff` found of some of them: its summaries.
-pub(crate) const CALIBRATIONS: [&str; 14] = [
+pub(crate) const CALIBRATIONS: [&str; 15] = [
     include_str!("../../assets/calibration/binary-mixture.json"),
     include_str!("../../assets/calibration/couette.json"),
     include_str!("../../assets/calibration/diblock-copolymer.json"),
     include_str!("../../assets/calibration/dpd-fluid.json"),
     include_str!("../../assets/calibration/dpd-fluid-2d.json"),
+    include_str!("../../assets/calibration/dpd-fluid-two-stages.json"),
     include_str!("../../assets/calibration/drop.json"),
     include_str!("../../assets/calibration/edpd-fluid.json"),
     include_str!("../../assets/calibration/langevin-gas.json"),

@@ -235,11 +235,13 @@ fn parse_checked(
         }
     }
     if reading.problems.is_empty() && unreadable.is_empty() {
-        let scene = reading.scene.map_err(|message| SceneError::SchemaMismatch { name: name.to_owned(), message })?;
+        let mut scene =
+            reading.scene.map_err(|message| SceneError::SchemaMismatch { name: name.to_owned(), message })?;
         let mut problems = semantics::check(&scene);
         // What needs a model or a start needs a scene that makes sense.
         let further = !problems.is_empty();
         if !further {
+            families::settle(&mut scene);
             families::check(&scene, step, &mut problems);
         }
         return if problems.is_empty() { Ok((scene, reading.notices)) } else { Err(invalid(name, problems, further)) };

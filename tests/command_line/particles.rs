@@ -414,8 +414,9 @@ fn check_fails_where_its_own_trial_does() {
 fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
     let said = succeeds(&["check", "-v", "dpd-fluid"]);
     for part in [
-        "by theory up to a step of 0.129 (oscillation ω dt = 2)",
-        "by experience up to a step of 0.133 (friction Γ dt = 1/4)",
+        "advisable up to 0.0407 (1 % of the temperature, by repulsion); stable by theory up to 0.129 (oscillation ω dt = 2)",
+        "temperature +0.1 % (-0.9 % by friction in one stage, +1.0 % by repulsion), configurational temperature -0.7 %",
+        "viscosity up to -0.5 % (friction of a flow -3.1 %), diffusion within 2 %",
         "as measured with a step of 0.04 (DPD fluid, 20",
         "`mesoscope stability dpd-fluid` runs it with longer and longer steps",
     ] {
@@ -438,7 +439,7 @@ fn check_predicts_how_far_a_scene_may_go_and_what_it_pays_for() {
     let forgotten = ["interactions.1.bath.rate=1000", "output.energies.every=1"];
     let said = succeeds(&["check", "-v", "gle-oscillator", "--set", forgotten[0], "--set", forgotten[1]]);
     for part in [
-        "by theory up to a step of 1.24 (B + W = 4)",
+        "by theory up to 1.24 (B + W = 4)",
         "reports: about 50 % of the time",
         "the memory of interactions[1]: at a rate of 1000 a step leaves nothing of it",
     ] {

@@ -24,7 +24,7 @@ fn base() -> Value {
 #[test]
 fn the_base_is_right_and_keeps_its_integrator() {
     let scene = DRIVEN.accepted(&[]);
-    assert_eq!(scene.integrator, mesoscope::scene::Integrator::default());
+    assert!(matches!(scene.integrator, mesoscope::scene::Integrator::Splitting { relaxation: Some(_) }));
     assert_eq!(DRIVEN.warnings(&[]), Vec::<String>::new());
 }
 

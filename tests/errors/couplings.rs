@@ -39,14 +39,14 @@ fn scenes_of_couplings_have_an_integrator_of_their_own() {
     let integrator = |overrides: &[&str]| CHAINS.parse(overrides).unwrap().integrator;
     // Bonds and angles without a bath are no couplings of their own, and beside pairs what remembers nothing is none.
     for beside in [&[][..], &["interactions.1.friction=1"], &[r#"interactions.2={"type":"langevin","friction":1}"#]] {
-        assert_eq!(integrator(beside), Integrator::default());
+        assert!(matches!(integrator(beside), Integrator::Splitting { relaxation: Some(_) }), "{beside:?}");
     }
     let alone = r#"interactions=[{"type":"bonds","friction":1}]"#;
     let memory = r#"interactions.1.bath={"type":"memory","rate":2}"#;
     assert_eq!(integrator(&[alone]), Integrator::CotterReich {});
     assert_eq!(integrator(&["interactions.1.friction=1", memory]), Integrator::CotterReich {});
     let fluid = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
-    assert_eq!(integrator(&[fluid]), Integrator::Splitting { relaxation: None });
+    assert!(matches!(integrator(&[fluid]), Integrator::Splitting { relaxation: Some(_) }));
     assert_eq!(integrator(&[fluid, LINE]), Integrator::CotterReich {});
     assert_eq!(integrator(&[fluid, "particles.1.fixed=true"]), Integrator::CotterReich {});
 }

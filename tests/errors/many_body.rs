@@ -20,7 +20,7 @@ fn base() -> Value {
 #[test]
 fn the_base_is_right_and_keeps_its_integrator() {
     let scene = LIQUID.accepted(&[]);
-    assert_eq!(scene.integrator, mesoscope::scene::Integrator::default());
+    assert!(matches!(scene.integrator, mesoscope::scene::Integrator::Splitting { relaxation: Some(_) }));
     // Attraction alone would be warned of.
     assert_eq!(LIQUID.warnings(&[]), Vec::<String>::new());
     assert!(LIQUID.warnings(&["interactions.0.many_body.repulsion=0"]).join(" ").contains("collapse"));

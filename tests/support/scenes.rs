@@ -2,8 +2,8 @@
 
 use mesoscope::scene::{self, Scene};
 
-/// Splitting with relaxation of the pair velocities, the default.
-pub const SPLITTING: &str = r#"integrator={"type":"splitting"}"#;
+/// Splitting with relaxation of the pair velocities in one stage.
+pub const SPLITTING: &str = r#"integrator={"type":"splitting","relaxation":"mean-field"}"#;
 /// The same in two stages.
 pub const STAGED: &str = r#"integrator={"type":"splitting","relaxation":"two-stages"}"#;
 /// Groot and Warren's integrator with λ = ½, whose friction sees the momenta themselves.

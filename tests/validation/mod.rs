@@ -7,5 +7,6 @@ mod micelles;
 mod phases;
 mod published;
 mod readers;
+mod relaxation;
 mod shear;
 mod states;

@@ -2,18 +2,15 @@
 // relax, observe_first_stage, observe_motion.
 //
 // With H the matrix of the frictions c of all pairs and N their noise, of covariance 2kT H, the stages multiply to
-//     p' = (1 - H + b H^2) p + (1 - (1 - 1/sqrt(2)) H) N,   b = (sqrt(2) - 1)^2 / 2,
-// after which a mode of eigenvalue h of H has the temperature kT (1 + b^2 h^4 / (1 - (1 - h + b h^2)^2)). A mode that relaxes at the
-// rate s of pairs/rates gets the h for which 1 - h + b h^2 = exp(-s), at most 1.1, and each pair c = g h/s.
+//     p' = (1 - H + b H^2) p + (1 - (1 + 2b)/4 H) N,   b = .095.
+// Slow modes relax by the friction itself, so that a pair has c = g, as long as the rate s of pairs/rates at which it relaxes among the
+// others does not exceed the limit up to which that is stable with something to spare; beyond, c = g limit/s.
 override STAGE_FRICTION: f32; // part of the friction that this stage has
 override STAGE_NOISE: f32;    // amplitude of the noise of this stage, over sqrt(kT c / 2)
-const STAGE_CURVATURE: f32 = 0.34314575; // 4 b
+const STAGE_LIMIT: f32 = 1.3; // of the rate
 
-// h(s) / s
-fn staged_share(s: f32) -> f32 {
-    let share = relaxed_share(s);
-    return 2.0 * share / (1.0 + sqrt(1.0 - STAGE_CURVATURE * s * share));
-}
+// c / g
+fn staged_share(s: f32) -> f32 { return STAGE_LIMIT / max(s, STAGE_LIMIT); }
 
 // As `relaxation_impulse` of the variant relaxation, of one stage.
 fn relaxation_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle) -> f32 {

@@ -14,7 +14,7 @@ use mesoscope::numbers::{bytes, grouped};
 use mesoscope::plan::{Hardware, Options, Part, Plan};
 use mesoscope::printable;
 use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
-use mesoscope::scene::{Integrator, Scene};
+use mesoscope::scene::{Integrator, PairRelaxation, Scene};
 
 use super::table::{aligned, dimensions};
 use super::{AdapterArgument, Failure, RanksArgument, SceneArguments, heading, print, print_exactly};
@@ -26,9 +26,9 @@ The time is an estimate: a few steps are run on the adapter and timed, of the sc
 That takes about a quarter of a second, and the adapter has to start and compile the kernels first; without an adapter there is no \
 estimate.
 
-`accuracy` is what was measured of a scene of the same physics and is shipped with the program. With -v, `stable` and `reliable` are what \
-theory and experience say of the time step. `mesoscope stability SCENE` measures how far a scene of your own may go, `mesoscope tradeoff` \
-how far off it is.
+`accuracy` is what was measured of a scene of the same physics and is shipped with the program, `expected` what experience says of \
+the errors of a step. With -v, `largest step` is the largest that theory and experience advise. `mesoscope stability SCENE` measures how far a \
+scene of your own may go, `mesoscope tradeoff` how far off it is.
 
 Exit code 0 means that the adapter (the one named, else the best) can run the scene, and that its first steps went well.
 
@@ -97,6 +97,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         ("files", format!("about {}, and {} in the memory of an adapter", bytes(sizes.total()), bytes(plan.bytes()))),
         ("accuracy", predictions::accuracy(&arguments.scene.as_argument(), &scene)),
     ];
+    rows.extend(predictions::expected(&model));
     rows.extend(model.composition(&scene));
     let verbose = arguments.verbose || arguments.kernels;
     if verbose {
@@ -178,6 +179,8 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, trial: Tried<'_>) -> Vec<
     let lengths: Vec<String> = scene.space.lengths.iter().map(ToString::to_string).collect();
     let integrator = match scene.integrator {
         Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
+        Integrator::Splitting { relaxation: Some(PairRelaxation::MeanField) } => "splitting, one stage".to_owned(),
+        Integrator::Splitting { relaxation: Some(PairRelaxation::TwoStages) } => "splitting, two stages".to_owned(),
         _ => scene.integrator.name().to_owned(),
     };
     let memory = match (plan.particles, &plan.part) {

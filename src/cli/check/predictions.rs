@@ -24,6 +24,12 @@ pub fn accuracy(source: &str, scene: &Scene) -> String {
     calibration::expected(scene).map_or_else(unknown, |expected| expected.to_string())
 }
 
+/// What is expected of the errors of a step, where that is known of the forces of the scene.
+pub fn expected(model: &Model) -> Option<(&'static str, String)> {
+    let estimates = model.estimates();
+    (!estimates.is_empty()).then(|| ("expected", estimates.join(", ")))
+}
+
 /// Rows of the overview.
 pub fn rows(
     source: &str,
@@ -33,10 +39,14 @@ pub fn rows(
 ) -> Vec<(&'static str, String)> {
     let steps = families::largest_steps(scene);
     let largest = |beyond: Beyond| steps.iter().find(|largest| largest.beyond == beyond);
-    let words = |largest: &LargestStep| format!("up to a step of {} ({})", three_digits(largest.step), largest.law);
+    let words = |largest: &LargestStep| format!("up to {} ({})", three_digits(largest.step), largest.law);
     let mut rows = Vec::new();
-    rows.extend(largest(Beyond::Unstable).map(|largest| ("stable", format!("by theory {}", words(largest)))));
-    rows.extend(largest(Beyond::Biased).map(|largest| ("reliable", format!("by experience {}", words(largest)))));
+    let advisable = largest(Beyond::Biased).map(|largest| format!("advisable {}", words(largest)));
+    let stable = largest(Beyond::Unstable).map(|largest| format!("stable by theory {}", words(largest)));
+    let both: Vec<String> = [advisable, stable].into_iter().flatten().collect();
+    if !both.is_empty() {
+        rows.push(("largest step", both.join("; ")));
+    }
     if !steps.is_empty() && scene.time.steps > 0 {
         rows.push(("measure", format!("`mesoscope stability {source}` runs it with longer and longer steps")));
     }

@@ -1,8 +1,9 @@
 //! What `check` says of particles.
 
 use super::CoupledLayout;
+use crate::document::PairRelaxation;
 use crate::families::Model;
-use crate::numbers::six_digits;
+use crate::numbers::{six_digits, three_digits};
 use crate::plan::Plan;
 
 /// The list of neighbours and what its pairs take.
@@ -24,4 +25,32 @@ pub(super) fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)>
         list.capacity
     );
     Some(("list", text))
+}
+
+/// What a step in which pairs relax is expected to do to temperatures and transport.
+pub(super) fn estimates(model: &Model) -> Vec<String> {
+    let Some(errors) = model.relaxation() else { return Vec::new() };
+    let percent = |part: f64| if part.abs() < 5e-5 { "0".to_owned() } else { format!("{:+.1} %", 100.0 * part) };
+    let stages = match errors.rule {
+        PairRelaxation::MeanField => "one stage",
+        PairRelaxation::TwoStages => "two stages",
+    };
+    let mut found = vec![format!(
+        "temperature {} ({} by friction in {stages}, {} by repulsion)",
+        percent(errors.hot - errors.cold),
+        percent(-errors.cold),
+        percent(errors.hot)
+    )];
+    if errors.tight > 0.0 {
+        found.push(format!("configurational temperature {}", percent(-errors.tight)));
+    }
+    let viscosity =
+        if errors.viscosity > 5e-5 { format!("up to {}", percent(-errors.viscosity)) } else { "0".to_owned() };
+    found.push(format!("viscosity {viscosity} (friction of a flow {})", percent(-errors.friction)));
+    found.push(if errors.diffusion > 0.0 {
+        format!("diffusion about {}, low by {} at most", percent(-errors.slow), three_digits(errors.diffusion))
+    } else {
+        "diffusion within 2 %".to_owned()
+    });
+    found
 }

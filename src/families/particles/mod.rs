@@ -301,6 +301,10 @@ impl Physics for Particles {
         oscillators::means(model)
     }
 
+    fn estimates(&self, model: &Model) -> Vec<String> {
+        description::estimates(model)
+    }
+
     fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {
         warnings::warnings(self, scene, model)
     }

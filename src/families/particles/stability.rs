@@ -9,7 +9,10 @@
 use crate::document::{
     Bath, BondPotential, BondsInteraction, FileStart, Integrator, Interaction, Problem, Problems, Scene, Warning, brief,
 };
-use crate::families::{Alike, BathStep, Beyond, Bond, BondKind, Bonds, FREQUENCY_LIMIT, Limit, Model, Particles};
+use crate::families::{
+    Alike, BathStep, Beyond, Bond, BondKind, Bonds, FREQUENCY_LIMIT, Limit, MOST_IN_STAGES, Model, Particles,
+    RelaxationErrors, TOLERANCE,
+};
 use std::sync::Arc;
 
 /// B + W beyond which nothing is stable.
@@ -23,9 +26,6 @@ const CLEAN: f64 = 1.0;
 /// temperature long before.
 const MOST_RELAXATION: f64 = 250.0;
 const NEIGHBOURS: f64 = 3.0;
-
-/// The same in two stages, which are stable at any friction: half of what the sums of rates of a particle hold.
-pub(super) const MOST_IN_STAGES: f64 = 20.0;
 
 /// Radians by which the stiffest crowd of neighbours oscillates in a step. Fluids have been seen to become unstable between
 /// 1.8 and 2.4 of the estimate; that of ever more neighbours is 2.1, of waves in an even density.
@@ -166,19 +166,27 @@ pub(super) fn limits(particles: &Particles, scene: &Scene, model: &Model) -> Vec
     let pairs = particles.pair_force.as_ref();
     let friction = pairs.map_or(0.0, |force| model.largest_friction_rate(force).0);
     let frequency = pairs.map_or(0.0, |force| model.largest_repulsion_frequency(force).0);
-    vec![
+    let mut limits = vec![
         Limit { law: "B + W = 4", share: strain / LIMIT, beyond: Beyond::Unstable },
         Limit { law: "oscillation ω dt = 2", share: 0.5 * frequency * step, beyond: Beyond::Unstable },
-        Limit {
-            law: if model.particles().relaxes_in_two_stages(model) {
-                "friction Γ dt = 3/4"
-            } else {
-                "friction Γ dt = 1/4"
-            },
-            share: friction * step / model.friction_limit(),
-            beyond: Beyond::Biased,
-        },
+    ];
+    let biased = |(law, share): (&'static str, f64)| Limit { law, share, beyond: Beyond::Biased };
+    match model.relaxation() {
+        Some(errors) => limits.extend(of_relaxation(&errors).map(biased)),
+        None => limits.push(biased(("friction Γ dt = 1/4", friction * step / model.friction_limit()))),
+    }
+    limits
+}
+
+/// The errors of a step in units of what is tolerated, with what they are of and what makes them.
+fn of_relaxation(errors: &RelaxationErrors) -> [(&'static str, f64); 4] {
+    [
+        ("1 % of the temperature, by friction in one stage", errors.cold),
+        ("1 % of the viscosity, by friction that a step weakens", errors.viscosity),
+        ("1 % of diffusion, by friction in two stages", errors.slow),
+        ("1 % of the temperature, by repulsion", errors.hot),
     ]
+    .map(|(law, error)| (law, error / TOLERANCE))
 }
 
 fn worst(strains: &[Strain]) -> Option<Strain> {

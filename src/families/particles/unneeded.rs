@@ -1,22 +1,22 @@
 //! Choices that cost time and change nothing that is likely to be measured.
 
-use crate::document::{Distribution, Scene, brief};
-use crate::families::{FRICTION_LIMIT, Model, Particles};
+use crate::document::{Distribution, PairRelaxation, Scene, brief};
+use crate::families::{Model, Particles};
 
 /// All of them in a scene, in words.
 pub(super) fn unneeded(particles: &Particles, scene: &Scene, model: &Model) -> Vec<String> {
     let Some(force) = particles.pair_force.as_ref().filter(|force| force.has_friction()) else { return Vec::new() };
     let staged = particles.relaxes_in_two_stages(model);
     let relaxed = model.largest_friction_rate(force).0 * scene.time.step;
-    if relaxed > FRICTION_LIMIT {
+    if relaxed > model.friction_limit() || model.advisable_relaxation() == PairRelaxation::TwoStages {
         return Vec::new();
     }
     let mut found = Vec::new();
     if staged {
         found.push(format!(
-            "friction in two stages, 1.5 times the time of a step: a step relaxes {} of a velocity, and one stage is reliable up to {}",
-            brief(relaxed),
-            FRICTION_LIMIT
+            "friction in two stages, 1.5 times the time of a step: a step relaxes {} of a velocity, and one stage has the temperature and the \
+             viscosity within 1 %",
+            brief(relaxed)
         ));
     }
     if scene.noise.distribution == Distribution::Gaussian && !staged && !force.remembers() {

@@ -2,10 +2,11 @@
 
 use super::stability;
 use crate::document::{
-    BondPotential, ColouredNoiseInteraction, Interaction, NoiseProcess, Placement, Scene, Warning, brief,
+    BondPotential, ColouredNoiseInteraction, Interaction, NoiseProcess, PairRelaxation, Placement, Scene, Warning,
+    brief,
 };
 use crate::families::warnings::{warn, warn_of_momentum};
-use crate::families::{FREQUENCY_LIMIT, Model, PairForce, Particles, Species};
+use crate::families::{FREQUENCY_LIMIT, MOST_IN_STAGES, Model, PairForce, Particles, Species};
 
 /// All warnings about a scene.
 pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Warning> {
@@ -186,24 +187,32 @@ fn warn_of_loose_chains(scene: &Scene, warnings: &mut Vec<Warning>) {
 fn warn_of_friction(scene: &Scene, model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
     let step = scene.time.step;
     let (rate, index) = model.largest_friction_rate(force);
-    let limit = model.friction_limit();
-    if rate * step > limit {
-        let staged = model.particles().relaxes_in_two_stages(model);
-        let more_stages = model.particles().splits(model) && !staged && rate * step < stability::MOST_IN_STAGES;
-        warn(
-            warnings,
-            "time.step",
+    let (relaxed, limit) = (rate * step, model.friction_limit());
+    let one_stage = model.relaxation().filter(|errors| errors.rule == PairRelaxation::MeanField);
+    let (exceeds, effect) = match one_stage {
+        Some(errors) => (
+            model.advisable_relaxation() == PairRelaxation::TwoStages || relaxed > limit,
             format!(
-                "friction relaxes the velocities of `{}` at a mean rate of {}, by {} in one step of {step}; \
-                 {} up to {limit}, a step of {:.2e}{}",
-                model.species[index].name,
-                brief(rate),
-                brief(rate * step),
-                if staged { "diffusion is reliable" } else { "temperatures are reliable" },
-                limit / rate,
-                if more_stages { ", and here too with `integrator.relaxation=two-stages`" } else { "" }
+                "one stage leaves the temperature about {:.1} % low by that and the viscosity up to {:.1} %{}",
+                100.0 * errors.cold,
+                100.0 * errors.viscosity,
+                if relaxed < MOST_IN_STAGES { ", which `integrator.relaxation=two-stages` does not" } else { "" }
             ),
+        ),
+        None if model.particles().relaxes_in_two_stages(model) => (
+            relaxed > limit,
+            format!("viscosity and diffusion are reliable up to {limit}, a step of {:.2e}", limit / rate),
+        ),
+        None => (relaxed > limit, format!("temperatures are reliable up to {limit}, a step of {:.2e}", limit / rate)),
+    };
+    if exceeds {
+        let message = format!(
+            "friction relaxes the velocities of `{}` at a mean rate of {}, by {} in one step of {step}; {effect}",
+            model.species[index].name,
+            brief(rate),
+            brief(relaxed),
         );
+        warn(warnings, "time.step", message);
     }
 }
 

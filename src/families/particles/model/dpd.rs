@@ -172,6 +172,17 @@ impl PairForce {
         }
     }
 
+    /// r² times a power of the friction weight ω of two species, integrated over that sphere.
+    #[must_use]
+    pub(crate) fn weighted_square(&self, a: usize, b: usize, dimension: usize, power: f64) -> f64 {
+        let exponent = power * self.weight_exponent(a, b);
+        // The integral of x^(d + 1) (1 - x)^n over 0 to 1.
+        let beta = (0..=dimension + 1).fold(1.0 / (exponent + 1.0), |beta, factor| {
+            if factor == 0 { beta } else { beta * factor as f64 / (exponent + 1.0 + factor as f64) }
+        });
+        dimension as f64 * self.sphere(a, b, dimension) * self.cutoff_between(a, b).powi(2) * beta
+    }
+
     /// rc |V''| of the conservative force between two species, at most.
     #[must_use]
     pub fn stiffness(&self, a: usize, b: usize) -> f64 {

@@ -4,10 +4,10 @@ use super::PairForce;
 use crate::families::{Model, Species};
 
 /// Friction that relaxes a velocity by more than this in one step is not resolved.
-pub(crate) const FRICTION_LIMIT: f64 = 0.25;
+const FRICTION_LIMIT: f64 = 0.25;
 
 /// The same of friction that relaxes in two stages: temperatures are right beyond it too, but here particles diffuse a tenth too
-/// fast, and with more friction they diffuse as if it were less.
+/// slowly, and more friction is weakened.
 const STAGED_FRICTION_LIMIT: f64 = 0.75;
 
 /// A harmonic oscillator of frequency ω is stable in a Verlet scheme up to ω·dt = 2; half of it leaves some accuracy.
@@ -22,15 +22,18 @@ impl Model {
     /// The largest mean friction rate of any species that has particles, and its index: Γ = Σ γρ \[ω\] / (d·m) at the densities ρ around it, with \[ω\]
     /// the weight integrated over the sphere (disc).
     pub(crate) fn largest_friction_rate(&self, force: &PairForce) -> (f64, usize) {
+        self.largest(|index| self.friction_rate(force, index))
+    }
+
+    /// The mean friction rate of a species.
+    pub(super) fn friction_rate(&self, force: &PairForce, index: usize) -> f64 {
         let dimension = self.units.dimension;
-        self.largest(|index| {
-            // In units of the weight of the species with itself.
-            let unit = force.weight_volume(index, index, dimension);
-            let of_pair = |(other, density): (usize, f64)| {
-                force.friction(index, other) * density * (force.weight_volume(index, other, dimension) / unit)
-            };
-            self.densities(index).map(of_pair).sum::<f64>() * unit / (dimension as f64 * self.species[index].mass)
-        })
+        // In units of the weight of the species with itself.
+        let unit = force.weight_volume(index, index, dimension);
+        let of_pair = |(other, density): (usize, f64)| {
+            force.friction(index, other) * density * (force.weight_volume(index, other, dimension) / unit)
+        };
+        self.densities(index).map(of_pair).sum::<f64>() * unit / (dimension as f64 * self.species[index].mass)
     }
 
     /// The part of a velocity that friction may relax in one step.
