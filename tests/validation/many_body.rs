@@ -41,7 +41,7 @@ fn a_slab_has_the_published_surface_tension_and_density() {
         Measured { mean, error }
     };
     let stress = &summary["results"]["stress"];
-    let tension = of(&stress["surface_tension"]);
+    let tension = of(&stress["surface_tension_conservative"]);
     let profile = slab.table("out", "profiles.csv");
     let densities = profile.column("number_density").unwrap();
     // Wherever the slab has moved to: a quarter of the box about its middle holds liquid only.
