@@ -12,7 +12,7 @@ use crate::families::Species;
 use std::f64::consts::{PI, TAU};
 
 /// Particles whose neighbours are counted, at most; of more, some.
-const MOST_CENTRES: usize = 1 << 15;
+const MOST_CENTRES: usize = 1 << 13;
 
 /// The order k of the moments.
 const ORDER: u32 = 4;
