@@ -48,7 +48,8 @@ pub(crate) fn check_to_continue(path: &Path) -> io::Result<()> {
             "it has another name (a hard link), under which it would change too: replace it by a copy",
         ));
     }
-    drop(found);
+    #[cfg(not(unix))]
+    let _ = found;
     Ok(())
 }
 

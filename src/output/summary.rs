@@ -361,9 +361,10 @@ impl Summary {
         let mut content: serde_json::Map<_, _> = own_file::json(path)?;
         // Earlier versions of the program noted none.
         let noted = content.shift_remove(CHECKSUM);
-        match noted.is_none_or(|noted| noted == own_file::checksum_of([&content.into()])) {
-            true => Ok(summary),
-            false => Err(OutputError::Edited { path: path.to_path_buf() }),
+        if noted.is_none_or(|noted| noted == own_file::checksum_of([&content.into()])) {
+            Ok(summary)
+        } else {
+            Err(OutputError::Edited { path: path.to_path_buf() })
         }
     }
 }

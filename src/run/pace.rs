@@ -59,7 +59,7 @@ impl Pace {
     /// Steps a second, but for the first batch; none as long as no other one is done.
     pub(super) fn rate(&self) -> Option<f64> {
         let (done, spent) = self.warm?;
-        let (steps, seconds) = (self.done - done, (self.spent - spent).as_secs_f64());
+        let (steps, seconds) = (self.done - done, self.spent.saturating_sub(spent).as_secs_f64());
         (steps > 0 && seconds > 0.0).then(|| steps as f64 / seconds)
     }
 
