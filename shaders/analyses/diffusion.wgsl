@@ -20,15 +20,15 @@ fn track_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     if (id < PARTICLES) {
         let particle = stored_particle(id);
         var tracker = trackers[id];
-        let images = paths[id].images + crossings(paths[id].last, particle.position);
+        let turns = paths[id].images + crossings(paths[id].last, particle.position);
         if (samples[0].y % WINDOW == 0u) {
-            tracker = Tracker(particle.position, images, particle.momentum);
+            tracker = Tracker(particle.position, turns, particle.momentum);
             trackers[id] = tracker;
         }
         // 64-bit difference from the origin, as a real number.
         let low = particle.position - tracker.origin;
         let borrow = select(vec4<i32>(0), vec4<i32>(1), particle.position < tracker.origin);
-        let high = images - tracker.images - borrow;
+        let high = turns - tracker.images - borrow;
         let parts = vec4<f32>(high) * 4294967296.0 + vec4<f32>(low);
         let travelled = component_lengths(parts);
         squared = sum64_of_f32(dot(travelled, travelled) * DISPLACEMENT);

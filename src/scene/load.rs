@@ -220,6 +220,8 @@ fn parse_checked(
     step: StepCheck,
     source: Source<'_>,
 ) -> Result<(Scene, Vec<Warning>), SceneError> {
+    // A run that was begun without a rule of relaxation goes on without one.
+    let is_kept = matches!(source, Source::Kept(_));
     let mut reading = Reading::of(name, text, overrides, steps, Substitute::Least)?;
     let mut unreadable = Problems::default();
     if let Ok(scene) = &mut reading.scene {
@@ -241,7 +243,9 @@ fn parse_checked(
         // What needs a model or a start needs a scene that makes sense.
         let further = !problems.is_empty();
         if !further {
-            families::settle(&mut scene);
+            if !is_kept {
+                families::settle(&mut scene);
+            }
             families::check(&scene, step, &mut problems);
         }
         return if problems.is_empty() { Ok((scene, reading.notices)) } else { Err(invalid(name, problems, further)) };

@@ -342,7 +342,8 @@ fn long_commands_are_correct() {
                 "make" => assert!(makefile.contains(&format!("\n{}:", command[1])), "{place}: no such target"),
                 "cargo" => {
                     for test in values(&command, "--test") {
-                        assert!(root().join(format!("tests/{test}/main.rs")).exists(), "{place}: no such test");
+                        let sources = ["/main.rs", ".rs"].map(|end| root().join(format!("tests/{test}{end}")));
+                        assert!(sources.iter().any(|source| source.exists()), "{place}: no such test");
                     }
                 }
                 other => panic!("{place}: nobody knows whether `{other}` works"),

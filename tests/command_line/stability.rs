@@ -301,7 +301,7 @@ fn runs_on_their_way_to_equilibrium_are_not_certain() {
     assert!(!said.contains("verdicts are within two standard errors"), "{said}");
 }
 
-/// Friction of 24 is right three times beyond the step at which its law expects temperatures to be off.
+/// Temperatures are within a tolerance of 10 % beyond the step at which repulsion is expected to heat by 1 %.
 #[test]
 fn laws_of_accuracy_are_compared_with_where_bias_begins() {
     let place = place();
@@ -313,7 +313,10 @@ fn laws_of_accuracy_are_compared_with_where_bias_begins() {
         ["--set", "time.equilibration=100", "--tolerance", "10%", "--bisections", "0", "--vary"].map(str::to_owned);
     let arguments: Vec<String> = own.chain(set).chain(vary).chain(["time.step=0.01,0.04,0.14".to_owned()]).collect();
     let said = succeeds(&borrowed(&arguments));
-    assert!(said.contains("runs become biased at 3.") && said.contains("what the law friction"), "{said}");
+    assert!(
+        said.contains("runs become biased at 1.") && said.contains("what the law 1 % of the temperature"),
+        "{said}"
+    );
 }
 
 /// A law does not vanish where the range ends before it.

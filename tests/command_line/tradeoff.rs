@@ -771,7 +771,7 @@ fn mistakes_are_named_before_anything_runs() {
         fails(&borrowed(&arguments), code, parts);
         assert!(!place.path("out").exists());
     }
-    fails(&["tradeoff", "--resume", &place.argument("nowhere")], 5, &["there is no tradeoff in"]);
+    fails(&["tradeoff", "--resume", &place.argument("nowhere")], 5, &["is no directory"]);
 }
 
 /// A run of a day is announced and not begun.

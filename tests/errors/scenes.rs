@@ -58,7 +58,7 @@ fn an_override_that_goes_nowhere_hides_no_other_mistake() {
     assert_eq!(
         FLUID.problems(&["particles.3.count=1", "time.stp=1", "temperature=-1", "seed"]),
         [
-            "override `particles.3.count=1`: found `3`; accepted: an index from 0 to 1 of the list `particles`",
+            "override `particles.3.count=1`: found `3`; accepted: an index from 0 to 1 of the list `particles`; `particles.2=…` appends to it",
             "override `seed`: found no `=`; accepted: path.to.key=value, as in time.step=0.02",
             "time.stp: unknown key; did you mean `step`? accepted: step, steps, equilibration",
             "temperature: found -1; accepted: a number, zero or positive",

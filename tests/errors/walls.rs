@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::support::mistakes::Correct;
+use mesoscope::scene::{Integrator, PairRelaxation};
 
 const CHANNEL: Correct = Correct(base);
 
@@ -20,7 +21,7 @@ fn base() -> Value {
 #[test]
 fn the_base_is_right_and_keeps_its_integrator() {
     let scene = CHANNEL.accepted(&[]);
-    assert_eq!(scene.integrator, mesoscope::scene::Integrator::default());
+    assert_eq!(scene.integrator, Integrator::Splitting { relaxation: Some(PairRelaxation::MeanField) });
     assert_eq!(CHANNEL.warnings(&[]), Vec::<String>::new());
 }
 
@@ -179,7 +180,7 @@ fn layer(changes: &[&str]) -> String {
 #[test]
 fn layers_behind_walls() {
     let scene = CHANNEL.accepted(&[&layer(&[])]);
-    assert_eq!(scene.integrator, mesoscope::scene::Integrator::default());
+    assert_eq!(scene.integrator, Integrator::Splitting { relaxation: Some(PairRelaxation::MeanField) });
     assert_eq!(CHANNEL.warnings(&[&layer(&[])]), Vec::<String>::new());
     let (model, state) = crate::support::start(&scene);
     assert_eq!((model.mobile_particles(), state.len()), (300, 900));

@@ -108,8 +108,9 @@ fn splitting_by_hand() {
     let exact = -0.1 * (-1.44_f64 * 0.1 / 0.5).exp();
     let run = Reference::with_relaxation(model.clone(), state.clone(), Relaxation::Exponential);
     assert_first_step(run, 0.05, exact);
-    // Two stages take a pair alone to the same.
-    assert_first_step(Reference::with_relaxation(model.clone(), state.clone(), Relaxation::TwoStages), 0.05, exact);
+    // Two stages: 1 - h + .095 h² with h = 1.44 · .1 / .5.
+    let staged = -0.1 * (1.0 - 0.288 + 0.095 * 0.288 * 0.288);
+    assert_first_step(Reference::with_relaxation(model.clone(), state.clone(), Relaxation::TwoStages), 0.05, staged);
     // Explicit: -.1 + .144 · .2; one correction: from the midpoint -.0856; two: from -.0876736.
     for (corrections, momentum) in
         [(0, -0.1 + 0.144 * 0.2), (1, -0.1 + 0.144 * 0.1712), (2, -0.1 + 0.144 * 2.0 * 0.087_673_6)]
@@ -158,15 +159,13 @@ fn noise_by_hand() {
             let momentum = run.model().units.momentum(run.reported_state().unwrap().momenta[0]);
             // Width √(kT/μ (1 - e^(-2g))) = √(1 - e^(-.8)), times μ = ½.
             assert_close(momentum[2], -0.5 * (1.0 - (-0.8_f64).exp()).sqrt() * zeta(1), 1e-7);
-            // Two stages: √(2h) (1 - (1 - 1/√2) h) instead, with 1 - h + bh² = e^(-.4) and b = (√2 - 1)²/2.
+            // Two stages: √(2h) (1 - (1 + 2b)/4 h) instead, with h = .4 and b = .095.
             let mut run = Reference::with_relaxation(model.clone(), state.clone(), Relaxation::TwoStages);
             run.step().unwrap();
             let momentum = run.model().units.momentum(run.reported_state().unwrap().momenta[0]);
-            let b = 0.5 * (2.0_f64.sqrt() - 1.0).powi(2);
-            let mode = (1.0 - (1.0 - 4.0 * b * (1.0 - (-0.4_f64).exp())).sqrt()) / (2.0 * b);
-            let width = (2.0 * mode).sqrt() * (1.0 - (1.0 - 0.5_f64.sqrt()) * mode);
-            // Which is nearly that of the exact solution.
-            assert_close(width, (1.0 - (-0.8_f64).exp()).sqrt(), 1e-3);
+            let width = 0.8_f64.sqrt() * (1.0 - 0.2975 * 0.4);
+            // Which is nearly what friction takes, 1 - (1 - h + bh²)².
+            assert_close(width.powi(2), 1.0 - (1.0 - 0.4 + 0.095 * 0.16_f64).powi(2), 1e-3);
             assert_close(momentum[2], -0.5 * width * zeta(1), 1e-7);
             let rule = Relaxation::Midpoint { corrections: 0 };
             let mut run = Reference::with_relaxation(model, state, rule);

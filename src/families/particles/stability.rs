@@ -172,21 +172,41 @@ pub(super) fn limits(particles: &Particles, scene: &Scene, model: &Model) -> Vec
     ];
     let biased = |(law, share): (&'static str, f64)| Limit { law, share, beyond: Beyond::Biased };
     match model.relaxation() {
-        Some(errors) => limits.extend(of_relaxation(&errors).map(biased)),
+        Some(errors) => {
+            let output = &scene.output;
+            let measures_viscosity = output.viscosity.is_some() || output.stress.is_some();
+            limits.extend(of_relaxation(&errors).into_iter().filter_map(|(quantity, law, share)| {
+                // Transport that a scene does not measure bounds nothing of its results.
+                let is_measured = match quantity {
+                    Quantity::Temperature => true,
+                    Quantity::Viscosity => measures_viscosity,
+                    Quantity::Diffusion => output.diffusion.is_some(),
+                };
+                is_measured.then(|| biased((law, share)))
+            }));
+        }
         None => limits.push(biased(("friction Γ dt = 1/4", friction * step / model.friction_limit()))),
     }
     limits
 }
 
 /// The errors of a step in units of what is tolerated, with what they are of and what makes them.
-fn of_relaxation(errors: &RelaxationErrors) -> [(&'static str, f64); 4] {
+fn of_relaxation(errors: &RelaxationErrors) -> [(Quantity, &'static str, f64); 4] {
     [
-        ("1 % of the temperature, by friction in one stage", errors.cold),
-        ("1 % of the viscosity, by friction that a step weakens", errors.viscosity),
-        ("1 % of diffusion, by friction in two stages", errors.slow),
-        ("1 % of the temperature, by repulsion", errors.hot),
+        (Quantity::Temperature, "1 % of the temperature, by friction in one stage", errors.cold),
+        (Quantity::Viscosity, "1 % of the viscosity, by friction that a step weakens", errors.viscosity),
+        (Quantity::Diffusion, "1 % of diffusion, by friction in two stages", errors.slow),
+        (Quantity::Temperature, "1 % of the temperature, by repulsion", errors.hot),
     ]
-    .map(|(law, error)| (law, error / TOLERANCE))
+    .map(|(quantity, law, error)| (quantity, law, error / TOLERANCE))
+}
+
+/// The quantity that an error of relaxation is one of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    Temperature,
+    Viscosity,
+    Diffusion,
 }
 
 fn worst(strains: &[Strain]) -> Option<Strain> {

@@ -1,7 +1,7 @@
 //! The particles of an earlier run, from its last checkpoint.
 
 use crate::families::{Angles, Bonds, Family, Model};
-use crate::scene::{EarlierRun, FileStart, Scene, parse_kept};
+use crate::scene::{EarlierRun, FileStart, Integrator, Scene, parse_kept};
 use crate::state::{State, StateArray};
 use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
 use crate::state_file::{Fits, Links, Mistake, ParticleFile, frozen_layers, open_regular_file};
@@ -36,6 +36,11 @@ impl Run {
             momentum_unit: self.model.units.momentum,
             expected_velocity: self.model.expected_velocity,
         }
+    }
+
+    /// The integrator of it, whose rule of relaxation a scene takes that names none.
+    pub fn integrator(&self) -> &Integrator {
+        &self.model.integrator
     }
 
     /// Whether a scene has the seed, forces, baths and time step of it, so that it goes on with it: a model of the scene was made with

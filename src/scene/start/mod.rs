@@ -8,8 +8,8 @@ mod weight;
 
 use super::semantics;
 use super::{
-    FileStart, FileType, Interaction, KeptStart, Origin, OutsidePositions, Placement, Problem, Problems, Scene,
-    SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities, Velocities, Warning, nearest,
+    FileStart, FileType, Integrator, Interaction, KeptStart, Origin, OutsidePositions, Placement, Problem, Problems,
+    Scene, SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities, Velocities, Warning, nearest,
 };
 use crate::document::{FilePlaces, number_of_copies};
 use crate::families::{self, Model};
@@ -301,12 +301,18 @@ impl Reader<'_> {
             let places = start.places.take();
             start.origin = Some(Origin::Earlier(run.earlier()));
             scene.kept = KeptStart::of(Arc::new(start.clone()));
+            // The rule that is chosen where a scene names none follows from how dense the start is, which is no longer that of the run.
+            let own = scene.integrator.clone();
+            if own == (Integrator::Splitting { relaxation: None }) && run.integrator().name() == own.name() {
+                scene.integrator = run.integrator().clone();
+            }
             // A model needs a scene that makes sense.
             let goes_on = semantics::check(scene).is_empty() && run.goes_on_with(scene, &Model::new(scene));
             start.places = places.map(|places| FilePlaces { state: goes_on.then(|| run.state()), ..places });
             if goes_on {
                 return start;
             }
+            scene.integrator = own;
         }
         start.origin = Some(Origin::Anew);
         if moves_on {
