@@ -16,7 +16,9 @@ use super::failure::INTERRUPTED;
 /// A second interrupt from the keyboard ends the process at once, and so does any signal that comes a second or more after
 /// the first. Those that come sooner are the same request: `timeout` and some batch systems send theirs twice, to the process
 /// and to its group.
-pub fn interrupt() -> Interrupt {
+///
+/// Until `begun` there is nothing to save: the first signal ends the process at once, whatever it is doing.
+pub fn interrupt(begun: &Arc<AtomicBool>) -> Interrupt {
     let interrupt = Interrupt::default();
     let again = Arc::new(AtomicBool::new(false));
     // Without its handler a signal ends the process at once, and the last checkpoint is left.
@@ -25,9 +27,9 @@ pub fn interrupt() -> Interrupt {
     }
     let _ = end_at_second(SIGINT, &again);
     #[cfg(unix)]
-    let _ = late::end_at_late(&requests());
+    let _ = timely::end(&requests(), begun);
     #[cfg(not(unix))]
-    let _ = end_at_second(SIGTERM, &Arc::default());
+    let _ = (end_at_second(SIGTERM, &Arc::default()), begun);
     interrupt
 }
 
@@ -54,25 +56,34 @@ fn requests() -> Vec<i32> {
 }
 
 #[cfg(unix)]
-mod late {
+mod timely {
     use std::io;
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicBool, Ordering};
     use std::thread;
     use std::time::{Duration, Instant};
 
+    use mesoscope::run::RunError;
     use signal_hook::iterator::Signals;
     use signal_hook::low_level;
 
     use crate::cli::failure::INTERRUPTED;
+    use crate::cli::line;
 
     /// Signals within this time of the first say the same.
     const SAME_REQUEST: Duration = Duration::from_secs(1);
 
-    /// Ends the process at a signal that comes late after the first.
-    pub fn end_at_late(signals: &[i32]) -> io::Result<()> {
+    /// Ends the process at a signal that comes before there is something to save, or late after the first.
+    pub fn end(signals: &[i32], begun: &Arc<AtomicBool>) -> io::Result<()> {
         let mut signals = Signals::new(signals)?;
+        let begun = Arc::clone(begun);
         thread::Builder::new().name("signals".to_owned()).spawn(move || {
             let mut first = None;
             for _ in &mut signals {
+                if !begun.load(Ordering::Relaxed) {
+                    line(&RunError::NotBegun.to_string());
+                    low_level::exit(INTERRUPTED.into());
+                }
                 let first: &mut Instant = first.get_or_insert_with(Instant::now);
                 if first.elapsed() >= SAME_REQUEST {
                     // Nothing is tidied up: what is on the disk is good at any time.

@@ -11,6 +11,8 @@ type Work<'w> = &'w dyn Fn(Option<&dyn Processes>) -> Result<(), Failure>;
 /// Does the work of the first copy, or what the first tells this one. A copy that is alone does the work alone.
 #[cfg(feature = "mpi")]
 pub fn share(choice: &AdapterChoice, work: Work<'_>) -> Result<(), Failure> {
+    use std::sync::Arc;
+    use std::sync::atomic::AtomicBool;
     use std::time::Duration;
 
     use mesoscope::ranks::mpi::{World, abort};
@@ -32,7 +34,7 @@ pub fn share(choice: &AdapterChoice, work: Work<'_>) -> Result<(), Failure> {
     panic_if_asked(rank);
     if rank > 0 {
         // Requests to stop are for the first.
-        let _ = super::interruption::interrupt();
+        let _ = super::interruption::interrupt(&Arc::new(AtomicBool::new(true)));
         return Ok(run::follow(&world, rank, choice)?);
     }
     let done = work(Some(&world));

@@ -1,6 +1,8 @@
 //! What a run prints for its user: a line at the start, progress, a table at the end.
 
 use std::io::IsTerminal as _;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
@@ -23,9 +25,16 @@ pub fn execute(
     directory: &str,
     (quiet, warning): (bool, Option<String>),
 ) -> Result<(), Failure> {
-    let simulation = simulation.until(&super::interruption::interrupt());
+    // Other processes wait for word of this one; a run that goes on has its checkpoint.
+    let begun = Arc::new(AtomicBool::new(processes.is_some() || simulation.first_step() > 0));
+    let simulation = simulation.until(&super::interruption::interrupt(&begun));
+    let note_begin = |event: &Event<'_>| {
+        if matches!(event, Event::Started { .. }) {
+            begun.store(true, Ordering::Relaxed);
+        }
+    };
     if quiet {
-        simulation.execute_among(processes, choice, &mut |_| {})?;
+        simulation.execute_among(processes, choice, &mut |event| note_begin(&event))?;
         return Ok(());
     }
     let mut reporter = Reporter::new(&simulation);
@@ -40,7 +49,10 @@ pub fn execute(
         line(&format!("warning: {warning}"));
         known.push(warning.to_string());
     }
-    let result = simulation.execute_among(processes, choice, &mut |event| reporter.show(event));
+    let result = simulation.execute_among(processes, choice, &mut |event| {
+        note_begin(&event);
+        reporter.show(event);
+    });
     reporter.clear();
     let outcome = result?;
     known.append(&mut reporter.told);

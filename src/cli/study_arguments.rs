@@ -1,6 +1,8 @@
 //! Arguments of the commands of many runs, and how all of them run.
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::OutputError;
@@ -94,7 +96,7 @@ impl StudyArguments {
         Ok(study
             .with_jobs(self.jobs.map(usize::from))
             .up_to((!self.yes).then_some(LONG))
-            .until(&interruption::interrupt()))
+            .until(&interruption::interrupt(&Arc::new(AtomicBool::new(true)))))
     }
 
     /// Says what was shortened in the scene of a study, unless it is to be quiet.
