@@ -186,6 +186,15 @@ impl<'a> Engine<'a> {
         Ok(engine)
     }
 
+    /// Lets the drivers of software adapters, which compile a kernel when it first runs, compile all of them now: other ranks that come
+    /// later find them in the driver's cache.
+    pub(crate) fn compile(&self) -> Result<(), EngineError> {
+        if self.gpu.serial_memory() {
+            pipeline::run_without_workgroups(self.gpu, &self.stages)?;
+        }
+        Ok(())
+    }
+
     fn without_state(gpu: &'a Gpu, plan: Plan) -> Result<Self, EngineError> {
         let mut buffers = HashMap::new();
         for buffer in &plan.buffers {

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use super::texels::Texels;
-use crate::gpu::{Gpu, GpuError};
+use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::{Kernel, Plan, folded};
 use crate::shaders::{Array, Constant};
 
@@ -36,6 +36,19 @@ impl Stage {
             Size::Demanded(buffer, offset) => pass.dispatch_workgroups_indirect(buffer, *offset),
         }
     }
+}
+
+/// Runs every kernel without a workgroup: a driver that compiles kernels when they first run has then compiled them.
+pub(super) fn run_without_workgroups(gpu: &Gpu, stages: &[Stage]) -> Result<(), GpuError> {
+    let mut encoder = gpu.encoder("kernels without workgroups");
+    let mut pass = compute_pass(&mut encoder, "kernels without workgroups");
+    for stage in stages {
+        pass.set_pipeline(&stage.pipeline);
+        pass.set_bind_group(0, &stage.bindings, &[]);
+        pass.dispatch_workgroups(0, 0, 0);
+    }
+    drop(pass);
+    gpu.wait_for(gpu.queue.submit([encoder.finish()]))
 }
 
 /// All kernels of a plan, in its order. Drivers compile on the thread that asks, so each core asks for its share.

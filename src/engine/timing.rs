@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::{Engine, EngineError, Phase, readback};
-use crate::gpu::{GpuError, compute_pass};
+use crate::gpu::compute_pass;
 
 /// Time spent in one kernel of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -165,9 +165,7 @@ impl Engine<'_> {
         let commands = encoder.finish();
         let begun = Instant::now();
         let submission = self.gpu.queue.submit([commands]);
-        self.gpu.device.poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: None }).map_err(
-            |error| GpuError::Lost { adapter: self.gpu.description().name.clone(), reason: error.to_string() },
-        )?;
+        self.gpu.wait_for(submission)?;
         Ok(begun.elapsed().as_secs_f64())
     }
 }

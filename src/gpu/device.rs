@@ -265,6 +265,24 @@ impl Gpu {
         self.serial_memory
     }
 
+    /// Waits until a submission has run.
+    ///
+    /// # Errors
+    /// [`GpuError::Lost`] with the driver's message.
+    pub(crate) fn wait_for(&self, submission: wgpu::SubmissionIndex) -> Result<(), GpuError> {
+        let all_before = wgpu::PollType::Wait { submission_index: Some(submission), timeout: None };
+        let lost = |error: wgpu::PollError| GpuError::Lost {
+            adapter: self.description.name.clone(),
+            reason: error.to_string(),
+        };
+        self.device.poll(all_before).map(|_| ()).map_err(lost)
+    }
+
+    /// Whether linked modules are rewritten before pipelines are made from them.
+    pub(crate) fn is_rewriting(&self) -> bool {
+        self.compiled.rewriting().is_some()
+    }
+
     /// The first error that reached no error scope, or the loss of the device.
     ///
     /// # Errors

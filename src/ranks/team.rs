@@ -114,6 +114,8 @@ impl<'a> Team<'a> {
             portions: Portions::default(),
         };
         team.introduce(0, introduction);
+        // The others wait for their first command; where all share an adapter, each would compile the same kernels at the same time.
+        team.engine.compile()?;
         team.upload(state)?;
         if !mixed && !computes_alike(&team.ranks) {
             let reason = format!("the ranks compute differently: from the same state they get{}", remedy(&team.ranks));

@@ -6,12 +6,13 @@ use super::division::fits;
 use crate::engine::{Engine, EngineError, Swap};
 use crate::families::{Model, initial_state};
 use crate::gpu::{AdapterChoice, Gpu, adapters_by_turns};
-use crate::plan::{Division, Options, Part, Plan};
+use crate::plan::{Division, Hardware, Options, Part, Plan};
 use crate::ranks::{Channel, Introduction, Processes, Team, decline, serve, threads};
 use crate::scene::{self, FileStart, KeptStart, Scene};
 use crate::state::State;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
 /// Opens the other ranks of a run, of which this adapter's is the first, and gives all of them their part of a state. Ranks that do not
@@ -115,22 +116,47 @@ fn small_scene(scene: &Scene) -> Result<Scene, RunError> {
     Ok(small)
 }
 
-/// This rank, with what its adapter makes of a small scene.
-fn introduction(gpu: &Gpu, scene: &Scene, choice: &AdapterChoice) -> Result<Introduction, RunError> {
+/// Checksums of small scenes by adapter, driver, plan and scene. Ranks of a process that share an adapter compute alike: one of them finds
+/// out for all, whose devices would each compile the kernels of it.
+static CHECKSUMS: Mutex<BTreeMap<String, Arc<Mutex<Option<u32>>>>> = Mutex::new(BTreeMap::new());
+
+/// A checksum of the state that an adapter comes to after a few steps of a small scene.
+fn arithmetic(gpu: &Gpu, scene: &Scene) -> Result<u32, RunError> {
     let small = small_scene(scene)?;
-    let model = Model::new(&small);
-    let state = initial_state(&small, &model);
-    let mut engine = Engine::new(gpu, plan_for(&small, &model, gpu, Options::default()).without_reports(), &state)?;
+    if gpu.is_rewriting() {
+        return checksum(gpu, &small);
+    }
+    let text = serde_json::to_string(&small).map_err(|error| lost(error.to_string()))?;
+    let key = format!("{:?} {:?} {text}", gpu.description(), Hardware::from(gpu));
+    let place = Arc::clone(CHECKSUMS.lock().unwrap_or_else(PoisonError::into_inner).entry(key).or_default());
+    let mut known = place.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(known) = *known {
+        return Ok(known);
+    }
+    let found = checksum(gpu, &small)?;
+    *known = Some(found);
+    Ok(found)
+}
+
+fn checksum(gpu: &Gpu, small: &Scene) -> Result<u32, RunError> {
+    let model = Model::new(small);
+    let state = initial_state(small, &model);
+    let mut engine = Engine::new(gpu, plan_for(small, &model, gpu, Options::default()).without_reports(), &state)?;
     engine.advance(STEPS, STEPS)?;
     let state = engine.state()?;
     let mut checksum = crc32fast::Hasher::new();
     checksum.update(bytemuck::cast_slice(&state.positions));
     checksum.update(bytemuck::cast_slice(&state.momenta));
+    Ok(checksum.finalize())
+}
+
+/// This rank, with what its adapter makes of a small scene.
+fn introduction(gpu: &Gpu, scene: &Scene, choice: &AdapterChoice) -> Result<Introduction, RunError> {
     let adapter = gpu.description();
     let host = std::fs::read_to_string("/proc/sys/kernel/hostname").map(|name| name.trim().to_owned());
     let host = host.or_else(|_| std::env::var("COMPUTERNAME")).unwrap_or_else(|_| "this machine".to_owned());
     let adapter = format!("{} ({})", adapter.name, adapter.driver);
-    Ok(Introduction { host, adapter, adapters: adapters_by_turns(choice), arithmetic: checksum.finalize() })
+    Ok(Introduction { host, adapter, adapters: adapters_by_turns(choice), arithmetic: arithmetic(gpu, scene)? })
 }
 
 /// What the first process tells the others before they become ranks.
