@@ -27,14 +27,18 @@ run: cargo adapter ## simulate SCENE into OUT, on the best adapter there is
 	cargo run --release --locked -- run $(SCENE) --out $(OUT) $(FORCE) $(ARGUMENTS)
 
 # Short tests of the device, to be run a second time with the plans that every GPU gets; those of determinism compare both plans anyway.
-ON_GPU_PLANS := single_steps:: smoothing:: harmonic_chain:: adapter_check::
+ON_GPU_PLANS := single_steps:: smoothing:: harmonic_chain::
+
+# Features that the tests are built with; lints and documentation are of the default ones.
+FEATURES :=
+WITH_FEATURES := $(FEATURES:%=--features %)
 
 test: cargo adapter ## formatting, lints, all tests, documentation, and the book where mdbook is installed
 	@sh .ci/spirv.sh
 	cargo fmt --check
 	cargo clippy --locked --all-targets -- -D warnings
-	cargo test --locked
-	MESOSCOPE_PLAN=gpu cargo test --locked --test library --test command_line -- $(ON_GPU_PLANS)
+	cargo test --locked $(WITH_FEATURES)
+	MESOSCOPE_PLAN=gpu cargo test --locked $(WITH_FEATURES) --test library -- $(ON_GPU_PLANS)
 	# With examples, of which there are none, dependencies have the features that they have for tests: nothing is checked again.
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps --lib --examples
 	@if command -v mdbook >/dev/null; then sh .ci/book.sh; fi
@@ -50,7 +54,7 @@ MPI_TESTS := --include-ignored
 test-mpi: cargo adapter ## the tests of ranks that are processes, with an MPI library
 	@sh .ci/mpi.sh
 	cargo clippy --locked --features mpi --bins --test mpi -- -D warnings
-	cargo test --locked --features mpi --test mpi -- --test-threads=1 $(MPI_TESTS)
+	cargo test --locked --features mpi --test mpi -- $(MPI_TESTS)
 
 bench: cargo adapter ## cost per particle-step and per stage
 	cargo bench --locked

@@ -6,6 +6,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -21,6 +22,12 @@ const END: Duration = Duration::from_secs(90);
 const FAULTS: usize = 10;
 /// What a run leaves that has to be the same.
 const FILES: [&str; 4] = ["energies.csv", "checkpoint.bin", "snapshot.png", "radial_distribution.csv"];
+
+/// Processes of a launcher that wait keep a core each busy: one test at a time.
+fn alone() -> MutexGuard<'static, ()> {
+    static TURN: Mutex<()> = Mutex::new(());
+    TURN.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// A run of some scene in a directory of its own.
 struct Run {
@@ -147,6 +154,7 @@ fn under_way(run: &Run, name: &str, child: &mut Child, moment: Duration) {
 
 #[test]
 fn processes_leave_the_bytes_of_one() {
+    let _turn = alone();
     for integrator in ["splitting", "groot-warren", "cotter-reich"] {
         let run = Run::of(60, &["--set", &format!("integrator.type={integrator}")]);
         for ranks in [1, 2, 4, 8] {
@@ -161,6 +169,7 @@ fn processes_leave_the_bytes_of_one() {
 /// Shallow water, whose ranks all exchange with each other, twice a step.
 #[test]
 fn processes_share_water() {
+    let _turn = alone();
     for bath in ["null", r#"{"type":"memory","epsilon":1}"#] {
         let output = r#"output={"energies":{"every":3},"fields":{"quantities":["depth"]},"checkpoint":{"every":20}}"#;
         let bath = format!("interactions.0.bath={bath}");
@@ -180,6 +189,7 @@ fn processes_share_water() {
 /// Bonds that are longer than expected let all processes go back for wider halos.
 #[test]
 fn bonded_processes_leave_the_bytes_of_one() {
+    let _turn = alone();
     let chains = r#"particles=[{"species":"A","count":1200,"chain":{"beads":10,"spacing":1.9}}]"#;
     let forces = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"angles","stiffness":2},
         {"type":"bonds","potential":{"type":"harmonic","stiffness":900,"length":0.5}}]"#;
@@ -197,6 +207,7 @@ fn bonded_processes_leave_the_bytes_of_one() {
 
 #[test]
 fn what_cannot_be_shared_is_told_once() {
+    let _turn = alone();
     for (more, ranks, code, expected) in [
         (&["--ranks", "1,2,2"][..], 3, 2, "`--ranks` asks for 4 ranks, and the launcher has started 3 copies"),
         (&["--set", r#"output.stress={"every":10}"#], 2, 2, "`output.stress` is measured on one device"),
@@ -216,6 +227,7 @@ fn what_cannot_be_shared_is_told_once() {
 /// A rank without an adapter: one message, and nothing of an earlier run is lost, though it might be replaced.
 #[test]
 fn a_rank_without_an_adapter_ends_all() {
+    let _turn = alone();
     let run = Run::of(200, &["--force"]);
     let earlier = run.command(1, "out").output().unwrap();
     assert!(earlier.status.success(), "{}", said(&earlier));
@@ -247,6 +259,7 @@ fn a_rank_without_an_adapter_ends_all() {
 /// More ranks than adapters on a machine: a warning, once.
 #[test]
 fn ranks_that_share_an_adapter_are_told_of() {
+    let _turn = alone();
     let mut run = Run::of(20, &["--adapter", "0"]);
     run.arguments.retain(|argument| argument != "--quiet");
     let output = run.command(2, "out").output().unwrap();
@@ -260,6 +273,7 @@ fn ranks_that_share_an_adapter_are_told_of() {
 /// A rank that panics ends all, with its message and its code, whichever it is.
 #[test]
 fn a_panic_of_a_rank_ends_all() {
+    let _turn = alone();
     let run = Run::of(200, &[]);
     for panicking in [0, 2] {
         let mut command = run.command(3, "out");
@@ -275,6 +289,7 @@ fn a_panic_of_a_rank_ends_all() {
 #[test]
 #[ignore = "minutes"]
 fn a_first_rank_that_stops_while_it_writes_ends_all() {
+    let _turn = alone();
     let run = Run::of(100_000, &["--set", "output.checkpoint.every=1"]);
     let directory = run.directory("out");
     let mut child = impatient(run.command(4, "out")).spawn().unwrap();
@@ -316,6 +331,7 @@ fn told_under_way<'k>(run: &Run, kind: &'k str) -> (&'k str, Output) {
 #[test]
 #[ignore = "minutes"]
 fn an_interrupted_launcher_leaves_a_checkpoint() {
+    let _turn = alone();
     let run = Run::of(3000, &[]);
     assert!(run.command(1, "undisturbed").output().unwrap().status.success());
     for kind in ["-INT", "-TERM"] {
@@ -334,6 +350,7 @@ fn an_interrupted_launcher_leaves_a_checkpoint() {
 /// to no avail, and everything ends.
 #[test]
 fn a_full_disk_of_the_first_rank_ends_all_and_the_run_resumes() {
+    let _turn = alone();
     let run = Run::of(60, &["--set", "space.box=[4,4,16]", "--set", "particles.0.number_density=0.75"]);
     assert!(run.command(1, "undisturbed").output().unwrap().status.success());
     let program = env!("CARGO_BIN_EXE_mesoscope");
@@ -353,6 +370,7 @@ fn a_full_disk_of_the_first_rank_ends_all_and_the_run_resumes() {
 #[test]
 #[ignore = "minutes"]
 fn the_loss_of_a_rank_ends_all_and_the_run_resumes() {
+    let _turn = alone();
     let run = Run::of(3000, &[]);
     let undisturbed = run.command(1, "undisturbed").output().unwrap();
     assert!(undisturbed.status.success(), "{}", said(&undisturbed));
@@ -385,6 +403,7 @@ fn the_loss_of_a_rank_ends_all_and_the_run_resumes() {
 #[test]
 #[ignore = "minutes"]
 fn warnings_before_the_end_of_a_job_save_and_stop() {
+    let _turn = alone();
     let run = Run::of(3000, &[]);
     assert!(run.command(1, "undisturbed").output().unwrap().status.success());
     for warning in ["-USR1", "-USR2"] {
