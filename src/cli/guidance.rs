@@ -44,7 +44,7 @@ fn is_run(directory: &Path) -> bool {
     directory.join(files::CHECKPOINT).exists() || directory.join(files::SUMMARY).exists()
 }
 
-/// What to do where a name is neither a file nor a built-in scene.
+/// The remedy where a name is neither a file nor a built-in scene.
 pub fn of_scene(name: &str) -> String {
     let path = Path::new(name);
     let usual = "`mesoscope scenes` says what each is for";

@@ -132,7 +132,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
 }
 
-/// What a trial of the first steps says, if there was one.
+/// The trial of the first steps, if there was one.
 type Tried<'t> = Option<&'t Result<ExpectedTime, RunError>>;
 
 /// How long the run takes here, in words.
@@ -149,7 +149,7 @@ fn time(scene: &Scene, model: &Model, trial: Tried<'_>) -> String {
     }
 }
 
-/// What the time is estimated from.
+/// The basis of the estimate of time.
 fn basis(trial: Tried<'_>) -> Option<String> {
     Some(match trial? {
         Err(error) => format!("a trial of the first steps ended with: {error}"),

@@ -24,7 +24,7 @@ pub fn accuracy(source: &str, scene: &Scene) -> String {
     calibration::expected(scene).map_or_else(unknown, |expected| expected.to_string())
 }
 
-/// What is expected of the errors of a step, where that is known of the forces of the scene.
+/// The errors that a step is expected to make, where they are known for the forces of the scene.
 pub fn expected(model: &Model) -> Option<(&'static str, String)> {
     let estimates = model.estimates();
     (!estimates.is_empty()).then(|| ("expected", estimates.join(", ")))

@@ -32,7 +32,7 @@ pub(super) const FORMAT: Format = Format {
 #[derive(Debug)]
 struct GsdTrajectory {
     path: PathBuf,
-    /// None after a failed write: nobody knows what of it is in the file.
+    /// None after a failed write: an unknown part of it is in the file.
     file: Option<GsdWriter>,
     /// Whether no frame has been added yet.
     empty: bool,
