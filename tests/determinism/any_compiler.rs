@@ -242,21 +242,22 @@ fn fluids_keep_their_momentum() {
     nothing_is_lost_where(&fluids(), &few(), |device, case| (device + case + case / 2).is_multiple_of(2));
 }
 
+/// The chains with memory on either device, those of an integrator on one.
 #[test]
 fn chains_keep_their_momentum() {
     let cases: Vec<Case> = std::iter::once(chains()).chain(chains_beside_pairs()).collect();
-    nothing_is_lost(&cases, &few());
+    nothing_is_lost_where(&cases, &few(), |device, case| case == 0 || (device + case).is_multiple_of(2));
 }
 
 #[test]
 fn cells_keep_momentum_mass_and_energy() {
     let forms: Vec<Case> = voronoi().into_iter().filter(|case| case.name.contains("energy=true")).collect();
-    nothing_is_lost(&forms, &few());
+    nothing_is_lost_where(&forms, &few(), |device, case| (device + case).is_multiple_of(2));
 }
 
 #[test]
 fn meshes_keep_their_mass() {
-    nothing_is_lost(&meshes(), &few());
+    nothing_is_lost_where(&meshes(), &few(), |device, case| case == 0 || (device + case).is_multiple_of(2));
 }
 
 #[test]

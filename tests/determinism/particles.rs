@@ -159,10 +159,10 @@ fn only_orders_of_all_particles_are_accepted() {
 
 #[test]
 fn a_run_split_in_two_is_the_run() {
-    let every_integrator = INTEGRATORS.iter().flat_map(|integrator| {
-        [vec![*integrator], vec![*integrator, TWO_DIMENSIONS], vec![*integrator, MIXTURE, MIXTURE_FORCE]]
-    });
-    for changes in every_integrator {
+    // Every integrator, of one species, in the plane and of a mixture by turns.
+    let kinds = [&[][..], &[TWO_DIMENSIONS], &[MIXTURE, MIXTURE_FORCE]];
+    for (integrator, kind) in INTEGRATORS.iter().zip(kinds.into_iter().cycle()) {
+        let changes = [&[*integrator], kind].concat();
         // Diffusion begins its windows anew; every other sampler has no memory.
         let scene = sampled(&[changes.as_slice(), &["output.diffusion=null"]].concat());
         let (_, state) = start(&scene);

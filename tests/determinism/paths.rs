@@ -57,23 +57,15 @@ fn scenes() -> Vec<(&'static str, Scene, Vec<Options>)> {
             fluid(&small),
             vec![serial(true), Options { traversal: Some(Traversal::Rows), workgroup_size: Some(32), ..serial(false) }],
         ),
-        (
-            "plane",
-            fluid(&[&flat[..], &[r#"integrator={"type":"groot-warren","lambda":0.65}"#]].concat()),
-            vec![serial(true), serial(false)],
-        ),
+        ("plane", fluid(&[&flat[..], &[r#"integrator={"type":"groot-warren","lambda":0.65}"#]].concat()), plain()),
         (
             "listed",
             fluid(&[&small[..], &[listed, r#"integrator={"type":"cotter-reich"}"#]].concat()),
             vec![serial(true), serial(false)],
         ),
         ("line", fluid(&chain), plain()),
-        ("cells", cells(64, &["time.step=0.05", "temperature=6", TRAJECTORY]), vec![serial(true), serial(false)]),
-        (
-            "water",
-            water(&jet),
-            vec![stored(Storage::Sorted, false), stored(Storage::Sorted, true), stored(Storage::Bins, true)],
-        ),
+        ("cells", cells(64, &["time.step=0.05", "temperature=6", TRAJECTORY]), plain()),
+        ("water", water(&jet), vec![stored(Storage::Sorted, false), stored(Storage::Bins, true)]),
     ]
 }
 

@@ -35,7 +35,7 @@ const MANY_BODY: &str = r#"interactions=[{"type":"dpd","repulsion":-40,"friction
 /// divided into.
 fn cases() -> Vec<(Vec<&'static str>, Vec<[u32; 3]>)> {
     vec![
-        (vec![SPLITTING, "space.box=[4,4,13]"], vec![[1, 1, 2], [1, 1, 3], [1, 1, 4]]),
+        (vec![SPLITTING, "space.box=[4,4,13]"], vec![[1, 1, 2], [1, 1, 4]]),
         (vec![SPLITTING, "space.box=[8.5,9,8.5]", MIXTURE, MIXTURE_FORCE], vec![[2, 2, 2]]),
         (vec![SPLITTING, "space.box=[9,3]", GAUSSIAN], vec![[2, 1, 1]]),
         (vec![STAGED, "space.box=[4,4,15]"], vec![[1, 1, 3]]),
@@ -80,11 +80,12 @@ pub fn fits(scene: &Scene) -> bool {
     plan.storage_buffers <= gpu().device().limits().max_storage_buffers_per_shader_stage
 }
 
-#[test]
-fn any_number_of_ranks_gives_the_bytes_of_one() {
+/// Compares ranks with one, in the cases with these numbers; how many scenes the adapter takes.
+fn compare(numbers: &[usize]) -> usize {
+    let cases = cases();
     let mut compared = 0;
-    for (changes, divisions) in cases() {
-        let scene = scene(&changes);
+    for (changes, divisions) in numbers.iter().map(|number| &cases[*number]) {
+        let scene = scene(changes);
         if !fits(&scene) {
             continue;
         }
@@ -92,13 +93,25 @@ fn any_number_of_ranks_gives_the_bytes_of_one() {
         let alone = bytes::run(&scene, Options::default(), STEPS, 8);
         let followed = changes.contains(&FOLLOWED);
         assert_eq!(followed, alone.state.images.iter().flatten().filter(|image| **image != 0).count() > 9);
-        for (number, parts) in divisions.into_iter().enumerate() {
+        for (number, parts) in divisions.iter().enumerate() {
             let batch = [8, 1, STEPS][number % 3];
-            assert!(same(&alone, &divided(&scene, parts, batch, Options::default())), "{changes:?} in {parts:?}");
+            assert!(same(&alone, &divided(&scene, *parts, batch, Options::default())), "{changes:?} in {parts:?}");
         }
     }
+    compared
+}
+
+/// Every integrator, two dimensions, diffusion, forces, walls, layers, shear and many-body repulsion once.
+#[test]
+fn any_number_of_ranks_gives_the_bytes_of_one() {
     // Those without walls and shear at least.
-    assert!(compared >= 10, "{compared} scenes");
+    assert!(compare(&[0, 3, 5, 6, 8, 11, 12, 14]) >= 5);
+}
+
+#[test]
+#[ignore = "minutes: the other scenes of any_number_of_ranks_gives_the_bytes_of_one"]
+fn any_number_of_ranks_gives_the_bytes_of_one_in_other_scenes() {
+    assert!(compare(&[1, 2, 4, 7, 9, 10, 13, 15]) >= 5);
 }
 
 /// Pairs are visited particle by particle, as on graphics cards.
@@ -121,30 +134,33 @@ fn overlaps(plan: &Plan) -> bool {
     overlaps
 }
 
-/// Where the device goes on with the inner cells of a part while particles are exchanged: of parts in layers and in columns, cut across the
-/// rows of cells and between them, with reports in between and without.
-#[test]
-fn exchanges_during_a_step_give_the_bytes_of_one_rank() {
-    let cases = [
+/// Scenes whose parts have inner cells, with a division: in layers and in columns, cut across the rows of cells and between them.
+fn overlapping() -> Vec<(Vec<&'static str>, [u32; 3])> {
+    vec![
         (vec![GROOT_WARREN, "space.box=[4,4,14]", FOLLOWED, "temperature=9"], [1, 1, 2]),
-        (vec![SPLITTING, "space.box=[4,4,20]", FOLLOWED, "temperature=9"], [1, 1, 2]),
-        (vec![STAGED, "space.box=[4,3.5,25]", MIXTURE, MIXTURE_FORCE, GAUSSIAN], [1, 1, 2]),
         (vec![PREDICTED, "space.box=[14,22]", MIXTURE, MIXTURE_FORCE], [2, 3, 1]),
-        (vec![COTTER_REICH, "space.box=[14,4,15]"], [2, 1, 2]),
-        (vec![SPLITTING, "space.box=[17,17]", OPPOSED_IN_PLANE], [2, 2, 1]),
-        (vec![GROOT_WARREN, "space.box=[4,19,3]", MANY_BODY], [1, 2, 1]),
-        (vec![SPLITTING, "space.box=[4,5,22]", COUETTE], [1, 1, 2]),
         (vec![PREDICTED, "space.box=[4,17,5]", COUETTE, LAYERED], [1, 2, 1]),
         (vec![SPLITTING, "space.box=[4,5,21]", SHEARED], [1, 1, 2]),
         // Its samples look further than its forces reach, at some steps; and no face of a part is one of cells, as those that are looked
         // at too early would be known there by chance.
-        (vec![GROOT_WARREN, "space.box=[5,5,20.5]", RADIAL], [1, 1, 2]),
         (vec![SPLITTING, "space.box=[5,5,20.5]", RADIAL], [1, 1, 2]),
-    ];
+        (vec![GROOT_WARREN, "space.box=[5,5,20.5]", RADIAL], [1, 1, 2]),
+        (vec![SPLITTING, "space.box=[4,4,20]", FOLLOWED, "temperature=9"], [1, 1, 2]),
+        (vec![STAGED, "space.box=[4,3.5,25]", MIXTURE, MIXTURE_FORCE, GAUSSIAN], [1, 1, 2]),
+        (vec![COTTER_REICH, "space.box=[14,4,15]"], [2, 1, 2]),
+        (vec![SPLITTING, "space.box=[17,17]", OPPOSED_IN_PLANE], [2, 2, 1]),
+        (vec![GROOT_WARREN, "space.box=[4,19,3]", MANY_BODY], [1, 2, 1]),
+        (vec![SPLITTING, "space.box=[4,5,22]", COUETTE], [1, 1, 2]),
+    ]
+}
+
+/// Of scenes in which the device goes on with inner cells while particles are exchanged, with reports in between and without: how many
+/// the adapter takes.
+fn compare_overlapping(cases: &[(Vec<&str>, [u32; 3])]) -> usize {
     let mut compared = 0;
-    for (number, (changes, parts)) in cases.into_iter().enumerate() {
-        let scene = scene(&changes);
-        assert!(overlaps(&plan_of_part(&scene, parts, by_particles())), "{changes:?}");
+    for (number, (changes, parts)) in cases.iter().enumerate() {
+        let scene = scene(changes);
+        assert!(overlaps(&plan_of_part(&scene, *parts, by_particles())), "{changes:?}");
         if !fits(&scene) {
             continue;
         }
@@ -152,9 +168,20 @@ fn exchanges_during_a_step_give_the_bytes_of_one_rank() {
         // On lavapipe another traversal.
         let alone = bytes::run(&scene, Options::default(), STEPS, 8);
         let batch = [8, 1, STEPS][number % 3];
-        assert!(same(&alone, &divided(&scene, parts, batch, by_particles())), "{changes:?} in {parts:?}");
+        assert!(same(&alone, &divided(&scene, *parts, batch, by_particles())), "{changes:?} in {parts:?}");
     }
-    assert!(compared >= 7);
+    compared
+}
+
+#[test]
+fn exchanges_during_a_step_give_the_bytes_of_one_rank() {
+    assert!(compare_overlapping(&overlapping()[..5]) >= 3);
+}
+
+#[test]
+#[ignore = "minutes: the other scenes of exchanges_during_a_step_give_the_bytes_of_one_rank"]
+fn exchanges_during_a_step_give_the_bytes_of_one_rank_in_other_scenes() {
+    assert!(compare_overlapping(&overlapping()[5..]) >= 5);
 }
 
 /// All else is exchanged between two kernels: of narrow parts, with bonds, and where eight particles are visited together. Alone a rank
@@ -254,7 +281,9 @@ fn ranks_know_more_at_the_steps_at_which_distances_are_counted() {
 /// A picture of a sample shows the same particles on any number of ranks, in whatever messages they pass.
 #[test]
 fn any_number_of_ranks_shows_the_same_sample() {
-    for integrator in [GROOT_WARREN, SPLITTING] {
+    for (integrator, parts, particles_in_message) in
+        [(GROOT_WARREN, [1, 1, 2], None), (SPLITTING, [1, 1, 3], Some(100))]
+    {
         let scene = scene(&[integrator, "space.box=[5,5,16]", MIXTURE, MIXTURE_FORCE]);
         let (_, state) = start(&scene);
         let mut alone = crate::support::engine(&scene, &state, Options::default());
@@ -263,13 +292,11 @@ fn any_number_of_ranks_shows_the_same_sample() {
         let species = |kind: u32| shown.state.species.iter().filter(|species| **species == kind).count();
         // 300 of 1 200, one in three of the second kind, within five standard deviations.
         assert!(shown.state.len().abs_diff(300) < 75 && species(1).abs_diff(100) < 45, "{}", shown.state.len());
-        for (parts, particles_in_message) in [([1, 1, 2], None), ([1, 1, 3], Some(100))] {
-            let options = Options { particles_in_message, ..Options::default() };
-            let mut team = team(&scene, Division { parts }, options, &state);
-            team.advance(STEPS, 8).unwrap();
-            assert!(team.shown(300).unwrap() == shown, "{integrator} in {parts:?}");
-            assert_eq!(team.shown(1200).unwrap(), Shown::all(alone.reported().unwrap()));
-        }
+        let options = Options { particles_in_message, ..Options::default() };
+        let mut team = team(&scene, Division { parts }, options, &state);
+        team.advance(STEPS, 8).unwrap();
+        assert!(team.shown(300).unwrap() == shown, "{integrator} in {parts:?}");
+        assert_eq!(team.shown(1200).unwrap(), Shown::all(alone.reported().unwrap()));
     }
 }
 

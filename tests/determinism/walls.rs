@@ -26,11 +26,12 @@ const LAYERED: [&str; 2] = [
 
 fn scenes() -> Vec<Scene> {
     let base = ["time.steps=1000", "time.step=0.02", "output.energies.every=3", DRIVEN];
+    // Either kind of walls with layers and without.
     let scene = |(number, integrator): (usize, &&str)| {
-        [MIXTURE, LAYERED[number % 2]]
-            .map(|particles| fluid(&[&base[..], &[particles, integrator, WALLS[number % 2]]].concat()))
+        let particles = [MIXTURE, LAYERED[number % 2]][number / 2 % 2];
+        fluid(&[&base[..], &[particles, integrator, WALLS[number % 2]]].concat())
     };
-    INTEGRATORS.iter().enumerate().flat_map(scene).collect()
+    INTEGRATORS.iter().enumerate().map(scene).collect()
 }
 
 #[test]
@@ -59,14 +60,13 @@ fn a_resumed_run_goes_on_with_the_same_bytes() {
 #[test]
 fn reports_change_nothing() {
     for (number, integrator) in INTEGRATORS.iter().enumerate() {
-        for particles in [MIXTURE, LAYERED[number % 2]] {
-            let with_reports = |every: &str| {
-                let changes =
-                    ["time.steps=1000", "time.step=0.02", every, particles, DRIVEN, integrator, WALLS[number % 2]];
-                bytes::run(&fluid(&changes), Options::default(), STEPS, 8).state
-            };
-            let [often, seldom] = ["output.energies.every=1", "output.energies.every=1000"].map(with_reports);
-            assert!(often == seldom, "{integrator} {particles}");
-        }
+        let particles = [LAYERED[number % 2], MIXTURE][number / 2 % 2];
+        let with_reports = |every: &str| {
+            let changes =
+                ["time.steps=1000", "time.step=0.02", every, particles, DRIVEN, integrator, WALLS[number % 2]];
+            bytes::run(&fluid(&changes), Options::default(), STEPS, 8).state
+        };
+        let [often, seldom] = ["output.energies.every=1", "output.energies.every=1000"].map(with_reports);
+        assert!(often == seldom, "{integrator} {particles}");
     }
 }

@@ -158,20 +158,11 @@ fn steps_are_those_of_the_reference_at_the_edge_of_error() {
     }
 }
 
-#[test]
-fn the_self_test_passes_at_the_edge_of_error() {
-    check_self_test(&[Deviation::Either]);
-}
-
-#[test]
-#[ignore = "a minute"]
-fn the_self_test_passes_at_every_edge_of_error() {
-    check_self_test(&DEVIATIONS);
-}
-
 /// The tolerance of the self-test is what such functions make, and more.
-fn check_self_test(deviations: &[Deviation]) {
-    for &deviation in deviations {
+#[test]
+#[ignore = "minutes"]
+fn the_self_test_passes_at_every_edge_of_error() {
+    for deviation in DEVIATIONS {
         let gpu = Compiler::Erring(Functions::All, deviation).gpu();
         let mut failed = Vec::new();
         self_test::run(&gpu, &mut |finding| {

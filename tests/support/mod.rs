@@ -15,7 +15,7 @@ mod implementations;
 mod scenes;
 mod statistics;
 
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
@@ -52,10 +52,28 @@ pub fn requirements() -> Requirements {
     })
 }
 
+/// A device that one test has at a time: software drivers compile the kernels of a device one after the other.
+struct Lent(&'static Gpu);
+
+/// Devices that no test has.
+static FREE: Mutex<Vec<&'static Gpu>> = Mutex::new(Vec::new());
+
+impl Drop for Lent {
+    fn drop(&mut self) {
+        FREE.lock().unwrap_or_else(PoisonError::into_inner).push(self.0);
+    }
+}
+
 /// The adapter of the tests.
 pub fn gpu() -> &'static Gpu {
-    static GPU: OnceLock<Gpu> = OnceLock::new();
-    GPU.get_or_init(|| Gpu::open(&adapter(), requirements()).expect("an adapter"))
+    thread_local! {
+        static LENT: Lent = {
+            let free = FREE.lock().unwrap_or_else(PoisonError::into_inner).pop();
+            let open = || &*Box::leak(Box::new(Gpu::open(&adapter(), requirements()).expect("an adapter")));
+            Lent(free.unwrap_or_else(open))
+        };
+    }
+    LENT.with(|lent| lent.0)
 }
 
 /// What plans may use of it.
