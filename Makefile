@@ -37,7 +37,7 @@ test: cargo adapter ## formatting, lints, all tests, documentation, and the book
 	@sh .ci/spirv.sh
 	cargo fmt --check
 	cargo clippy --locked --all-targets -- -D warnings
-	cargo test --locked $(WITH_FEATURES)
+	cargo test --locked --no-fail-fast $(WITH_FEATURES)
 	MESOSCOPE_PLAN=gpu cargo test --locked $(WITH_FEATURES) --test library -- $(ON_GPU_PLANS)
 	# With examples, of which there are none, dependencies have the features that they have for tests: nothing is checked again.
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps --lib --examples

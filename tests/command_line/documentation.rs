@@ -305,7 +305,7 @@ fn commands_run() {
         }
         let steps = arguments.iter().position(|argument| *argument == "--steps");
         if arguments.first() == Some(&"stability") {
-            arguments.extend(["--bisections", "0", "--steps", "60"]);
+            arguments.extend(["--bisections", "0", "--steps", "240"]);
         }
         if arguments.first() == Some(&"sweep") {
             arguments[steps.expect("steps of a variant") + 1] = "40";

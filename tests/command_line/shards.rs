@@ -313,6 +313,8 @@ fn the_environment_says_which_shard() {
     assert!(said.contains("0 of 4 variants left"), "{said}");
 }
 
+/// With MPI they know of each other: `tests/mpi`.
+#[cfg(not(feature = "mpi"))]
 #[test]
 fn copies_that_know_nothing_of_each_other_are_refused() {
     let place = place();

@@ -415,12 +415,11 @@ fn warnings_name_place_and_remedy() {
     // Evenly spread, 2.51 neighbours at density 0.6 give ω = 457.6; that of crowds is 1 + .75 √(6/2.51) times as much.
     warned(&["interactions.0.repulsion=250000"], "time.step: repulsion shakes `water` at a frequency of about 987.");
     warned(&["space.box=[2.5,10,10]"], "space.box[0]: the edge of 2.5 is under three cutoffs (3)");
-    warned(
-        &[
-            r#"particles=[{"species": "A", "count": 2, "velocities": {"type": "listed", "velocities": [[1,0,0],[1,0,0]]}}]"#,
-        ],
-        "particles: the listed velocities add up to a momentum of (2.000000, 0.000000, 0.000000)",
-    );
+    let moving = r#"particles=[{"species": "A", "count": 2, "velocities": {"type": "listed", "velocities": [[1,0,0],[1,0,0]]}}]"#;
+    warned(&[moving], "particles: the listed velocities add up to a momentum of (2.000000, 0.000000, 0.000000)");
+    // A bath on particles does not keep it.
+    let bath = r#"interactions=[{"type": "langevin", "friction": 1}]"#;
+    assert_eq!(FLUID.warnings(&[moving, bath]), Vec::<String>::new());
 }
 
 fn syntax(text: &str) -> (usize, usize, String) {

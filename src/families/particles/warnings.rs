@@ -33,7 +33,9 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
     }
     warn_of_loose_chains(scene, &mut warnings);
     warn_of_long_molecules(scene, &mut warnings);
-    warn_of_momentum(scene, &mut warnings);
+    if model.conserves_momentum() {
+        warn_of_momentum(scene, &mut warnings);
+    }
     warnings
 }
 
