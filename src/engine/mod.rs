@@ -23,7 +23,7 @@ use std::collections::{HashMap, VecDeque};
 use std::mem::offset_of;
 use std::ops::Range;
 
-use crate::gpu::{AdapterKind, Gpu, GpuError, compute_pass};
+use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
 use crate::plan::{Failure, FailureKind, Hardware, Misfit, PARTICLE_WORDS, Paths, Plan, TIDYING};
 use crate::shaders::Array;
@@ -186,10 +186,10 @@ impl<'a> Engine<'a> {
         Ok(engine)
     }
 
-    /// Lets the drivers of software adapters, which compile a kernel when it first runs, compile all of them now: other ranks that come
-    /// later find them in the driver's cache.
+    /// Lets drivers with serial memory, which compile a kernel when it first runs, compile all of them now: other ranks that come later find
+    /// them in the driver's cache.
     pub(crate) fn compile(&self) -> Result<(), EngineError> {
-        if self.gpu.description().kind == AdapterKind::Software {
+        if self.gpu.serial_memory() {
             pipeline::run_without_workgroups(self.gpu, &self.stages)?;
         }
         Ok(())

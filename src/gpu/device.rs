@@ -278,7 +278,7 @@ impl Gpu {
         self.device.poll(all_before).map(|_| ()).map_err(lost)
     }
 
-    /// Whether linked modules are rewritten before pipelines are made from them.
+    /// True if linked modules are rewritten before pipelines are made from them.
     pub(crate) fn is_rewriting(&self) -> bool {
         self.compiled.rewriting().is_some()
     }
