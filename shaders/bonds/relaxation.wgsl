@@ -7,6 +7,7 @@
 // of a round share no particle, so that their order does not matter.
 override FIRST_RELAXED: u32; // of a round, in `bonds`
 override RELAXED: u32;       // bonds of the round
+const WHOLLY: f32 = 100.0;   // the rate from which on nothing is left of a velocity
 
 // Relaxes the bonds of a round. One invocation a bond; reads `bonds` and `slots`, updates both ends among the sorted
 // particles, and writes `bond_impulses` for reports. One computes the impulse for both ends. Before the first step
@@ -27,7 +28,7 @@ fn relax_bonds(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     let contact = contact_of(separation(me.position, other.position));
     check_reach(me.position, other.position, contact.distance);
     let inverse_mass = pair_rate(me, other, 1.0, 0.0, 0.0);
-    let rate = min(kind.response * inverse_mass, RATE_MOST);
+    let rate = min(kind.response * inverse_mass, WHOLLY);
     let lost = rate * relaxed_share(rate); // 1 - c
     let motion = relative_motion(me, other, steps_of(me.momentum), steps_of(other.momentum));
     let noise = kind.noise * bond_noise(word.w) * sqrt(lost * (2.0 - lost) / inverse_mass);

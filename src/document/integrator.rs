@@ -68,9 +68,8 @@ pub enum PairRelaxation {
     /// All pairs at once, each at the rate that its particles feel on average: one visit of the pairs. Exact for a pair alone. Friction of
     /// a flow is too weak and the temperature too low by shares that grow with friction times step.
     MeanField,
-    /// The same in two stages with the same Gaussian noise, which leave the friction of a flow, up to a friction that relaxes most of
-    /// a velocity in a step, and the temperature, up to one that relaxes it 20 times over: two visits of the pairs. Diffusion is a few per
-    /// cent too slow.
+    /// The same in two stages with the same Gaussian noise, which leave the temperature, and the friction of a flow up to one that relaxes
+    /// most of a velocity in a step: two visits of the pairs. Diffusion is a few per cent too slow.
     TwoStages,
 }
 

@@ -38,7 +38,7 @@ pub use model::{Model, Species};
 pub use observables::{BathProducts, CellObservables, Observables, OnWalls, PutIn};
 pub use particles::Particles;
 pub(crate) use particles::chains::mirrored;
-pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, MOST_IN_STAGES, RelaxationErrors, TOLERANCE};
+pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, MOST_RELAXATION, RelaxationErrors, TOLERANCE};
 pub use particles::model::{
     Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
     HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SpringChain, Strand,

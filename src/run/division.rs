@@ -49,6 +49,10 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
     let (with_bonds, halo) = halo(scene, model);
     let reach = model.physics().reach(model);
     let most = most_parts(model, halo);
+    let needed = format!(
+        "each has to be wider than {:.4}, and with {halo:.4} more on both sides, of which its rank knows the particles, narrower than the box",
+        halo + reach
+    );
     let thin = |(axis, part): (usize, u32)| {
         let (name, most) = (["x", "y", "z"][axis], most[axis]);
         match model.physics().rows() {
@@ -58,11 +62,7 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
             Some(_) => {
                 format!("{part} parts along {name}: parts are rows of cells of the mesh, one above the other along y")
             }
-            None => format!(
-                "{part} parts along {name} are too thin: each has to be wider than {:.4}, and with {halo:.4} more on \
-                 both sides narrower than the box; at most {most} fit",
-                halo + reach,
-            ),
+            None => format!("{part} parts along {name} are too thin: {needed}; at most {most} fit"),
         }
     };
     match asked {
@@ -90,10 +90,8 @@ pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, Ru
                         return refuse(vec![thin((1, count))]);
                     }
                     refuse(vec![format!(
-                        "no division of the box into {} parts leaves each wider than {:.4} ({halo:.4} around a part is \
-                         known to its rank): {} ranks fit",
+                        "no division of the box into {} parts fits: {needed}; {} ranks fit",
                         grouped(count.into()),
-                        halo + reach,
                         grouped(fits.into())
                     )])
                 },

@@ -82,7 +82,7 @@ use std::time::Duration;
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub enum Event<'a> {
-    /// The adapter is open and the files are ready.
+    /// The adapter is open, and files are written from now on.
     Started {
         /// The adapter.
         adapter: &'a AdapterDescription,

@@ -225,7 +225,7 @@ impl Simulation {
         let (mut gpu, mut plan) = open_adapter(&scene, &model, choice, options)?;
         keep_alive();
         proceed()?;
-        let (directory, mut start, earlier, mut replaces) = match beginning {
+        let (directory, mut start, earlier, replaces) = match beginning {
             Beginning::New { directory, force } => {
                 let state = families::initial_state(&scene, &model);
                 proceed()?;
@@ -247,14 +247,14 @@ impl Simulation {
         loop {
             let opened = open(&task, &gpu, plan, (choice, processes), options, &start);
             let ended = opened.and_then(|mut engine| {
-                if let Some(force) = replaces {
-                    proceed()?;
-                    replaces = None;
-                    // Only now: an adapter or a rank that is not there should not cost an earlier run its files.
-                    task.directory.clear(force)?;
-                }
                 if !std::mem::replace(&mut begun, true) {
+                    proceed()?;
                     observer(Event::Started { adapter: gpu.description(), first_step, last_step });
+                    if let Some(force) = replaces {
+                        // Only now: an adapter or a rank that is not there should not cost an earlier run its files, nor a signal that is
+                        // answered with "nothing was written".
+                        task.directory.clear(force)?;
+                    }
                     // Of ranks on this machine alone it is known before.
                     for warning in processes.iter().flat_map(|_| sharing_anywhere(engine.ranks())) {
                         observer(Event::Warned { warning: &warning });

@@ -110,8 +110,8 @@ fn what_is_not_shared_is_told_with_what_is() {
 fn wrong_numbers_of_ranks_are_refused() {
     for (ranks, part) in [
         ("2,2", "`--ranks 2,2` has 2 numbers, where the box has 3 axes"),
-        ("4294967295", "parts leaves each wider than"),
-        ("4096", "ranks fit"),
+        ("4294967295", "parts fits: each has to be wider than"),
+        ("4096", "narrower than the box; "),
         ("1,1,4000000", "4000000 parts along z are too thin"),
         ("0", "a whole number from 1 on"),
         ("4294967296", "a whole number from 1 on"),

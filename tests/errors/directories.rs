@@ -10,6 +10,7 @@ use mesoscope::output::{OutputError, RunDirectory, files};
 use mesoscope::plan::Division;
 use mesoscope::run::{self, RunError, Simulation};
 use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::state_file::GsdWriter;
 use serde_json::{Value, json};
 
 use crate::cost::{MEMORY, PATIENCE, measured};
@@ -146,6 +147,21 @@ fn sizes_are_weighed_before_they_are_believed() {
     let header = "title\n\n4000000000 atoms\n1 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nAtoms\n\n";
     sparse(header.as_bytes(), 1 << 40);
     let said = read(-1);
+    assert!(said.contains(much), "{said}");
+    let mut file = GsdWriter::create(&path, "test", "hoomd", (1, 4)).unwrap();
+    file.write("configuration/box", [[9.0_f32], [9.0], [9.0], [0.0], [0.0], [0.0]]).unwrap();
+    file.write("particles/N", [[4_000_000_000_u32]]).unwrap();
+    file.write("particles/position", [[0.0_f32; 3]]).unwrap();
+    file.end_frame();
+    file.sync().unwrap();
+    drop(file);
+    let mut bytes = fs::read(&path).unwrap();
+    // The entry of the positions in the index, at whose end stands how many numbers a row has: its second word is the number of rows.
+    let index = u64::from_le_bytes(bytes[8..16].try_into().unwrap()) as usize;
+    let entry = bytes[index..].chunks_exact_mut(32).find(|entry| entry[24..28] == [3, 0, 0, 0]).unwrap();
+    entry[8..16].copy_from_slice(&4_000_000_000_u64.to_le_bytes());
+    sparse(&bytes, 1 << 40);
+    let said = read(0);
     assert!(said.contains(much), "{said}");
 }
 

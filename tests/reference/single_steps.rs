@@ -75,6 +75,8 @@ fn splitting_in_two_stages() {
     in_turn(1, &[STAGED, "space.box=[2,2,2]", r#"particles=[{"species":"A","count":100}]"#, "time.step=0.002"]);
     in_turn(0, &[STAGED, "interactions.0.repulsion=0", "interactions.0.friction=1e-6"]);
     in_turn(1, &[STAGED, "interactions.0.friction=500"]);
+    // Rates whose sums need a larger unit.
+    in_turn(0, &[STAGED, "interactions.0.friction=1e4", "time.step=0.02"]);
     in_turn(0, &[STAGED, "temperature=0", r#"particles.0.velocities={"type":"rest"}"#]);
 }
 

@@ -117,3 +117,30 @@ fn temperatures_and_diffusion_under_strong_friction() {
         }
     }
 }
+
+/// Friction that relaxes velocities 1.7, 17 and 168 times over in a step: the choice of the program keeps both temperatures.
+#[test]
+#[ignore = "minutes"]
+fn temperatures_under_any_friction() {
+    println!("| γ | kinetic | configurational |\n|--:|-|-|");
+    for friction in [100.0, 1e3, 1e4] {
+        let scene = with(
+            json!({
+                "space": {"box": [6, 6, 6]}, "time": {"step": 0.04, "steps": 8000, "equilibration": 1000},
+                "particles": [{"species": "f", "number_density": 3}],
+                "interactions": [{"type": "dpd", "repulsion": 25, "friction": friction}],
+                "output": {"energies": {"every": 5}},
+            }),
+            None,
+        );
+        let means = run(scene).0;
+        let [kinetic, configurational] =
+            ["temperature", "configurational_temperature"].map(|name| measured(&means[name]));
+        println!(
+            "| {friction} | {:.4} ± {:.4} | {:.4} ± {:.4} |",
+            kinetic.mean, kinetic.error, configurational.mean, configurational.error
+        );
+        kinetic.assert("kinetic temperature", 1.0, 0.015, 0.003);
+        configurational.assert("configurational temperature", 1.0, 0.02, 0.005);
+    }
+}

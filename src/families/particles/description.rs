@@ -31,14 +31,15 @@ pub(super) fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)>
 pub(super) fn estimates(model: &Model) -> Vec<String> {
     let Some(errors) = model.relaxation() else { return Vec::new() };
     let percent = |part: f64| if part.abs() < 5e-5 { "0".to_owned() } else { format!("{:+.1} %", 100.0 * part) };
+    let missing = errors.missing_temperature();
     let stages = match errors.rule {
         PairRelaxation::MeanField => "one stage",
         PairRelaxation::TwoStages => "two stages",
     };
     let mut found = vec![format!(
         "temperature {} ({} by friction in {stages}, {} by repulsion)",
-        percent(errors.hot - errors.cold),
-        percent(-errors.cold),
+        percent(errors.hot - missing),
+        percent(-missing),
         percent(errors.hot)
     )];
     if errors.tight > 0.0 {
@@ -47,10 +48,14 @@ pub(super) fn estimates(model: &Model) -> Vec<String> {
     let viscosity =
         if errors.viscosity > 5e-5 { format!("up to {}", percent(-errors.viscosity)) } else { "0".to_owned() };
     found.push(format!("viscosity {viscosity} (friction of a flow {})", percent(-errors.friction)));
-    found.push(if errors.diffusion > 0.0 {
-        format!("diffusion about {}, low by {} at most", percent(-errors.slow), three_digits(errors.diffusion))
-    } else {
-        "diffusion within 2 %".to_owned()
+    // Friction that is weakened lets particles go, and what a step relaxes too fast holds them: which of both wins was measured up to here.
+    found.push(match errors.rule {
+        PairRelaxation::MeanField if errors.friction < 0.15 => "diffusion within 2 %".to_owned(),
+        PairRelaxation::MeanField if errors.friction < 0.5 => "diffusion within 5 %".to_owned(),
+        PairRelaxation::TwoStages if errors.friction < 0.1 => {
+            format!("diffusion about {}, low by {} at most", percent(-errors.slow), three_digits(errors.diffusion))
+        }
+        _ => "diffusion unknown".to_owned(),
     });
     found
 }

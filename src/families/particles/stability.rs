@@ -10,7 +10,7 @@ use crate::document::{
     Bath, BondPotential, BondsInteraction, FileStart, Integrator, Interaction, Problem, Problems, Scene, Warning, brief,
 };
 use crate::families::{
-    Alike, BathStep, Beyond, Bond, BondKind, Bonds, FREQUENCY_LIMIT, Limit, MOST_IN_STAGES, Model, Particles,
+    Alike, BathStep, Beyond, Bond, BondKind, Bonds, FREQUENCY_LIMIT, Limit, MOST_RELAXATION, Model, Particles,
     RelaxationErrors, TOLERANCE,
 };
 use std::sync::Arc;
@@ -21,10 +21,7 @@ const LIMIT: f64 = 4.0;
 /// B + W from which on a warning is due: positions are a third off their temperature where there is no potential but this.
 const CLEAN: f64 = 1.0;
 
-/// Times that friction may relax velocities over in a step of `splitting`, and the neighbours that it takes: one pair relaxes
-/// exactly at any friction, but many at once do not. The standard fluid ends within ten steps at 125 times, and is far off its
-/// temperature long before.
-const MOST_RELAXATION: f64 = 250.0;
+/// The neighbours from which on the friction of a step is limited: one pair relaxes exactly at any friction, but many at once do not.
 const NEIGHBOURS: f64 = 3.0;
 
 /// Radians by which the stiffest crowd of neighbours oscillates in a step. Fluids have been seen to become unstable between
@@ -86,11 +83,7 @@ pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Proble
     let (rate, index) = model.largest_friction_rate(force);
     let particles = model.particles();
     let staged = particles.relaxes_in_two_stages(model);
-    let most = match (particles.splits(model), staged) {
-        (_, true) => MOST_IN_STAGES,
-        (true, _) => MOST_RELAXATION,
-        _ => LIMIT,
-    };
+    let most = if particles.splits(model) { MOST_RELAXATION } else { LIMIT };
     let step = scene.time.step;
     // A pair alone relaxes exactly in one stage only.
     let sparse = particles.splits(model) && !staged && model.most_neighbours(force) < NEIGHBOURS;
@@ -105,7 +98,7 @@ pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Proble
     let accepted = format!(
         "at most {}, beyond which {}, and {:.2e} for reliable results; or less friction",
         two_digits(most / rate),
-        if staged { "rates do not fit their sums" } else { "no such step is stable" },
+        if staged { "no step was measured" } else { "no such step is stable" },
         model.friction_limit() / rate
     );
     problems.push(Problem::new("time.step", found, accepted));

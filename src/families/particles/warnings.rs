@@ -6,7 +6,7 @@ use crate::document::{
     brief,
 };
 use crate::families::warnings::{warn, warn_of_momentum};
-use crate::families::{FREQUENCY_LIMIT, MOST_IN_STAGES, Model, PairForce, Particles, Species};
+use crate::families::{FREQUENCY_LIMIT, MOST_RELAXATION, Model, PairForce, Particles, Species};
 
 /// All warnings about a scene.
 pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Warning> {
@@ -196,9 +196,9 @@ fn warn_of_friction(scene: &Scene, model: &Model, force: &PairForce, warnings: &
             model.advisable_relaxation() == PairRelaxation::TwoStages || relaxed > limit,
             format!(
                 "one stage leaves the temperature about {:.1} % low by that and the viscosity up to {:.1} %{}",
-                100.0 * errors.cold,
+                100.0 * errors.missing_temperature(),
                 100.0 * errors.viscosity,
-                if relaxed < MOST_IN_STAGES { ", which `integrator.relaxation=two-stages` does not" } else { "" }
+                if relaxed < MOST_RELAXATION { ", which `integrator.relaxation=two-stages` does not" } else { "" }
             ),
         ),
         None if model.particles().relaxes_in_two_stages(model) => (

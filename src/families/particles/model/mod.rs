@@ -29,7 +29,7 @@ pub use harmonic_chain::{HarmonicChain, SpringChain};
 pub use many_body::ManyBodyForce;
 pub use position::PositionBath;
 pub use pulse::{HalfPulse, Pulse, half_pulses};
-pub(crate) use relaxation::{MOST_IN_STAGES, RelaxationErrors, TOLERANCE};
+pub(crate) use relaxation::{MOST_RELAXATION, RelaxationErrors, TOLERANCE};
 pub use shear::ShearedBox;
 pub use thermal_start::thermal_start;
 pub(crate) use time_scales::FREQUENCY_LIMIT;

@@ -151,6 +151,10 @@ struct Builder<'a> {
     plan: Plan,
 }
 
+/// Units of a rate of relaxation, and the mean of the fluid up to which their sums fit.
+const RATE_UNIT: f64 = 65536.0;
+const EVEN_RELAXATION: f64 = 20.0;
+
 /// Friction and noise of the two stages of a relaxation: shaders/pairs/friction/stages.wgsl.
 ///
 /// (1 - α₁h)(1 - α₂h) = 1 - h + bh² for a mode of eigenvalue h, which has the noise β₁(1 - α₂h) + β₂ = 1 - (1 + 2b)h/4 times √(2kT h). Its
@@ -203,6 +207,9 @@ impl Builder<'_> {
             (Constant::Gradient, to_force * to_force / force_squared),
             (Constant::Laplacian, to_force / curvature),
         ]);
+        if self.relaxes_pairs() || self.model.particles().relaxes_bonds(self.model) {
+            constants.push((Constant::RateUnit, self.rate_unit()));
+        }
         if let Integrator::GrootWarren { lambda } = self.model.integrator {
             constants.push((Constant::Prediction, 2.0 * lambda - 1.0));
         }
@@ -225,6 +232,14 @@ impl Builder<'_> {
         self.particle_constants();
         walls::add_constants(self.model, &mut self.plan);
         self.density_constants();
+    }
+
+    /// Integer units of the rates at which pairs relax, whose sums have 24 bits. One stage hardly tells one large rate from another; two
+    /// need to know all of them.
+    fn rate_unit(&self) -> f64 {
+        let (rate, _) = self.model.largest_friction_rate(self.force);
+        let excess = rate * self.model.time_step / EVEN_RELAXATION;
+        if self.relaxes_in_two_stages() && excess > 1.0 { RATE_UNIT / excess.log2().ceil().exp2() } else { RATE_UNIT }
     }
 
     /// Whether particles carry predicted momenta.
