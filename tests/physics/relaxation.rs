@@ -229,7 +229,7 @@ fn the_rule_that_no_scene_names_follows_friction_and_step() {
         // Friction that makes all of the viscosity.
         ("dpd-fluid", &["interactions.0.friction=200", "time.step=0.001"], two),
         ("dpd-fluid-2d", &[], two),
-        ("dpd-fluid", &["interactions.0.friction=3000"], one),
+        ("dpd-fluid", &["interactions.0.friction=3000"], two),
         ("dpd-fluid", &["interactions.0.friction=0"], None),
         ("voronoi-dpd", &["integrator.type=splitting"], None),
     ] {

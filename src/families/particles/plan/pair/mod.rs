@@ -207,7 +207,7 @@ impl Builder<'_> {
             (Constant::Gradient, to_force * to_force / force_squared),
             (Constant::Laplacian, to_force / curvature),
         ]);
-        if self.relaxes_pairs() || self.model.particles().relaxes_bonds(self.model) {
+        if self.splits() {
             constants.push((Constant::RateUnit, self.rate_unit()));
         }
         if let Integrator::GrootWarren { lambda } = self.model.integrator {
