@@ -147,12 +147,12 @@ fn choices_have_costs_and_errors_over_the_same_time() {
     assert_eq!(fs::read(out.join("step=0.02").join(run_files::CHECKPOINT)).unwrap(), before);
 }
 
-/// A run refuses friction that relaxes a velocity more than twenty times in a step, though two stages stand twice that: such a choice is
+/// A run refuses friction that relaxes a velocity more than 250 times in a step, though its temperature holds there: such a choice is
 /// run like all others, with its errors and cost, and never chosen.
 #[test]
 fn a_step_that_a_run_refuses_is_a_choice_that_is_never_chosen() {
     let place = place().with("/integrator", json!({"type": "splitting", "relaxation": "two-stages"}));
-    let strong = "interactions.0.friction=1500";
+    let strong = "interactions.0.friction=16000";
     fails(&["run", &place.scene(), "--set", strong], 2, &["time.step", "friction"]);
     let target = ["--vary", strong, "--measure", "temperature", "--target", "temperature=60%"];
     let new = place.argument("new.json");
@@ -167,11 +167,11 @@ fn a_step_that_a_run_refuses_is_a_choice_that_is_never_chosen() {
     let page = fs::read_to_string(place.path("out").join(files::PAGE)).unwrap();
     assert!(page.contains("No choice that `mesoscope run` takes meets the targets."), "{page}");
     assert!(
-        page.contains("friction = 1500 is never chosen, for `mesoscope run` refuses its scene: time.step"),
+        page.contains("friction = 16000 is never chosen, for `mesoscope run` refuses its scene: time.step"),
         "{page}"
     );
     // Beside one that a run takes; and what was begun goes on with it.
-    let both = ["--vary", "interactions.0.friction=4.5,1500", "--force"];
+    let both = ["--vary", "interactions.0.friction=4.5,16000", "--force"];
     let said = succeeds(&borrowed(&arguments(&place, &[&both[..], &target[2..]].concat())));
     assert!(said.contains("Choose friction = 4.5"), "{said}");
     let said = succeeds(&["tradeoff", "--resume", &place.argument("out")]);
