@@ -31,16 +31,16 @@ ON_GPU_PLANS := single_steps:: smoothing:: harmonic_chain::
 
 # Features that the tests are built with; lints and documentation are of the default ones.
 FEATURES :=
-WITH_FEATURES := $(FEATURES:%=--features %)
+WITH_FEATURES := $(FEATURES:%=--features mesoscope/%)
 
 test: cargo adapter ## formatting, lints, all tests, documentation, and the book where mdbook is installed
 	@sh .ci/spirv.sh
 	cargo fmt --check
-	cargo clippy --locked --all-targets -- -D warnings
-	cargo test --locked --no-fail-fast $(WITH_FEATURES)
-	MESOSCOPE_PLAN=gpu cargo test --locked $(WITH_FEATURES) --test library -- $(ON_GPU_PLANS)
+	cargo clippy --locked --workspace --all-targets -- -D warnings
+	cargo test --locked --workspace --no-fail-fast $(WITH_FEATURES)
+	MESOSCOPE_PLAN=gpu cargo test --locked --workspace $(WITH_FEATURES) --test library -- $(ON_GPU_PLANS)
 	# With examples, of which there are none, dependencies have the features that they have for tests: nothing is checked again.
-	RUSTDOCFLAGS='-D warnings' cargo doc --locked --no-deps --lib --examples
+	RUSTDOCFLAGS='-D warnings' cargo doc --locked --workspace --no-deps --lib --examples
 	@if command -v mdbook >/dev/null; then sh .ci/book.sh; fi
 
 validate: cargo adapter ## the long tests, and all tests on other drivers
@@ -53,8 +53,8 @@ MPI_TESTS := --include-ignored
 
 test-mpi: cargo adapter ## the tests of ranks that are processes, with an MPI library
 	@sh .ci/mpi.sh
-	cargo clippy --locked --features mpi --bins --test mpi -- -D warnings
-	cargo test --locked --features mpi --test mpi -- $(MPI_TESTS)
+	cargo clippy --locked --workspace --features mesoscope/mpi --bins --test mpi -- -D warnings
+	cargo test --locked --workspace --features mesoscope/mpi --test mpi -- $(MPI_TESTS)
 
 bench: cargo adapter ## cost per particle-step and per stage
 	cargo bench --locked

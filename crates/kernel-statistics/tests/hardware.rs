@@ -1,0 +1,263 @@
+//! What a compiler of graphics cards makes of every kernel of every shipped scene, compared with a committed table.
+//!
+//! Mesa's driver of AMD cards compiles for a card that is not there, so that no change of a kernel loses registers, or begins to spill them,
+//! unseen. Numbers are those of one version of the compiler: elsewhere nothing is compared, and the test says so. A change that is meant is
+//! recorded by running this test with `MESOSCOPE_RECORD=1`; the commit says why.
+#![allow(clippy::unwrap_used)]
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::num::NonZero;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::thread;
+
+use mesoscope::families::Model;
+use mesoscope::gpu::{LinkedShader, link};
+use mesoscope::plan::{Hardware, Kernel, Options, Plan};
+use mesoscope::scene;
+use mesoscope::shaders::Array;
+use naga::back::pipeline_constants::process_overrides;
+use naga::back::spv;
+use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+/// The card that is compiled for: AMD's RDNA 3 (Radeon RX 7900).
+const CARD: &str = "GFX1100";
+
+/// Columns of the table: the head, and the statistics of the driver that they add up.
+const COLUMNS: [(&str, &[&str]); 9] = [
+    ("registers", &["VGPRs"]),
+    ("spilled", &["Spilled VGPRs", "Spilled SGPRs"]),
+    ("scratch", &["Scratch size"]),
+    ("workgroup", &["LDS size"]),
+    ("waves", &["Subgroups per SIMD"]),
+    ("instructions", &["Instructions"]),
+    ("branches", &["Branches"]),
+    ("latency", &["Latency"]),
+    ("throughput", &["Inverse Throughput"]),
+];
+
+/// A kernel as a pipeline is made of it: what two plans have in common is compiled once.
+struct Compiled {
+    kernel: Kernel,
+    linked: LinkedShader,
+    spirv: Vec<u8>,
+}
+
+impl Compiled {
+    /// Links a kernel and writes the SPIR-V that wgpu 30 gives a Vulkan driver of version 1.3 which checks the bounds of buffers by itself.
+    fn new(kernel: &Kernel, plan: &Plan) -> Self {
+        let linked = link(kernel.name, kernel.entry, &kernel.choices).unwrap();
+        let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&linked.module).unwrap();
+        let used = kernel.constants_in(plan).filter(|(constant, _)| linked.constants.contains(constant));
+        let constants = used.map(|(constant, value)| (constant.name().to_owned(), value)).collect();
+        let entry = (naga::ShaderStage::Compute, kernel.entry.name());
+        let (module, info) = process_overrides(&linked.module, &info, Some(entry), &constants).unwrap();
+        let options = spv::Options {
+            lang_version: (1, 6),
+            flags: spv::WriterFlags::LABEL_VARYINGS | spv::WriterFlags::FORCE_POINT_SIZE,
+            bounds_check_policies: BoundsCheckPolicies {
+                index: BoundsCheckPolicy::Restrict,
+                buffer: BoundsCheckPolicy::Unchecked,
+                image_load: BoundsCheckPolicy::Unchecked,
+                binding_array: BoundsCheckPolicy::Unchecked,
+            },
+            zero_initialize_workgroup_memory: spv::ZeroInitializeWorkgroupMemoryMode::None,
+            force_loop_bounding: true,
+            emit_int_div_checks: true,
+            ..spv::Options::default()
+        };
+        let pipeline = spv::PipelineOptions { shader_stage: entry.0, entry_point: entry.1.to_owned() };
+        let words = spv::write_vec(&module, &info, &options, Some(&pipeline)).unwrap();
+        let spirv = words.into_iter().flat_map(u32::to_le_bytes).collect();
+        Self { kernel: kernel.clone(), linked, spirv }
+    }
+
+    /// The arrays that the kernel binds.
+    fn arrays(&self) -> BTreeSet<Array> {
+        self.linked.bindings.iter().map(|binding| self.kernel.array_of(binding.array)).collect()
+    }
+}
+
+/// The shipped scenes as a graphics card runs them.
+fn plans() -> Vec<(&'static str, Plan)> {
+    let plan = |name| {
+        let scene = scene::load(name, &[]).unwrap();
+        let model = Model::new(&scene);
+        let equilibration = scene.time.equilibration;
+        mesoscope::run::plan(&model, equilibration, &scene.output, Hardware::default(), Options::default())
+    };
+    scene::builtin().iter().map(|scene| (scene.name, plan(scene.name))).collect()
+}
+
+/// The manifest of Mesa's driver of AMD cards, where it is installed.
+fn driver() -> Option<PathBuf> {
+    let folders = ["/usr/share/vulkan/icd.d", "/usr/local/share/vulkan/icd.d", "/etc/vulkan/icd.d"];
+    let files = folders.iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten().flatten();
+    let mut manifests: Vec<PathBuf> = files.map(|file| file.path()).collect();
+    manifests.retain(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("radeon_icd")));
+    // Drivers of other architectures may lie beside that of this one.
+    manifests.sort_by_key(|path| !path.to_string_lossy().contains(std::env::consts::ARCH));
+    manifests.into_iter().next()
+}
+
+/// What the driver says of files of SPIR-V: device and version, then the statistics of each file by name.
+struct Answer {
+    version: String,
+    statistics: BTreeMap<PathBuf, BTreeMap<String, f64>>,
+}
+
+/// Compiles files of SPIR-V, as many at a time as there are cores.
+fn compile(driver: &Path, files: &[PathBuf]) -> Answer {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get);
+    let outputs: Vec<String> = thread::scope(|scope| {
+        // By turns, since kernels that take long are neighbours.
+        let share = |first: usize| files.iter().skip(first).step_by(threads);
+        let workers: Vec<_> = (0..threads).map(|first| scope.spawn(move || run(driver, share(first)))).collect();
+        workers.into_iter().map(|worker| worker.join().unwrap()).collect()
+    });
+    let mut answer = Answer { version: String::new(), statistics: BTreeMap::new() };
+    for output in &outputs {
+        let mut lines = output.lines();
+        lines.next().unwrap_or_default().clone_into(&mut answer.version);
+        for line in lines {
+            let mut fields = line.split('\t');
+            let file = PathBuf::from(fields.next().unwrap());
+            let numbers = fields.filter_map(|field| field.split_once('='));
+            let numbers = numbers.map(|(name, number)| (name.to_owned(), number.parse().unwrap())).collect();
+            answer.statistics.insert(file, numbers);
+        }
+    }
+    answer
+}
+
+fn run<'a>(driver: &Path, files: impl Iterator<Item = &'a PathBuf>) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_kernel-statistics"))
+        .args(files)
+        .env("VK_DRIVER_FILES", driver)
+        .env("VK_ICD_FILENAMES", driver)
+        .env("RADV_FORCE_FAMILY", CARD)
+        .env("RADV_DEBUG", "nocache")
+        .env_remove("VK_INSTANCE_LAYERS")
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// A shipped scene: its plan and, of each kernel, the place among all that are compiled.
+struct Row {
+    scene: &'static str,
+    plan: Plan,
+    places: Vec<usize>,
+}
+
+/// Dispatches, barriers and bytes of a step: each dispatch is taken to pass once over every array that it binds, and waits where an earlier one has
+/// bound one of them, in the same step or in the one before, as wgpu arranges it.
+fn step(plan: &Plan, arrays: &[BTreeSet<Array>]) -> String {
+    let kernels: Vec<usize> = [&plan.sort, &plan.before_report, &plan.advance].into_iter().flatten().copied().collect();
+    let is_certain = |kernel: &&usize| plan.kernels[**kernel].demand.is_none();
+    let certain: Vec<usize> = kernels.iter().filter(is_certain).copied().collect();
+    let size =
+        |array: &Array| plan.buffers.iter().find(|buffer| buffer.array == *array).map_or(0, |buffer| buffer.bytes);
+    let bytes: u64 = certain.iter().flat_map(|kernel| &arrays[*kernel]).map(size).sum();
+    let bound: BTreeSet<&Array> = certain.iter().flat_map(|kernel| &arrays[*kernel]).collect();
+    let barriers = certain.iter().filter(|kernel| arrays[**kernel].iter().any(|array| bound.contains(array))).count();
+    let on_demand = match kernels.len() - certain.len() {
+        0 => String::new(),
+        some => format!(", {some} more on demand"),
+    };
+    format!(
+        "{} dispatches and {barriers} barriers a step{on_demand}; {} bytes held a particle, {} bound a step",
+        certain.len(),
+        plan.bytes().div_ceil(plan.particles.max(1)),
+        bytes.div_ceil(plan.particles.max(1))
+    )
+}
+
+/// The table, without its first line.
+fn table(rows: &[Row], compiled: &[Compiled], numbers: &[BTreeMap<String, f64>]) -> String {
+    let mut text = String::new();
+    for Row { scene, plan, places } in rows {
+        let arrays: Vec<BTreeSet<Array>> = places.iter().map(|place| compiled[*place].arrays()).collect();
+        writeln!(text, "\n{scene}: {}", step(plan, &arrays)).unwrap();
+        write!(text, "  {:30}", "").unwrap();
+        for (head, _) in COLUMNS {
+            write!(text, "{head:>13}").unwrap();
+        }
+        text.push('\n');
+        for (kernel, place) in plan.kernels.iter().zip(places) {
+            write!(text, "  {:30}", kernel.name).unwrap();
+            for (_, names) in COLUMNS {
+                let sum: f64 = names.iter().map(|name| numbers[*place].get(*name).copied().unwrap_or_default()).sum();
+                write!(text, "{sum:>13}").unwrap();
+            }
+            text.push('\n');
+        }
+    }
+    text
+}
+
+#[test]
+fn every_kernel_of_the_shipped_scenes_compiles_as_recorded() {
+    // Passes the harness, which hides what a test that succeeds prints.
+    let skip = |reason: &str| {
+        let _ = writeln!(std::io::stderr(), "hardware table: not compared, {reason}");
+    };
+    let Some(driver) = driver() else {
+        return skip("for Mesa's driver of AMD cards is not installed (mesa-vulkan-drivers)");
+    };
+    let mut compiled: Vec<Compiled> = Vec::new();
+    let mut known: BTreeMap<Vec<u8>, usize> = BTreeMap::new();
+    let mut rows = Vec::new();
+    for (scene, plan) in plans() {
+        let mut places = Vec::new();
+        for kernel in &plan.kernels {
+            let new = Compiled::new(kernel, &plan);
+            let next = compiled.len();
+            let place = *known.entry(new.spirv.clone()).or_insert(next);
+            if place == next {
+                compiled.push(new);
+            }
+            places.push(place);
+        }
+        rows.push(Row { scene, plan, places });
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let files: Vec<PathBuf> = (0..compiled.len()).map(|number| folder.path().join(format!("{number}.spv"))).collect();
+    for (file, kernel) in files.iter().zip(&compiled) {
+        std::fs::write(file, &kernel.spirv).unwrap();
+    }
+    let answer = compile(&driver, &files);
+    let numbers: Vec<BTreeMap<String, f64>> = files.iter().map(|file| answer.statistics[file].clone()).collect();
+    let seconds = numbers.iter().map(|number| number["milliseconds"]).sum::<f64>() / 1e3;
+    let slowest =
+        numbers.iter().zip(&compiled).max_by(|a, b| a.0["milliseconds"].total_cmp(&b.0["milliseconds"])).unwrap();
+    println!(
+        "{} kernels compiled in {seconds:.1} s, the slowest `{}` in {:.0} ms",
+        compiled.len(),
+        slowest.1.kernel.name,
+        slowest.0["milliseconds"]
+    );
+
+    let now = format!("{}\n{}", answer.version, table(&rows, &compiled, &numbers));
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/hardware.txt");
+    if std::env::var_os("MESOSCOPE_RECORD").is_some() {
+        std::fs::write(&path, &now).unwrap();
+        return;
+    }
+    let recorded = std::fs::read_to_string(&path).unwrap();
+    let version = recorded.lines().next().unwrap_or_default();
+    if version != answer.version {
+        return skip(&format!("for it was recorded with `{version}`, and here is `{}`", answer.version));
+    }
+    let differing = recorded.lines().zip(now.lines()).filter(|(before, after)| before != after);
+    let list: Vec<String> = differing.map(|(before, after)| format!("- {before}\n+ {after}")).collect();
+    assert!(
+        recorded == now,
+        "a graphics card gets other code than recorded; if that is meant, run this test with MESOSCOPE_RECORD=1 and say why.\n{}",
+        list.join("\n")
+    );
+}
