@@ -30,9 +30,13 @@ fn drift_of_end(particle: Particle) -> f32 { return bitcast<f32>(bonds[species_o
 fn last_drift(particle: Particle) -> Steps {
     return Steps(round(Vector(steps_of(particle.momentum)) * (drift_of_end(particle) / unit_lengths())));
 }
-// The change of a bond's length over the last drift: even under exchange of its ends.
-fn change_of_length(me: Particle, other: Particle) -> f32 {
-    let drifted = last_drift(me) - last_drift(other);
+// Slot bonds/way: the way of an end in the last step, in 2^-32 of the box, for a bath of a kind.
+// Default: its drift. The plan chooses `between_walls` if walls may have reflected the drift and a bath of a bond has memory.
+fn way_of_end(kind: BondKind, particle: Particle) -> Steps { return last_drift(particle); }
+
+// The change of a bond's length over the last step: even under exchange of its ends.
+fn change_of_length(kind: BondKind, me: Particle, other: Particle) -> f32 {
+    let drifted = way_of_end(kind, me) - way_of_end(kind, other);
     let now = signed(fraction_of(me.position) - fraction_of(other.position));
     let after = Vector(now) * unit_lengths();
     let before = Vector(now - drifted) * unit_lengths();

@@ -2,7 +2,7 @@
 // doi:10.1209/epl/i2003-00621-8.
 
 // Ends a step: closing and opening half kicks by all couplings, then the drift. One invocation a stored particle; reads and
-// clears `kicks`, updates the particle and its baths.
+// clears `kicks`, updates the particle and its baths, adds to `wall_impulses` where there are walls.
 @compute @workgroup_size(WORKGROUP)
 fn move_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -12,7 +12,7 @@ fn move_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     let id = me.position.w;
     let species = species_of(me);
     let held = advance_hold(id);
-    let bath = position_bath(id, species, Vector(drift_steps(me.momentum)) * unit_lengths());
+    let bath = position_bath(me, species);
     keep_position_bath(id, bath);
     let impulse = position_impulse(bath);
     let kick = steps_of(kicks[slot]) + Steps(round(impulse));
@@ -21,13 +21,13 @@ fn move_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     var momentum = steps_of(me.momentum) + clock_closing() * (kick + held.closing) + opening;
     momentum = select(momentum, Steps(0), is_fixed(species));
     let travelled = Vector(momentum) * drift_of(species);
+    let end = travel(me.position, momentum, species);
     raise(select(FAILURE_IMPULSE, 0u, all_within(impulse, IMPULSE_LIMIT))
-        | select(0u, FAILURE_MOMENTUM, any_beyond(momentum, MOMENTUM_LIMIT))
+        | select(0u, FAILURE_MOMENTUM, any_beyond(momentum, MOMENTUM_LIMIT) || any_beyond(end.momentum, MOMENTUM_LIMIT))
         | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT)));
-    let word = momentum_word(momentum, species);
-    let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
-    store_particle(slot, advanced_particle(position_word(fraction, id), word, opening));
-    check_anchor(slot, fraction);
+    let word = momentum_word(end.momentum, species);
+    store_particle(slot, advanced_particle(position_word(end.place, id), word, end.turned * opening));
+    check_anchor(slot, end.place);
 }
 
 // The particles of a report, by id, with momenta at the full step: each as two vectors of words.
@@ -48,7 +48,7 @@ fn observe_particle(slot: u32) {
     let me = stored_particle(slot);
     let id = me.position.w;
     let species = species_of(me);
-    let bath = position_bath(id, species, Vector(drift_steps(me.momentum)) * unit_lengths());
+    let bath = position_bath(me, species);
     note_position_bath(species, bath);
     let kick = steps_of(kicks[slot]) + Steps(round(position_impulse(bath))) + closing_of_hold(id);
     kicks[slot] = vec4<i32>(0);
@@ -77,9 +77,9 @@ struct Held { closing: Steps, opening: Steps }
 fn advance_hold(id: u32) -> Held { return Held(Steps(0), Steps(0)); }
 fn closing_of_hold(id: u32) -> Steps { return Steps(0); }
 
-// Slot baths/positions: a bath on every coordinate, from its drift in the last step; `position_impulse` is its impulse
+// Slot baths/positions: a bath on every coordinate, from what the last step has made of it; `position_impulse` is its impulse
 // of half a step, `keep_position_bath` stores it. Default: off. The plan chooses `memory` or `white`.
-fn position_bath(id: u32, species: i32, drift: Vector) -> Vector { return Vector(0.0); }
+fn position_bath(me: Particle, species: i32) -> Vector { return Vector(0.0); }
 fn position_impulse(bath: Vector) -> Vector { return bath; }
 fn keep_position_bath(id: u32, bath: Vector) {}
 

@@ -1,4 +1,4 @@
-// The end of a step for one particle: it drifts, is checked, and is counted into its next cell.
+// The end of a step for one particle: it is checked, drifts (space/travel), and is counted into its next cell.
 const STRAIN_LIMIT: f32 = 1073741824.0;
 var<private> failures_of_particles: u32; // raised once, when all particles of an invocation are done
 
@@ -17,58 +17,32 @@ fn check_particle(momentum: Steps, species: i32, strain: f32) {
 fn held_momentum(me: Particle, momentum: Steps) -> Steps { return momentum; }
 fn held_kick(me: Particle, kick: Steps) -> Steps { return kick; }
 
-// Slot pairs/advance: how a particle drifts. The plan chooses `between_walls` if the scene has walls, `sheared` if it has shear.
-// Default: across the periodic box.
-//
-// Stores a particle after its opening kick and drift, and counts it. `momentum` and `kick` are in integer momentum units.
+// Stores a particle after its opening kick and drift, and counts it: what friction sees of the kick turns with the momentum. `momentum` and
+// `kick` are in integer momentum units.
 fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Steps, strain: f32) {
-    check_particle(momentum, species_of(me), strain);
-    let word = momentum_word(momentum, species_of(me));
-    let fraction = fraction_of(me.position) + unsigned(drift_steps(word));
+    let species = species_of(me);
+    let held = held_momentum(me, momentum);
+    check_particle(held, species, strain);
+    let end = travel(me.position, held, species);
+    failures_of_particles |= select(0u, FAILURE_MOMENTUM, any_beyond(end.momentum, MOMENTUM_LIMIT));
     let slot = unframed_index(row, index);
-    store_particle(slot, advanced_particle(position_word(fraction, me.position.w), word, kick));
-    put_rank(slot, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
+    let word = momentum_word(end.momentum, species);
+    store_particle(slot, advanced_particle(position_word(end.place, me.position.w), word, held_kick(me, end.turned * kick)));
+    put_rank(slot, atomicAdd(&counts[row_of(end.place) * CELLS_X + column_of(end.place)], 1u));
 }
 
 // The particles in a buffer: the plan holds them in no texture where a step is split.
 var<storage, read_write> particles: array<Particle>;
 
-// The second half of a drift that a report has interrupted. One invocation a stored particle; updates its position, adds to
-// `counts`, writes `ranks`.
+// The second half of a drift that a report has interrupted. One invocation a stored particle; updates it, adds to `counts`, and to
+// `wall_impulses` where momenta change, writes `ranks`.
 @compute @workgroup_size(WORKGROUP)
 fn drift_rest(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index >= sorted_count()) { return; }
-    let particle = particles[index];
-    let fraction = fraction_of(particle.position) + unsigned(half_drift_steps(particle.momentum));
-    particles[index].position = position_word(fraction, particle.position.w);
-    put_rank(index, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
-}
-
-// The second half of a drift between walls that a report has interrupted. One invocation a stored particle; updates it, adds to
-// `counts` and `wall_impulses`, writes `ranks`.
-@compute @workgroup_size(WORKGROUP)
-fn drift_rest_between_walls(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (index >= sorted_count()) { return; }
     let me = particles[index];
-    is_booked = is_own(me.position);
-    let flight = fly(Flight(fraction_of(me.position), steps_of(me.momentum), Steps(1), 1), species_of(me));
-    particles[index].position = position_word(flight.place, me.position.w);
-    particles[index].momentum = momentum_word(flight.momentum, me.momentum.w);
-    put_rank(index, atomicAdd(&counts[row_of(flight.place) * CELLS_X + column_of(flight.place)], 1u));
-}
-
-// The second half of a drift through boundaries that shear, which a report has interrupted. One invocation a stored particle; updates it,
-// adds to `counts` and `wall_impulses`, writes `ranks`.
-@compute @workgroup_size(WORKGROUP)
-fn drift_rest_sheared(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (index >= sorted_count()) { return; }
-    let me = particles[index];
-    is_booked = is_own(me.position);
-    let flight = drift_through(ShearedFlight(fraction_of(me.position), steps_of(me.momentum)), species_of(me), 2u * SHEAR_PART);
-    particles[index].position = position_word(flight.place, me.position.w);
-    particles[index].momentum = momentum_word(flight.momentum, me.momentum.w);
-    put_rank(index, atomicAdd(&counts[row_of(flight.place) * CELLS_X + column_of(flight.place)], 1u));
+    let end = travel_rest(me.position, steps_of(me.momentum), species_of(me));
+    particles[index].position = position_word(end.place, me.position.w);
+    particles[index].momentum = momentum_word(end.momentum, me.momentum.w);
+    put_rank(index, atomicAdd(&counts[row_of(end.place) * CELLS_X + column_of(end.place)], 1u));
 }

@@ -75,19 +75,22 @@ fn fast_walls() {
     CHANNEL.accepted(&["space.walls.z.upper_velocity=[20,0,0]"]);
 }
 
+const HARMONIC_CHAIN: &str = r#"interactions=[{"type":"harmonic-chain","cluster_size":16,"spacing":16.0,
+    "pulse":{"clusters":200,"width":2.0,"amplitude":32.0},"equilibrium":{"clusters":1024}}]"#;
+
 /// Whatever is bound to a periodic box is refused with the reason.
 #[test]
 fn what_takes_no_walls() {
-    CHANNEL.refused_with(
-        &[r#"interactions.0.bath={"type":"memory","rate":3}"#],
-        &["space.walls: found together with a bath with memory in interactions[0]"],
-    );
     let langevin = r#"interactions=[{"type":"langevin","friction":1}]"#;
-    CHANNEL.refused_with(&[langevin], &["space.walls: found together with a bath on every particle"]);
-    CHANNEL
-        .refused_with(&["particles.0.fixed=true"], &["space.walls: found together with particles[0], which are fixed"]);
+    for accepted in [r#"interactions.0.bath={"type":"memory","rate":3}"#, langevin, "particles.0.fixed=true"] {
+        CHANNEL.accepted(&[accepted]);
+    }
     let tethers = r#"interactions=[{"type":"dpd","repulsion":25},{"type":"tether","stiffness":3}]"#;
     CHANNEL.refused_with(&[tethers], &["space.walls: found together with tethers in interactions[1]"]);
+    let chains = ["space.box=[2048]", r#"space.walls={"x":{}}"#, "particles=[]", HARMONIC_CHAIN];
+    let problems = CHANNEL.problems(&chains);
+    let named = "space.walls: found together with harmonic chains in interactions[0]";
+    assert!(problems.iter().any(|problem| problem.contains(named)), "{problems:#?}");
     for other in [r#"{"type":"voronoi","viscosity":1}"#, r#"{"type":"shallow-water","mesh":[16,16],"wave_speed":1}"#] {
         let changes = ["space.box=[10,10]", r#"space.walls={"y":{}}"#, &format!("interactions=[{other}]")];
         let problems = CHANNEL.problems(&changes);
@@ -216,6 +219,17 @@ fn layers_behind_walls() {
         &["particles[1].velocities: found velocities", "that of their wall"],
     );
     CHANNEL.refused_with(&[&layer(&[r#"chain={"beads":3}"#])], &["particles[1].chain: found a chain"]);
+    CHANNEL.refused_with(
+        &[&layer(&[]), "particles.0.fixed=true"],
+        &["particles[0].fixed: found true together with frozen particles in particles[1]"],
+    );
+    CHANNEL.refused_with(
+        &[
+            &layer(&[]),
+            r#"interactions=[{"type":"dpd","repulsion":25},{"type":"coloured-noise","strength":1,"time":1}]"#,
+        ],
+        &["interactions[1]: found a coloured noise together with frozen particles"],
+    );
     let warnings = CHANNEL.warnings(&[&layer(&["placement.thickness=0.9"])]);
     assert!(warnings.iter().any(|warning| warning.contains("less than the cutoff of 1")), "{warnings:?}");
     // Specular walls move if something behind them drags the fluid along.

@@ -141,6 +141,37 @@ fn no_particles() {
     }
 }
 
+/// Whatever would act on particles.
+#[test]
+fn nothing_acts_on_no_particles() {
+    let dpd = r#"{"type":"dpd","repulsion":25,"friction":4.5}"#;
+    let of_any_step = [
+        format!(r#"interactions=[{dpd},{{"type":"body-force","force":[1,2,3]}}]"#),
+        format!(r#"interactions=[{dpd},{{"type":"body-force","force":[1,0,0],"profile":"opposed","axis":"y"}}]"#),
+        format!(r#"interactions=[{dpd},{{"type":"body-force","force":[1,0,0],"profile":"sinusoidal","axis":"y"}}]"#),
+        format!(r#"interactions=[{dpd},{{"type":"langevin","friction":1}}]"#),
+        format!(r#"interactions=[{dpd},{{"type":"tether","stiffness":1}}]"#),
+        r#"interactions=[{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}]"#.to_owned(),
+        r#"space.walls={"z":{"upper_velocity":[1,0,0]}}"#.to_owned(),
+    ];
+    let coupled = [
+        r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5,"bath":{"type":"memory","rate":3}}]"#,
+        r#"interactions=[{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3}},{"type":"tether","stiffness":1}]"#,
+        r#"interactions=[{"type":"coloured-noise","strength":1,"time":1},{"type":"body-force","force":[1,2,3]}]"#,
+    ];
+    let of_any_step =
+        of_any_step.iter().flat_map(|change| [SPLITTING, COTTER_REICH].map(|integrator| (integrator, change.as_str())));
+    let coupled = coupled.map(|change| (COTTER_REICH, change));
+    let sheared = [(SPLITTING, r#"space.shear={"rate":0.1,"gradient":"y"}"#)];
+    for (integrator, change) in of_any_step.chain(coupled).chain(sheared) {
+        let scene = fluid(&[integrator, change, "particles=[]", EVERY_STEP, "space.box=[5,5,5]"]);
+        let (_, state) = start(&scene);
+        let mut engine = engine(&scene, &state, Options::default());
+        engine.advance(3, 2).unwrap();
+        assert_eq!(engine.state().unwrap().step, 3, "{integrator} {change}");
+    }
+}
+
 #[test]
 fn a_single_particle_goes_straight_round_the_box() {
     for integrator in INTEGRATORS {

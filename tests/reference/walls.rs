@@ -6,7 +6,8 @@ use mesoscope::state::State;
 use serde_json::{Value, json};
 
 use crate::support::{
-    Device, INTEGRATORS, Implementation, SideBySide, before_and_after, reference_of_particles, start, units_of_a_step,
+    COTTER_REICH, Device, GROOT_WARREN, INTEGRATORS, Implementation, PREDICTED, SideBySide, before_and_after,
+    reference_of_particles, start, units_of_a_step,
 };
 
 fn read(document: &Value) -> Scene {
@@ -55,8 +56,13 @@ fn between_walls(scene: &Scene, state: &State) {
 }
 
 /// Steps that agree are compared with the momenta that walls have got, of which every meeting may be as many units off as the momentum of
-/// its particle.
+/// its particle. Particles get momentum from each other, from body forces and from walls only.
 fn agree(document: &Value) {
+    agree_in_motion(document, |found, total, what| assert_eq!(found.exchanged_momentum(), total, "{what}"));
+}
+
+/// The same of scenes in which momentum may go elsewhere; `exchanged` compares it in each of the two states of a step.
+fn agree_in_motion(document: &Value, exchanged: impl Fn(&State, [i64; 3], &str)) {
     const STEPS: i64 = 5;
     let scene = read(document);
     let (model, state) = start(&scene);
@@ -65,8 +71,9 @@ fn agree(document: &Value) {
     let what = format!("{document:#}");
     both.steps(STEPS, units, &what, |step, found, expected| {
         between_walls(&scene, found);
-        assert_eq!(found.exchanged_momentum(), state.total_momentum(), "step {step}\n{document:#}");
-        assert_eq!(expected.exchanged_momentum(), state.total_momentum(), "step {step}\n{document:#}");
+        for both in [found, expected] {
+            exchanged(both, state.total_momentum(), &format!("step {step}\n{document:#}"));
+        }
         assert_eq!(found.walls.len(), expected.walls.len());
         for (a, b) in found.walls.iter().zip(&expected.walls) {
             for (a, b) in a.momentum().into_iter().zip(b.momentum()) {
@@ -74,6 +81,10 @@ fn agree(document: &Value) {
             }
         }
     });
+    if model.has_fixed_particles() {
+        // The device sums the forces on these too, which no column shows.
+        return;
+    }
     let [measured, expected] = both.energies(&what);
     let scale = (state.len() as f64 * model.units.momentum) * (units * STEPS) as f64;
     for (a, b) in measured.on_walls.momentum.as_flattened().iter().zip(expected.on_walls.momentum.as_flattened()) {
@@ -95,6 +106,53 @@ fn walls_agree_with_the_reference() {
         for (edges, walls) in channels() {
             agree(&fluid(&edges, &walls, integrator, &[]));
         }
+    }
+}
+
+/// Couplings that persist, or act on single particles: pairs and bonds with memory, friction along bonds, baths of both kinds on every particle, a
+/// coloured noise, particles that are fixed.
+#[test]
+fn couplings_between_walls_agree_with_the_reference() {
+    let bonds = |bath: Value| {
+        json!({"type": "bonds", "pairs": [[0, 1], [1, 2]], "friction": 3, "bath": bath,
+            "potential": {"type": "harmonic", "stiffness": 40}})
+    };
+    let noise = json!({"type": "coloured-noise", "strength": 20, "time": 0.1});
+    let memory = json!({"type": "memory", "rate": 3});
+    let white = json!({"type": "white"});
+    let others = [
+        vec![],
+        vec![json!({"type": "langevin", "friction": 2})],
+        vec![json!({"type": "langevin", "friction": 2, "bath": memory})],
+        vec![noise.clone()],
+        vec![bonds(white)],
+        vec![bonds(memory.clone())],
+        vec![json!({"type": "body-force", "force": [30, -1]})],
+    ];
+    for (number, others) in others.iter().enumerate() {
+        let (edges, walls) = &channels()[number % 2];
+        let mut document = fluid(edges, walls, COTTER_REICH, others);
+        if number % 2 == 0 {
+            document["interactions"][0]["bath"] = memory.clone();
+        }
+        if others.iter().any(|other| other["type"] == "bonds") {
+            let at = |place: f64| [1.0 + place, 2.0];
+            let listed = json!({"type": "listed", "positions": [at(0.0), at(0.6), at(1.2)]});
+            document["particles"].as_array_mut().unwrap().insert(0, json!({"species": "light", "placement": listed}));
+        }
+        if others.iter().any(|other| other["type"] == "langevin" || other["type"] == "coloured-noise") {
+            agree_in_motion(&document, |_, _, _| {});
+        } else {
+            agree(&document);
+        }
+    }
+    // In a volume, where some are fixed, and on a line.
+    let (edges, walls) = &channels()[3];
+    for integrator in [COTTER_REICH, GROOT_WARREN, PREDICTED] {
+        let mut document = fluid(edges, walls, integrator, std::slice::from_ref(&noise));
+        document["particles"][1]["fixed"] = json!(true);
+        agree_in_motion(&document, |_, _, _| {});
+        agree(&fluid(&[40.0], &json!({"x": {}}), integrator, &[]));
     }
 }
 

@@ -422,6 +422,47 @@ fn walled_plans() -> Vec<(String, Plan)> {
             }
         }
     }
+    plans.extend(coupled_plans_between_walls(&spaces));
+    plans
+}
+
+/// Lists of neighbours, baths on every particle, a coloured noise and fixed particles between walls, and particles on a line between two.
+fn coupled_plans_between_walls(spaces: &[&str]) -> Vec<(String, Plan)> {
+    let others = [
+        r#"{"type":"dpd","repulsion":25,"friction":4.5,"bath":{"type":"memory","rate":3}}"#,
+        r#"{"type":"dpd","repulsion":25,"friction":4.5},{"type":"langevin","friction":1}"#,
+        r#"{"type":"dpd","repulsion":25},{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3}}"#,
+        r#"{"type":"langevin","friction":1,"bath":{"type":"white","temperature":0}},{"type":"body-force","force":[1,2]}"#,
+        r#"{"type":"dpd","friction":4.5},{"type":"coloured-noise","strength":1,"time":0.1}"#,
+        r#"{"type":"coloured-noise","strength":1,"time":0.1,"process":"short"}"#,
+        r#"{"type":"bonds","pairs":[[0,1]],"friction":1,"potential":{"type":"harmonic","stiffness":9}}"#,
+        r#"{"type":"bonds","pairs":[[0,1]],"friction":1,"bath":{"type":"memory","rate":3},"potential":{"type":"harmonic","stiffness":9}}"#,
+        r#"{"type":"bonds","pairs":[[0,1]],"bath":{"type":"memory","rate":3,"coupling":2,"temperature":0}}"#,
+    ];
+    let particles = [
+        r#"particles=[{"species":"A","count":200}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"fixed":true}]"#,
+    ];
+    let mut plans = Vec::new();
+    for space in spaces.iter().copied().chain([r#"space={"box":[900],"walls":{"x":{}}}"#]) {
+        let edges = [("[9,7,8]", "[1,2,-3]"), ("[900]", "[1]")];
+        let force = edges.iter().find(|(edges, _)| space.contains(edges)).map_or("[1,2]", |(_, force)| force);
+        for (others, particles) in others.iter().flat_map(|others| particles.map(|particles| (others, particles))) {
+            let interactions = format!("interactions=[{}]", others.replace("[1,2]", force));
+            let integrator = r#"integrator={"type":"cotter-reich"}"#;
+            let changes = [particles, &interactions, space, integrator];
+            plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
+            if !others.contains("langevin") && !others.contains("memory") && !others.contains("bonds") {
+                for lambda in ["", r#","lambda":0.65"#] {
+                    let integrator = format!(r#"integrator={{"type":"groot-warren"{lambda}}}"#);
+                    let changes = [particles, &interactions, space, &integrator];
+                    let options = Options { listed: true, ..Options::default() };
+                    plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
+                }
+            }
+        }
+    }
     plans
 }
 

@@ -3,7 +3,7 @@
 fn prepare_bonds() { prepare_bond_noise(); }
 fn bond_bath(bond: u32, kind: BondKind, me: Particle, other: Particle) -> f32 {
     let before = bond_baths[bond];
-    let after = advanced_bath(kept_of_bath(before, kind.loss), kind.response, change_of_length(me, other),
+    let after = advanced_bath(kept_of_bath(before, kind.loss), kind.response, change_of_length(kind, me, other),
         kind.noise * bond_noise(bond));
     // At step 0 a bath with memory keeps its initial value.
     let bath = select(after, before, kind.remembers && clock_closing() == 0);

@@ -1,7 +1,9 @@
 // A bath with exponential memory on every coordinate; its law is in baths/bath.
 override POSITION_LOSS: f32; // the part of a bath that is lost in a step
 
-fn position_bath(id: u32, species: i32, drift: Vector) -> Vector {
+fn position_bath(me: Particle, species: i32) -> Vector {
+    let id = me.position.w;
+    let drift = Vector(last_way(me.position, me.momentum)) * unit_lengths();
     let before = bath_of(position_baths[id]);
     let response = position_response(species);
     var after = before;

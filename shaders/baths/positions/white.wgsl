@@ -1,10 +1,11 @@
 // Friction and noise on every coordinate: a bath without memory, whose law is in baths/bath. The friction is of the last
-// drift.
-fn position_bath(id: u32, species: i32, drift: Vector) -> Vector {
+// drift, also where a wall has reflected it: of the velocity that the particle has now.
+fn position_bath(me: Particle, species: i32) -> Vector {
+    let drift = Vector(drift_steps(me.momentum)) * unit_lengths();
     let response = position_response(species);
     var bath = Vector(0.0);
     for (var axis = 0u; axis < DIMENSION; axis++) {
-        bath[axis] = advanced_bath(0.0, response, drift[axis], position_noise(id, species, axis));
+        bath[axis] = advanced_bath(0.0, response, drift[axis], position_noise(me.position.w, species, axis));
     }
     return bath;
 }

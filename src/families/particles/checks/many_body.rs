@@ -15,7 +15,8 @@ pub(super) fn check(dpd: &DpdInteraction, species: usize, path: &str, problems: 
             problems.push(Problem::new(format!("{path}.pairs[{index}].many_body"), found, accepted));
         }
     }
-    let Some(many_body) = dpd.acting_many_body() else { return };
+    // Without species there is no pair whose cutoff it could be compared with.
+    let Some(many_body) = dpd.acting_many_body().filter(|_| species > 0) else { return };
     let own = dpd.pairs.iter().filter_map(|pair| pair.cutoff);
     let largest = own.chain(dpd.common_cutoff(species)).fold(0.0, f64::max);
     if many_body.cutoff > largest {

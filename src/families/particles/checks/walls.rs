@@ -1,6 +1,6 @@
 //! Checks of walls that a schema cannot express.
 
-use super::{acts, is_coupled, layers, reason};
+use super::{acts, layers};
 use crate::document::{
     BodyForceInteraction, ForceProfile, Interaction, Placement, Problem, Problems, Reflection, Scene, WallPair,
 };
@@ -22,17 +22,13 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         refuse(problems, found, "walls with particles only: meshes and tessellations are periodic");
         return;
     }
-    if is_coupled(scene) {
-        let found = format!("found together with {}", reason(scene));
-        refuse(
-            problems,
-            found,
-            "walls with particles that interact in pairs without memory, by bonds and angles without a bath, and by body forces, in two or \
-             three dimensions; with `splitting` also a bath without memory on particles",
-        );
+    let chains = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
+    if let Some(index) = scene.interactions.iter().position(chains) {
+        let found = format!("found together with harmonic chains in interactions[{index}]");
+        refuse(problems, found, "walls without harmonic chains, which have fixed ends of their own");
     }
     let ties = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_)) && acts(interaction);
-    if let Some(index) = scene.interactions.iter().position(ties).filter(|_| !is_coupled(scene)) {
+    if let Some(index) = scene.interactions.iter().position(ties) {
         let found = format!("found together with tethers in interactions[{index}]");
         refuse(problems, found, "walls without tethers, which would pull through them");
     }

@@ -62,11 +62,12 @@ impl BodyForces {
         }
     }
 
-    /// The impulse of half a step on a particle of a species where the force is as large as it gets.
+    /// The impulse of half a step on a particle of a species where the force is as large as it gets; none on one that is not there.
     #[must_use]
     pub fn impulse(&self, model: &Model, species: usize) -> [FixedImpulse; 3] {
         let units = 0.5 * model.time_step / model.units.momentum * FixedImpulse::FRACTIONS;
-        self.forces[species].map(|force| FixedImpulse((force * units).round() as i64))
+        let force = self.forces.get(species).copied().unwrap_or_default();
+        force.map(|force| FixedImpulse((force * units).round() as i64))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::families::Model;
 use crate::plan::Plan;
-use crate::shaders::{Choices, Constant, core, external, pairs};
+use crate::shaders::{Choices, Constant, core, external, pairs, space};
 
 /// What all kernels choose, if there is shear; `has_table` where species have one.
 pub(super) fn choices(model: &Model, has_table: bool) -> Choices {
@@ -10,7 +10,7 @@ pub(super) fn choices(model: &Model, has_table: bool) -> Choices {
         return Choices::new();
     }
     Choices::new()
-        .with(pairs::Advance::Sheared)
+        .with(space::Travel::Sheared)
         .with(pairs::Separation::Sheared)
         .with(pairs::Visit::Sheared)
         .with(pairs::ClusterRows::Sheared)

@@ -4,7 +4,7 @@
 use crate::document::Reflection;
 use crate::families::{Model, PlaneWalls};
 use crate::plan::{Kernel, Plan};
-use crate::shaders::{Array, Choices, Constant, Entry, core, external, pairs};
+use crate::shaders::{Array, Choices, Constant, Entry, core, external, pairs, space};
 
 /// What a model has that takes up momentum: its walls, and boundaries that shear as one.
 pub(crate) fn count(model: &Model) -> usize {
@@ -20,7 +20,7 @@ pub(crate) fn sums(model: &Model) -> u64 {
 pub(super) fn choices(model: &Model) -> Choices {
     let walls = !model.particles().walls.is_empty();
     Choices::new()
-        .with_if(walls, pairs::Advance::BetweenWalls)
+        .with_if(walls, space::Travel::BetweenWalls)
         .with_if(model.has_frozen_particles(), pairs::Frozen::BehindWalls)
         .with_if(walls, external::Drifted::BetweenWalls)
         .with_if(walls, core::Reported::WithWalls)

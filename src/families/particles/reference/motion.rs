@@ -2,14 +2,17 @@
 
 use super::end_of_step;
 use super::pairs::{Pair, dot};
+use super::walls;
 use crate::document::Integrator;
 use crate::families::Model;
 use crate::state::State;
 
 /// The last drift of every particle, and the velocities that friction may see in its place.
 pub(super) struct Motion {
-    /// r(n) - r(n-1).
+    /// dt p/m: r(n) - r(n-1), where no wall has reflected it.
     drifts: Vec<[f64; 3]>,
+    /// r(n) - r(n-1) between walls.
+    ways: Option<Vec<[f64; 3]>>,
     /// The velocities that white baths see, where they see velocities.
     velocities: Option<Vec<[f64; 3]>>,
     /// By how much a velocity along x is larger one box up, where boundaries shear.
@@ -23,9 +26,14 @@ impl Motion {
         let length = |axis: usize| model.units.lengths[axis] / 4_294_967_296.0;
         let drifts = end_of_step::drifts(model, masses, &state.momenta, 1);
         let seen = if state.predicted.is_empty() { &state.momenta } else { &state.predicted };
+        let way = |particle: usize| -> [f64; 3] {
+            let [end, start] = [state.positions[particle], walls::before(model, state, particle, 1).place];
+            std::array::from_fn(|axis| f64::from(end[axis].wrapping_sub(start[axis]).cast_signed()) * length(axis))
+        };
         let velocity = |(momentum, mass): (&[i32; 3], &f64)| model.units.momentum(*momentum).map(|p| p / mass);
         Self {
             drifts: drifts.iter().map(|d| std::array::from_fn(|axis| d[axis] as f64 * length(axis))).collect(),
+            ways: (!model.particles().walls.is_empty()).then(|| (0..state.len()).map(way).collect()),
             velocities: matches!(model.integrator, Integrator::GrootWarren { .. })
                 .then(|| seen.iter().zip(masses).map(velocity).collect()),
             jump: model.particles().shear.as_ref().map_or(0.0, |shear| shear.velocity),
@@ -33,9 +41,9 @@ impl Motion {
         }
     }
 
-    /// The drift of a particle.
-    pub fn drift(&self, particle: usize) -> [f64; 3] {
-        self.drifts[particle]
+    /// The way of a particle in the last step, which a bath with memory sees.
+    pub fn way(&self, particle: usize) -> [f64; 3] {
+        self.ways.as_ref().unwrap_or(&self.drifts)[particle]
     }
 
     /// What a bath without memory takes for the drift of a particle.
@@ -46,21 +54,31 @@ impl Motion {
         }
     }
 
-    /// The separation of a pair before the last drift.
-    fn separation_before(&self, pair: &Pair) -> [f64; 3] {
-        let (first, second) = (self.drifts[pair.first], self.drifts[pair.second]);
+    /// The separation of a pair before its ends have moved.
+    fn separation_before(pair: &Pair, moved: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
+        let (first, second) = (moved(pair.first), moved(pair.second));
         std::array::from_fn(|axis| pair.separation[axis] - (first[axis] - second[axis]))
     }
 
     /// The distance of a pair before the last drift.
     pub fn distance_before(&self, pair: &Pair) -> f64 {
-        let before = self.separation_before(pair);
+        let before = Self::separation_before(pair, |particle| self.drifts[particle]);
         dot(before, before).sqrt()
     }
 
-    /// By how much the distance of a pair has changed over the last drift: (d² - d'²)/(d + d'), without cancellation.
+    /// By how much the distance of a pair has changed over the last drift, as a bath without memory sees it.
+    pub fn drift_of_distance(&self, pair: &Pair) -> f64 {
+        Self::change(pair, Self::separation_before(pair, |particle| self.drifts[particle]))
+    }
+
+    /// By how much the distance of a pair has changed in the last step, as a bath with memory sees it.
     pub fn change_of_distance(&self, pair: &Pair) -> f64 {
-        let (now, before) = (pair.separation, self.separation_before(pair));
+        Self::change(pair, Self::separation_before(pair, |particle| self.way(particle)))
+    }
+
+    /// By how much the distance of a pair has changed since a separation: (d² - d'²)/(d + d'), without cancellation.
+    fn change(pair: &Pair, before: [f64; 3]) -> f64 {
+        let now = pair.separation;
         let sum = std::array::from_fn(|axis| now[axis] + before[axis]);
         let difference = std::array::from_fn(|axis| now[axis] - before[axis]);
         let lengths = pair.distance + dot(before, before).sqrt();

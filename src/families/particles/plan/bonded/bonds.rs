@@ -11,7 +11,7 @@ pub(super) fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
     let (species, kinds) = (scales.model.species.len(), bonds.kinds.len());
     let key = noise::seed_key(scales.model.seed, stream::BOND);
     let relaxes = scales.model.particles().relaxes_bonds(scales.model);
-    let forces = if relaxes { Choices::new().with_any(potential(bonds)) } else { choices(bonds) };
+    let forces = if relaxes { Choices::new().with_any(potential(bonds)) } else { choices(scales.model, bonds) };
     let report = |part, scales| {
         let choices = forces.clone().with(part).with_if(bonds.have_memory(), baths::BondReport::Observed);
         Observed { choices, scales }
@@ -107,9 +107,14 @@ pub(in crate::families::particles::plan) fn noise(bonds: &Bonds) -> Choices {
 }
 
 /// The cheapest potential and bath that hold those of all bonds.
-fn choices(bonds: &Bonds) -> Choices {
+fn choices(model: &Model, bonds: &Bonds) -> Choices {
     let bath = if bonds.have_memory() { baths::Bonds::Memory } else { baths::Bonds::White };
-    Choices::new().with_any(potential(bonds)).with_if(bonds.have_friction(), bath).and(&noise(bonds))
+    let reflected = bonds.have_memory() && !model.particles().walls.is_empty();
+    Choices::new()
+        .with_any(potential(bonds))
+        .with_if(bonds.have_friction(), bath)
+        .with_if(reflected, bonds::Way::BetweenWalls)
+        .and(&noise(bonds))
 }
 
 /// Words about species and kinds, then the ends and the kind of each bond; where bonds relax those with friction once

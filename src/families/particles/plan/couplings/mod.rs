@@ -17,6 +17,7 @@ use super::external;
 use super::quanta;
 use super::species::Species;
 use super::stress;
+use super::walls;
 use super::{
     Grid, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Quanta, Reported, deviate,
     texture_candidates, words,
@@ -76,7 +77,7 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
         dimension: model.units.dimension,
         predicted,
         account: external::rows(model, options.workgroup()) as usize,
-        walls: 0,
+        walls: walls::count(model),
     };
     let layout = CoupledLayout {
         particles,
@@ -93,7 +94,7 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
     };
     let plan = model.empty_plan(grid.cells, layout, quanta(model), stream::PAIR);
     // What is reported has no predicted momentum.
-    let reported = Layout::new(ParticleLayout { predicted: false, account: 0, ..particles });
+    let reported = Layout::new(ParticleLayout { predicted: false, account: 0, walls: 0, ..particles });
     Plan { reported: Some((Array::Reported, reported)), ..plan }
 }
 
@@ -198,6 +199,7 @@ impl Builder<'_> {
         if let Integrator::GrootWarren { lambda } = model.integrator {
             self.plan.constants.push((Constant::Prediction, 2.0 * lambda - 1.0));
         }
+        walls::add_constants(model, &mut self.plan);
     }
 
     /// Whether any pair of particles has a force on each other.
@@ -250,6 +252,10 @@ impl Builder<'_> {
             self.bath_impulse();
         }
         if bonds.have_memory() {
+            if !model.particles().walls.is_empty() && self.species.have_table() && model.has_potential() {
+                // Ends that a wall may have reflected are followed back, by what their species are: beside forces one buffer too many.
+                self.plan.storage_buffers = self.plan.storage_buffers.max(9);
+            }
             self.plan.add_buffer(Array::BondBaths, 4 * bonds.count());
         }
     }
@@ -277,7 +283,7 @@ impl Builder<'_> {
     fn quantities(&self) -> u64 {
         let remembering = if baths(self.model).is_empty() { 0 } else { BATH_OBSERVABLES };
         let products = if self.model.particles().oscillates_in_memory() { PRODUCTS } else { 0 };
-        OBSERVABLES + remembering + products + external::sums(self.model)
+        OBSERVABLES + remembering + products + walls::sums(self.model) + external::sums(self.model)
     }
 
     /// Workgroups with a lane for each of some things.
@@ -304,6 +310,7 @@ impl Builder<'_> {
             .with(words(self.model.generator))
             .with_if(self.model.particles().oscillates_in_memory(), core::Reported::WithProducts)
             .with_any(external::profile(self.model))
+            .and(&walls::choices(self.model))
     }
 
     /// The vector space.
@@ -367,6 +374,9 @@ impl Builder<'_> {
     /// Kernels that take what the report has left, and the sampler of the observables.
     fn observables(&mut self) {
         let quantities = self.quantities();
+        let first_sum = quantities - external::sums(self.model) - walls::sums(self.model);
+        let (choices, first_row) = (self.choices(), self.report_groups);
+        self.report_groups += walls::add_account(self.model, &choices, first_row, first_sum, &mut self.plan);
         self.plan.sample_observables(self.measured.every, quantities, self.report_groups);
         self.plan.finish_report.clone_from(&self.plan.advance);
     }

@@ -1,7 +1,7 @@
 //! The end of a step for every particle: baths on its coordinates, half kicks, drift.
 
 use super::Builder;
-use crate::families::particles::plan::position_bath;
+use crate::families::particles::plan::{position_bath, walls};
 use crate::shaders::{Array, Choices, Constant, Entry, baths, couplings};
 
 impl Builder<'_> {
@@ -12,21 +12,24 @@ impl Builder<'_> {
             .position_bath()
             .and(&self.held_noise())
             .with_if(self.model.has_fixed_particles(), couplings::Fixed::Held);
-        let anchored = choices.clone().with_if(self.visits_pairs(), couplings::Anchors::Kept);
+        let anchored =
+            choices.clone().with_if(self.visits_pairs(), couplings::Anchors::Kept).and(&walls::booking(self.model));
         let advance = self.kernel("move", Entry::MoveParticles, &anchored, groups);
         self.plan.advance.push(advance);
         let memory = self.model.particles().position_bath.as_ref().is_some_and(|bath| bath.memory);
         let forces = self.reported_forces();
         let products = self.model.particles().oscillates_in_memory();
-        // Masses, baths, tethers, a random force and an analysis of forces at once are two buffers too many.
+        // Masses, baths, tethers, a random force, walls and an analysis of forces at once are two buffers too many.
         let optional = [
             self.species.have_table(),
             memory,
             products,
             self.model.particles().coloured_noise.is_some(),
+            walls::count(self.model) > 0,
             forces.is_some(),
         ];
-        self.plan.storage_buffers = (5 + optional.into_iter().filter(|bound| *bound).count() as u32).max(8);
+        let bound = 5 + optional.into_iter().filter(|bound| *bound).count() as u32;
+        self.plan.storage_buffers = self.plan.storage_buffers.max(bound);
         let report = choices
             .with_if(memory, baths::PositionReport::Observed)
             .with_if(products, baths::PositionProducts::Tethered)
@@ -48,10 +51,10 @@ impl Builder<'_> {
     }
 
     /// What a kernel needs of a species' position bath: response of the bath to a drift, its noise of one step, its energy
-    /// per square, which is zero of those that a report does not count.
+    /// per square, which is zero of those that a report does not count; zeros of a species that is not there.
     pub(super) fn position_coefficients(&self, species: usize) -> [f64; 3] {
         let Some(bath) = self.model.particles().position_bath.as_ref() else { return [0.0; 3] };
-        let step = bath.steps[species];
+        let Some(step) = bath.steps.get(species) else { return [0.0; 3] };
         let counts = bath.memory && step.continuous_coupling > 0.0 && !self.model.species[species].fixed;
         let energy = if counts { 0.5 / step.continuous_coupling } else { 0.0 };
         [step.response(), step.noise(bath.temperature), energy / self.plan.quanta.pair_energy]
@@ -64,7 +67,7 @@ impl Builder<'_> {
         self.bath_impulse();
         self.plan.constants.push((Constant::PositionLoss, loss));
         self.plan.constants.extend(position_bath::stream(self.model));
-        if !self.species.have_table() && !self.model.species.is_empty() {
+        if !self.species.have_table() {
             let [response, noise, energy] = self.position_coefficients(0);
             self.plan.constants.extend([
                 (Constant::PositionResponse, response),

@@ -539,13 +539,8 @@ impl Builder<'_> {
         let added = (earlier && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
         let motion = self.observation("report_motion", kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
         let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
-        let entry = match (self.is_sheared(), walls::count(self.model)) {
-            (true, _) => Entry::DriftRestSheared,
-            (false, 0) => Entry::DriftRest,
-            (false, _) => Entry::DriftRestBetweenWalls,
-        };
         let choices = self.choices().and(&walls::booking(self.model));
-        let rest = self.kernel("drift_rest", entry, choices, self.slots);
+        let rest = self.kernel("drift_rest", Entry::DriftRest, choices, self.slots);
         if self.is_sheared() {
             self.plan.kernels[configuration].constants.push(shear::moment(1));
         }

@@ -28,7 +28,7 @@ impl Builder<'_> {
             return;
         }
         self.plan.constants.extend(position_bath::stream(self.model));
-        if !self.species.have_table() && !self.model.species.is_empty() {
+        if !self.species.have_table() {
             let [loss, deviation] = self.relaxation(0);
             self.plan.constants.extend([(Constant::PositionResponse, loss), (Constant::PositionNoise, deviation)]);
         }
@@ -44,10 +44,10 @@ impl Builder<'_> {
     }
 
     /// What the momentum of a particle of a species loses in a step, as a part of it, and the standard deviation of
-    /// what it gains, in momentum units: 1 - c and √(m kT (1 - c²)), c = exp(-γdt/m).
+    /// what it gains, in momentum units: 1 - c and √(m kT (1 - c²)), c = exp(-γdt/m); zeros of one that is not there.
     fn relaxation(&self, species: usize) -> [f64; 2] {
         let Some(bath) = self.model.particles().position_bath.as_ref() else { return [0.0; 2] };
-        let mass = self.model.species[species].mass;
+        let Some(mass) = self.model.species.get(species).map(|species| species.mass) else { return [0.0; 2] };
         // λₑ = 2γ/dt
         let exponent = 0.5 * bath.steps[species].coupling * self.model.time_step.powi(2) / mass;
         let variance = -mass * bath.temperature * (-2.0 * exponent).exp_m1();

@@ -44,8 +44,11 @@ pub(super) fn kick(
         // Where steps are split, velocities along bonds relax in O.
         if let Some(step) = kind.bath.as_ref().filter(|_| !model.particles().relaxes_bonds(model)) {
             let gaussian = noise::gaussian(noise::words(model.generator, key, [index as u32, 0]));
-            let seen = if step.remembers() { None } else { motion.approach(&pair) };
-            let change = seen.unwrap_or_else(|| motion.change_of_distance(&pair));
+            let change = if step.remembers() {
+                motion.change_of_distance(&pair)
+            } else {
+                motion.approach(&pair).unwrap_or_else(|| motion.drift_of_distance(&pair))
+            };
             let kept = baths.get_mut(index);
             let value = bath::at_report(step, kind.temperature, model.clock(state.step), kept, change, gaussian);
             bath_sums.add(step, value);

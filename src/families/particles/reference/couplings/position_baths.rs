@@ -20,7 +20,7 @@ pub(super) fn kick(
     let mut baths = state.position_baths.clone();
     for (particle, sum) in kick.iter_mut().enumerate() {
         let step = &bath.steps[state.species[particle] as usize];
-        let drift = if bath.memory { motion.drift(particle) } else { motion.drift_seen(particle) };
+        let drift = if bath.memory { motion.way(particle) } else { motion.drift_seen(particle) };
         let mut impulse = [0.0; 3];
         for axis in 0..model.units.dimension {
             let gaussian = noise::gaussian(noise::words(model.generator, key, [particle as u32, axis as u32]));
