@@ -35,7 +35,7 @@ WITH_FEATURES := $(FEATURES:%=--features mesoscope/%)
 
 test: cargo adapter ## formatting, lints, all tests, documentation, and the book where mdbook is installed
 	@sh .ci/spirv.sh
-	cargo fmt --check
+	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
 	cargo test --locked --workspace --no-fail-fast $(WITH_FEATURES)
 	MESOSCOPE_PLAN=gpu cargo test --locked --workspace $(WITH_FEATURES) --test library -- $(ON_GPU_PLANS)

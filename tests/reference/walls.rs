@@ -71,8 +71,8 @@ fn agree_in_motion(document: &Value, exchanged: impl Fn(&State, [i64; 3], &str))
     let what = format!("{document:#}");
     both.steps(STEPS, units, &what, |step, found, expected| {
         between_walls(&scene, found);
-        for both in [found, expected] {
-            exchanged(both, state.total_momentum(), &format!("step {step}\n{document:#}"));
+        for reached in [found, expected] {
+            exchanged(reached, state.total_momentum(), &format!("step {step}\n{document:#}"));
         }
         assert_eq!(found.walls.len(), expected.walls.len());
         for (a, b) in found.walls.iter().zip(&expected.walls) {
