@@ -29,7 +29,9 @@ pub fn generate(files: &Files) -> String {
     code.push_str("];\n\n");
     number_slots(&mut code, files);
     enumerate(&mut code, "Entry", "The entry points of all kernels.", "function", &entries);
-    enumerate(&mut code, "Constant", "The constants that plans set.", "constant", &constants(files));
+    let constants = constants(files);
+    enumerate(&mut code, "Constant", "The constants that plans set.", "constant", &constants);
+    enumerate_sums(&mut code, &constants);
     let purposes: Names = ARRAYS.iter().map(|array| (array.name.to_owned(), sentence(array.purpose))).collect();
     enumerate(&mut code, "Array", "The arrays of all kernels, in buffers and textures.", "variable", &purposes);
     describe_arrays(&mut code, files);
@@ -72,6 +74,22 @@ fn constants(files: &Files) -> Names {
         names.insert(name, about);
     }
     names
+}
+
+/// The sums of reports: the constants that hold their places.
+fn enumerate_sums(code: &mut String, constants: &Names) {
+    let sums: Names = constants
+        .iter()
+        .filter_map(|(name, about)| Some((name.strip_prefix("SUM_")?.to_lowercase(), about.clone())))
+        .collect();
+    enumerate(code, "Sum", "What reports sum, by the constants that hold the places.", "sum", &sums);
+    code.push_str("impl Sum {\n    /// The constant that holds its place in a row of a report.\n    #[must_use]\n");
+    code.push_str("    pub const fn constant(self) -> Constant {\n        match self {\n");
+    for name in sums.keys() {
+        let name = camel(name);
+        let _ = writeln!(code, "            Self::{name} => Constant::Sum{name},");
+    }
+    code.push_str("        }\n    }\n}\n\n");
 }
 
 /// A phrase as a sentence.

@@ -21,8 +21,6 @@ fn bond_kind(kind: u32) -> BondKind {
     return BondKind(potential.x, potential.y, potential.z, potential.w != 0.0, bath.x, bath.y, bath.z, bath.w);
 }
 
-struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
-
 // Displacement in a step per unit of momentum; zero for what is held.
 fn drift_of_end(particle: Particle) -> f32 { return bitcast<f32>(bonds[species_of(particle)].x); }
 
@@ -98,21 +96,20 @@ fn note_bond_bath(bond: u32, kind: BondKind, bath: f32) { bond_baths[bond] = sel
 fn note_bond(bond: Ends, stretch: Stretch, magnitude: f32, contact: Contact) {}
 fn finish_bonds(group: u32, lane: u32) {}
 
-fn note_virial_of_bond(magnitude: f32, contact: Contact) {
-    total_add(1u, sum64_of_f32(magnitude * contact.distance * PAIR_VIRIAL));
+fn note_virial_of_bond(bond: Ends, magnitude: f32, contact: Contact) {
+    total_add(SUM_VIRIAL, sum64_of_f32(share_of_bond(bond) * magnitude * contact.distance * PAIR_VIRIAL));
 }
 // Energy, virial and curvature of the potential, and the conservative forces themselves.
 fn note_configuration_of_bond(bond: Ends, stretch: Stretch, contact: Contact) {
-    total_add(5u, sum64_of_f32(stretch.energy * PAIR_VIRIAL));
-    total_add(6u, sum64_of_f32(stretch.force * contact.distance * PAIR_VIRIAL));
+    total_add(SUM_POTENTIAL_ENERGY, sum64_of_f32(stretch.energy * PAIR_VIRIAL));
+    let share = share_of_bond(bond);
+    total_add(SUM_CONSERVATIVE_VIRIAL, sum64_of_f32(share * stretch.force * contact.distance * PAIR_VIRIAL));
     // Two particles in the same place exert no force, and have no curvature across it either.
     let across = select(0.0, f32(DIMENSION - 1u) * stretch.force / contact.distance, contact.distance > 0.0);
-    let mobile = vec2<f32>(drift_of_end(bond.me), drift_of_end(bond.other)) > vec2<f32>(0.0);
-    let ends = select(0.0, 0.5, mobile.x) + select(0.0, 0.5, mobile.y);
-    total_add(8u, sum64_of_f32(ends * (stretch.curvature - across) * LAPLACIAN));
+    total_add(SUM_CURVATURE, sum64_of_f32(share * (stretch.curvature - across) * LAPLACIAN));
     let force = Steps(round(stretch.force * contact.direction));
-    add_force(bond.slot, select(Steps(0), force, mobile.x));
-    add_force(bond.other_slot, select(Steps(0), -force, mobile.y));
+    add_force(bond.slot, kick_of_end(bond.me, force));
+    add_force(bond.other_slot, kick_of_end(bond.other, -force));
 }
 
 // Adds the impulses of every bond. One invocation a bond; reads `bonds`, `slots` and particles, adds the impulses of half a

@@ -16,24 +16,26 @@ fn visit_excluded(index: u32) {
     let impulse = Steps(round(repulsion.impulse * contact.direction));
     add_kick(slot, -impulse);
     add_kick(other_slot, impulse);
-    note_excluded(pair, repulsion, contact);
+    note_excluded(Ends(slot, other_slot, me, other), repulsion, contact);
 }
 
-// Slot bonds/exclusion_report: `note_excluded` gets each pair, by id, and its repulsion, `finish_exclusions` ends the workgroup.
+// Slot bonds/exclusion_report: `note_excluded` gets each pair and its repulsion, `finish_exclusions` ends the workgroup.
 // Default: off, a step without a report. The plan chooses `observed` for reports; of split steps `motion` where the motion is
 // measured, and `configuration` half a drift later; for an analysis of the stress `stress`.
-fn note_excluded(pair: vec2<u32>, repulsion: Repulsion, contact: Contact) {}
+fn note_excluded(pair: Ends, repulsion: Repulsion, contact: Contact) {}
 fn finish_exclusions(group: u32, lane: u32) {}
 
 // Of several ranks the owner of the first particle counts a pair.
-fn is_counted(pair: vec2<u32>) -> bool { return is_own(particle_in(slots[pair.x]).position); }
-fn note_virial_of_excluded(repulsion: Repulsion, contact: Contact) {
-    total_add(1u, sum64_of_signed(-repulsion.impulse * contact.distance * PAIR_VIRIAL));
+fn is_counted(pair: Ends) -> bool { return is_own(pair.me.position); }
+fn note_virial_of_excluded(pair: Ends, repulsion: Repulsion, contact: Contact) {
+    let share = mobile_share(pair.me, pair.other);
+    total_add(SUM_VIRIAL, sum64_of_signed(-share * repulsion.impulse * contact.distance * PAIR_VIRIAL));
 }
-fn note_configuration_of_excluded(repulsion: Repulsion, contact: Contact) {
-    total_add(5u, sum64_of_signed(-repulsion.energy * PAIR_ENERGY));
-    total_add(6u, sum64_of_signed(-repulsion.impulse * contact.distance * PAIR_VIRIAL));
-    total_add(8u, sum64_of_signed(-repulsion.laplacian * LAPLACIAN));
+fn note_configuration_of_excluded(pair: Ends, repulsion: Repulsion, contact: Contact) {
+    let share = mobile_share(pair.me, pair.other);
+    total_add(SUM_POTENTIAL_ENERGY, sum64_of_signed(-repulsion.energy * PAIR_ENERGY));
+    total_add(SUM_CONSERVATIVE_VIRIAL, sum64_of_signed(-share * repulsion.impulse * contact.distance * PAIR_VIRIAL));
+    total_add(SUM_CURVATURE, sum64_of_signed(-share * repulsion.laplacian * LAPLACIAN));
 }
 
 // Takes back the repulsion of all pairs that bonds exclude. One invocation a pair; reads `excluded_pairs`, `slots` and particles,

@@ -33,10 +33,11 @@ fn relax_bonds(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     let motion = relative_motion(me, other, steps_of(me.momentum), steps_of(other.momentum));
     let noise = kind.noise * bond_noise(word.w) * sqrt(lost * (2.0 - lost) / inverse_mass);
     let relaxed = noise - lost / inverse_mass * dot(contact.direction, motion);
-    let magnitude = f32(clock_closing()) * relaxed;
+    // Two held ends have no motion to relax.
+    let magnitude = f32(clock_closing()) * select(relaxed, 0.0, inverse_mass == 0.0);
     let impulse = Steps(round(magnitude * contact.direction));
-    replace_momentum(slot, me, steps_of(me.momentum) + impulse);
-    replace_momentum(other_slot, other, steps_of(other.momentum) - impulse);
+    replace_momentum(slot, me, held_momentum(me, steps_of(me.momentum) + impulse));
+    replace_momentum(other_slot, other, held_momentum(other, steps_of(other.momentum) - impulse));
     bond_impulses[word.w] = magnitude;
     raise(select(FAILURE_IMPULSE, 0u, is_within(magnitude, IMPULSE_LIMIT)));
     note_impulse(me.position.w, impulse);

@@ -6,9 +6,9 @@ override TETHER_LAPLACIAN: f32; // K in every dimension, over its quantum
 fn impulse_of_tether(length: Vector) -> Vector { return -TETHER * length; }
 fn energy_of_tether(length: Vector) -> f32 { return dot(length, length) * TETHER_ENERGY; }
 
-// Slot bonds/tether_report: `note_tether` gets the displacement of each particle, `finish_tethers` ends the workgroup.
+// Slot bonds/tether_report: `note_tether` gets each particle with its displacement, `finish_tethers` ends the workgroup.
 // Default: off, a step without a report. The plan chooses `observed` for reports.
-fn note_tether(slot: u32, length: Vector) {}
+fn note_tether(slot: u32, me: Particle, length: Vector) {}
 fn finish_tethers(group: u32, lane: u32) {}
 
 // Adds the impulse of every tether. One invocation a stored particle; reads its position and `tethers`, adds the impulse of
@@ -18,12 +18,12 @@ fn pull_tethers(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     let group = linear_workgroup(workgroup);
     let slot = group * WORKGROUP + lane;
     if (slot < PARTICLES) {
-        let position = stored_position(slot);
-        let length = separation(position, tethers[position.w]);
+        let me = stored_particle(slot);
+        let length = separation(me.position, tethers[me.position.w]);
         let impulse = impulse_of_tether(length);
         add_kick(slot, Steps(round(impulse)));
         raise(select(FAILURE_IMPULSE, 0u, all_within(impulse, IMPULSE_LIMIT)));
-        note_tether(slot, length);
+        note_tether(slot, me, length);
     }
     finish_tethers(group, lane);
 }

@@ -19,25 +19,3 @@ fn sum64_of_signed(value: f32) -> Sum64 {
     if (value >= 0.0) { return magnitude; }
     return sum64_add(~magnitude, Sum64(1u, 0u));
 }
-
-override FIRST_GROUP: u32; // rows of partial sums that belong to the kernels before this one
-// What a kernel of a report adds up, each in integers of a unit that the plan states: 0 kinetic energy, 1 virial of all forces,
-// 2 to 4 momentum, 5 potential energy, 6 virial of the conservative forces, 7 squared force, 8 curvature; 9 energy, 10 square and
-// 11 number of baths with memory; of oscillators 12 to 14 the products of bath, momentum and displacement; last what walls have taken up
-// and what body forces have given, which kernels of their own tell.
-var<private> report_totals: array<vec2<u32>, REPORTED>;
-// Slot core/reported: the most sums of a report. Default: without walls and products. The plan chooses `with_walls` if there are walls, or
-// shear, and `with_products` of oscillators.
-const REPORTED: u32 = 16u;
-
-fn total_add(quantity: u32, value: Sum64) { report_totals[quantity] = sum64_add(report_totals[quantity], value); }
-fn total_reduce(group: u32, lane: u32) {
-    for (var quantity = 0u; quantity < QUANTITIES; quantity++) {
-        reduce_quantity(FIRST_GROUP + group, lane, quantity, report_totals[quantity]);
-    }
-}
-fn observe_bath(energy: f32, square: f32) {
-    total_add(9u, sum64_of_f32(energy));
-    total_add(10u, sum64_of_f32(square));
-    total_add(11u, Sum64(1u, 0u));
-}

@@ -17,6 +17,9 @@ fn take_gathered_kick(slot: u32) -> Steps { return Steps(0); }
 // Default: off, no body force.
 fn external_kick(me: Particle) -> Steps { return Steps(0); }
 
+// Two particles of a pair or a bond, and their slots.
+struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
+
 // Slot couplings/places: the particle in a slot, for couplings that name particles.
 // Default: as it is stored. The plan of pairs, which sorts particles in every step, chooses `sorted`.
 fn particle_in(slot: u32) -> Particle { return stored_particle(slot); }
@@ -30,7 +33,7 @@ fn square_forces(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
     if (slot < PARTICLES) {
         let force = Vector(steps_of(forces[slot]));
         forces[slot] = vec4<i32>(0);
-        total_add(7u, sum64_of_f32(dot(force, force) * GRADIENT));
+        total_add(SUM_SQUARED_FORCE, sum64_of_f32(dot(force, force) * GRADIENT));
     }
     total_reduce(group, lane);
 }

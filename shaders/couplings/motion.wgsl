@@ -11,22 +11,22 @@ fn move_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     let me = stored_particle(slot);
     let id = me.position.w;
     let species = species_of(me);
-    let held = advance_hold(id);
+    let hold = advance_hold(id);
     let bath = position_bath(me, species);
     keep_position_bath(id, bath);
     let impulse = position_impulse(bath);
     let kick = steps_of(kicks[slot]) + Steps(round(impulse));
     kicks[slot] = vec4<i32>(0);
-    let opening = select(kick + held.opening, Steps(0), is_fixed(species));
-    var momentum = steps_of(me.momentum) + clock_closing() * (kick + held.closing) + opening;
-    momentum = select(momentum, Steps(0), is_fixed(species));
+    let opening = kick + held_kick(me, hold.opening);
+    let closing = kick + held_kick(me, hold.closing);
+    let momentum = held_momentum(me, steps_of(me.momentum) + clock_closing() * closing + opening);
     let travelled = Vector(momentum) * drift_of(species);
     let end = travel(me.position, momentum, species);
     raise(select(FAILURE_IMPULSE, 0u, all_within(impulse, IMPULSE_LIMIT))
         | select(0u, FAILURE_MOMENTUM, any_beyond(momentum, MOMENTUM_LIMIT) || any_beyond(end.momentum, MOMENTUM_LIMIT))
         | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT)));
     let word = momentum_word(end.momentum, species);
-    store_particle(slot, advanced_particle(position_word(end.place, id), word, end.turned * opening));
+    store_particle(slot, advanced_particle(position_word(end.place, id), word, held_kick(me, end.turned * opening)));
     check_anchor(slot, end.place);
 }
 
@@ -40,6 +40,7 @@ fn observe_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
     let slot = group * WORKGROUP + lane;
     if (slot < PARTICLES) { observe_particle(slot); }
     total_reduce(group, lane);
+    reduce_absorbed(group, lane);
 }
 
 // Brings one particle to the report point, and adds what is observed of it.
@@ -50,31 +51,22 @@ fn observe_particle(slot: u32) {
     let species = species_of(me);
     let bath = position_bath(me, species);
     note_position_bath(species, bath);
-    let kick = steps_of(kicks[slot]) + Steps(round(position_impulse(bath))) + closing_of_hold(id);
+    let kick = steps_of(kicks[slot]) + Steps(round(position_impulse(bath))) + held_kick(me, closing_of_hold(id));
     kicks[slot] = vec4<i32>(0);
-    var momentum = steps_of(me.momentum) + clock_closing() * kick;
-    momentum = select(momentum, Steps(0), is_fixed(species));
+    let momentum = steps_of(me.momentum) + clock_closing() * kick;
     begin_force();
     add_reported_force(momentum_word(kick, 0));
     store_force(id);
-    let p = Vector(momentum);
-    note_bath_products(me.position, species, bath, p);
-    total_add(0u, sum64_of_f32(dot(p, p) * kinetic_of(species)));
-    let word = momentum_word(momentum, species);
-    total_add(2u, sum64_of_i32(word.x));
-    total_add(3u, sum64_of_i32(word.y));
-    if (DIMENSION == 3u) { total_add(4u, sum64_of_i32(word.z)); }
-    reported[id] = array<vec4<u32>, 2>(me.position, bitcast<vec4<u32>>(word));
+    let kept = reported_motion(me, momentum);
+    note_bath_products(me.position, species, bath, Vector(kept));
+    report_motion(me, momentum, Sum64(0u));
+    reported[id] = array<vec4<u32>, 2>(me.position, bitcast<vec4<u32>>(momentum_word(kept, species)));
 }
-
-// Slot couplings/fixed: whether a species is held where it is.
-// Default: off, every particle can move. The plan chooses `held` if any species is fixed.
-fn is_fixed(species: i32) -> bool { return false; }
 
 // Slot baths/coloured_noise: impulses of a coloured noise over the half steps around this step, in integer momentum units.
 // Default: off. The plan chooses `held` if the scene has such a noise.
-struct Held { closing: Steps, opening: Steps }
-fn advance_hold(id: u32) -> Held { return Held(Steps(0), Steps(0)); }
+struct NoiseImpulses { closing: Steps, opening: Steps }
+fn advance_hold(id: u32) -> NoiseImpulses { return NoiseImpulses(Steps(0), Steps(0)); }
 fn closing_of_hold(id: u32) -> Steps { return Steps(0); }
 
 // Slot baths/positions: a bath on every coordinate, from what the last step has made of it; `position_impulse` is its impulse

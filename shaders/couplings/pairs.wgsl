@@ -34,7 +34,7 @@ fn visit_pairs_of(slot: u32) {
             sound = sound && is_within(magnitude, IMPULSE_LIMIT);
             kick += impulse;
             add_kick(other_slot, -impulse);
-            note_pair(slot, other_slot, c, magnitude, contact);
+            note_pair(Ends(slot, other_slot, me, other), c, magnitude, contact);
         }
     }
     add_kick(slot, kick);
@@ -48,7 +48,7 @@ fn unless_excluded(neighbour: u32, c: Coefficients) -> Coefficients { return c; 
 // Slot couplings/pair_report: `note_pair` gets each pair with its coefficients and the impulse of all forces, `finish_pairs` ends the
 // workgroup. Default: off, a step without a report. The plan chooses `observed` for reports,
 // `stress` for an analysis of the stress.
-fn note_pair(slot: u32, other_slot: u32, c: Coefficients, magnitude: f32, contact: Contact) {}
+fn note_pair(pair: Ends, c: Coefficients, magnitude: f32, contact: Contact) {}
 fn finish_pairs(group: u32, lane: u32) {}
 
 // Slot baths/pair_noise: noise of a bath with memory, even under exchange.

@@ -97,10 +97,11 @@ fn book_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_inv
 fn report_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (group >= GROUPS) { return; }
-    for (var quantity = 0u; quantity < 4u; quantity++) {
-        let place = (FIRST_GROUP + group) * QUANTITIES + QUANTITIES - 4u + quantity;
-        partial_sums[place] = account[group * ACCOUNT + quantity];
+    let row = (FIRST_GROUP + group) * QUANTITIES;
+    for (var axis = 0u; axis < 3u; axis++) {
+        partial_sums[row + SUM_GIVEN_MOMENTUM + axis] = account[group * ACCOUNT + axis];
     }
+    partial_sums[row + SUM_GIVEN_WORK] = account[group * ACCOUNT + 3u];
 }
 
 // Adds the impulses of body forces to those of other couplings, where all are added up before particles move. One invocation a stored

@@ -1,8 +1,6 @@
 // Layers of frozen particles behind plane walls, in the gap that nothing else enters: see external/walls. They keep the momentum that goes
 // with the motion of their wall and drift with it; the impulses that pairs give them their wall takes up.
 
-// Whether a place is behind a wall.
-fn is_behind(place: Fraction) -> bool { return wall_behind(place) < DIMENSION; }
 // The axis of the walls behind which a place is; DIMENSION between them.
 fn wall_behind(place: Fraction) -> u32 {
     let ends = wall_ends();

@@ -109,13 +109,11 @@ fn wall_number(axis: u32, upper: bool) -> u32 {
     return 2u * (x + y) + select(0u, 1u, upper);
 }
 
-override WALL_SUMS: u32; // place of the first sum of walls in a report
-
 // Tells a report what walls have taken up. One invocation a sum; writes the row FIRST_GROUP of `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
 fn report_walls(@builtin(local_invocation_index) lane: u32) {
     for (var sum = lane; sum < WALL_COUNT; sum += WORKGROUP) {
-        partial_sums[FIRST_GROUP * QUANTITIES + WALL_SUMS + sum] = Sum64(wall_impulses[2u * sum], wall_impulses[2u * sum + 1u]);
+        partial_sums[FIRST_GROUP * QUANTITIES + SUM_WALLS + sum] = Sum64(wall_impulses[2u * sum], wall_impulses[2u * sum + 1u]);
     }
 }
 override WALL_COUNT: u32; // sums: three for each wall

@@ -11,12 +11,6 @@ fn check_particle(momentum: Steps, species: i32, strain: f32) {
         | select(FAILURE_DISPLACEMENT, 0u, all_within(travelled, DISPLACEMENT_LIMIT));
 }
 
-// Slot pairs/frozen: what a particle keeps of a new momentum, and of its kick; and what is told of it in a report. The plan chooses `behind_walls`
-// if the scene has frozen particles there.
-// Default: everything, and all of it: nothing is frozen.
-fn held_momentum(me: Particle, momentum: Steps) -> Steps { return momentum; }
-fn held_kick(me: Particle, kick: Steps) -> Steps { return kick; }
-
 // Stores a particle after its opening kick and drift, and counts it: what friction sees of the kick turns with the momentum. `momentum` and
 // `kick` are in integer momentum units.
 fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Steps, strain: f32) {

@@ -4,8 +4,9 @@
 // - space/dimension: the types `Fraction` (position, 2^-32 of the box), `Steps` (integer momentum or displacement) and `Vector`
 //   (real numbers), and conversions between them and stored words. Variants one, two, three; plans follow the box of the scene.
 // - space/particle: the stored particle. Variants plain, predicted (friction sees a predicted momentum: lambda other than 1/2).
-// - space/mass: masses, and what depends on them in a pair: `pair_rate` is even under exchange to the last bit. Variants one,
-//   by_species; chosen by src/plan/species.rs.
+// - space/mass: masses, and what depends on them in a pair: `inverse_mass_of` belongs to the velocity of a particle, `yielding_of` to
+//   the impulses on it; `pair_rate` is even under exchange to the last bit. Variants one, by_species, beside_held; chosen by
+//   src/families/particles/plan/species.rs.
 // - space/relative_motion: the velocity of a pair relative to each other, odd under exchange to the last bit; where all have one mass, their
 //   momentum. Variants momenta, velocities, and sheared_momenta, sheared_velocities if the scene has shear; chosen by the same.
 // - space/mass_of_particle: the inverse mass for analyses. Variants of_species; own (Voronoi cells).

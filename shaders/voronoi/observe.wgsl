@@ -5,12 +5,12 @@ fn observe_cell(slot: u32) {
     let me = stored_particle(slot);
     let velocity = velocity_of(me);
     let volume = volumes[slot];
-    total_add(0u, sum64_of_f32(0.5 * mass_of(me) * dot(velocity, velocity) * KINETIC));
-    total_add(1u, sum64_of_i32(me.momentum.x));
-    total_add(2u, sum64_of_i32(me.momentum.y));
-    total_add(3u, Sum64(me.position.z, 0u));
-    total_add(4u, sum64_of_f32(volume * VOLUME_STEPS));
-    total_add(5u, Sum64(face_counts[slot], 0u));
+    total_add(SUM_KINETIC_ENERGY, sum64_of_f32(0.5 * mass_of(me) * dot(velocity, velocity) * KINETIC));
+    total_add(SUM_MOMENTUM, sum64_of_i32(me.momentum.x));
+    total_add(SUM_MOMENTUM + 1u, sum64_of_i32(me.momentum.y));
+    total_add(SUM_MASS, Sum64(me.position.z, 0u));
+    total_add(SUM_VOLUME, sum64_of_f32(volume * VOLUME_STEPS));
+    total_add(SUM_FACE_SIDES, Sum64(face_counts[slot], 0u));
     observe_gas(me, volume);
     note_report(me);
 }

@@ -40,10 +40,10 @@ fn report_water(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
         bath = sum64_of_f32(BATH_SQUARE * s * s);
     }
     report_turns(workgroup.x >> 16u);
-    reduce_quantity(group, lane, 0u, kinetic);
-    reduce_quantity(group, lane, 1u, momentum_x);
-    reduce_quantity(group, lane, 2u, momentum_y);
-    reduce_quantity(group, lane, 3u, potential);
-    reduce_quantity(group, lane, 4u, bath);
-    reduce_quantity(group, lane, 5u, on_node);
+    reduce_quantity(group, lane, SUM_KINETIC_ENERGY, kinetic);
+    reduce_quantity(group, lane, SUM_MOMENTUM, momentum_x);
+    reduce_quantity(group, lane, SUM_MOMENTUM + 1u, momentum_y);
+    reduce_quantity(group, lane, SUM_POTENTIAL_ENERGY, potential);
+    reduce_quantity(group, lane, SUM_BATH_SQUARE, bath);
+    reduce_quantity(group, lane, SUM_MASS, on_node);
 }

@@ -65,6 +65,13 @@ impl BathStep {
         Self { persistence: 0.0, coupling: 2.0 * friction / time_step, continuous_coupling: f64::INFINITY }
     }
 
+    /// The step of this bath where it is coupled to nothing.
+    #[must_use]
+    pub(crate) fn uncoupled(self) -> Self {
+        let continuous_coupling = if self.remembers() { 0.0 } else { self.continuous_coupling };
+        Self { coupling: 0.0, continuous_coupling, ..self }
+    }
+
     /// λₑ (1 + e)/2: what a change of h adds to s.
     #[must_use]
     pub fn response(&self) -> f64 {

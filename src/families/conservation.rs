@@ -1,5 +1,7 @@
 //! What models conserve exactly.
 
+use crate::plan::Sums;
+use crate::shaders::Sum;
 use crate::state::State;
 
 /// What some models keep to the last bit: sums of integers, which every report has.
@@ -101,8 +103,9 @@ impl KeptSum {
     }
 }
 
-/// The components of the total momentum, of which the first has a place.
-pub(super) fn momentum(state: &State, first: usize, dimension: usize, unit: f64) -> Vec<KeptSum> {
+/// The components of the total momentum among the sums of a report.
+pub(super) fn momentum(state: &State, sums: &Sums, dimension: usize, unit: f64) -> Vec<KeptSum> {
+    let Some(first) = sums.place(Sum::Momentum) else { return Vec::new() };
     let directions = [" along x", " along y", " along z"].into_iter().zip(state.total_momentum()).enumerate();
     let component = |(axis, (direction, total))| KeptSum {
         quantity: KeptQuantity::Momentum,
@@ -116,10 +119,11 @@ pub(super) fn momentum(state: &State, first: usize, dimension: usize, unit: f64)
     directions.take(dimension).map(component).collect()
 }
 
-/// The sum of all masses.
-pub(super) fn mass(state: &State, quantity: KeptQuantity, place: usize, unit: f64) -> KeptSum {
+/// The sum of all masses, or nothing if a report has none.
+pub(super) fn mass(state: &State, quantity: KeptQuantity, sums: &Sums, unit: f64) -> Option<KeptSum> {
     let total = state.masses.iter().map(|mass| i64::from(*mass)).sum();
-    KeptSum { quantity, direction: "", place, unit, put_in: None, walls: None, total }
+    let place = sums.place(Sum::Mass)?;
+    Some(KeptSum { quantity, direction: "", place, unit, put_in: None, walls: None, total })
 }
 
 /// Why the energy of forces is not kept exactly.

@@ -15,6 +15,7 @@ pub(crate) mod prefix_sum;
 pub(crate) mod recording;
 mod sampler;
 pub(crate) mod serial_memory;
+mod sums;
 mod table;
 mod texture;
 
@@ -33,6 +34,7 @@ pub use paths::Paths;
 pub(crate) use physics::{Measured, Need, Ordered, PhysicsPlan, Reported};
 pub use precision::check_precision;
 pub use sampler::{Sampler, SamplerId, Window};
+pub use sums::{ReportRow, Sums};
 pub use table::{Table, Words};
 pub use texture::Texture;
 

@@ -1,6 +1,6 @@
 //! Kernels that write sums into rows of samples, where the host reads them.
 
-use super::{Kernel, Plan, Sampler, SamplerId};
+use super::{Kernel, Plan, Sampler, SamplerId, Sums};
 use crate::shaders::{Array, Choices, Constant, Entry};
 
 /// Rows of samples kept on the device between two readbacks.
@@ -18,8 +18,10 @@ pub(crate) fn record_histogram(bins: u64) -> Kernel {
 }
 
 impl Plan {
-    /// Adds the sampler of the observables: each workgroup of the report leaves this many sums.
-    pub(crate) fn sample_observables(&mut self, every: u64, quantities: u64, groups: u64) {
+    /// Adds the sampler of the observables: each workgroup of the report leaves a row of these sums.
+    pub(crate) fn sample_observables(&mut self, every: u64, sums: &Sums, groups: u64) {
+        self.constants.extend(sums.constants());
+        let quantities = sums.len() as u64;
         let record = self.add_kernel(record_sums("record_observables", quantities, groups));
         self.samplers.push(Sampler {
             id: SamplerId::Observables,

@@ -86,13 +86,11 @@ fn everything_that_hinders_is_told() {
 /// Every scene that several ranks cannot share is refused with what they can.
 #[test]
 fn what_is_not_shared_is_told_with_what_is() {
-    let fixed = r#"particles=[{"species":"A","count":60},{"species":"B","count":9,"fixed":true}]"#;
     let memory = r#"interactions=[{"type":"dpd","friction":1,"bath":{"type":"memory","rate":2}}]"#;
     for (scene, changes, reason) in [
         ("voronoi-dpd", &[][..], "scenes of this kind: on one rank only"),
         ("harmonic-chain", &[], "harmonic chains: on one rank only"),
         ("coloured-noise", &[], "coloured noise: on one rank only"),
-        ("dpd-fluid", &["integrator.type=cotter-reich", fixed], "fixed particles: on one rank only"),
         ("dpd-fluid", &["integrator.type=cotter-reich", memory], "baths with memory: on one rank only"),
         ("dpd-fluid", &["integrator.type=cotter-reich", "space.box=[40]"], "particles on a line: on one rank only"),
         ("langevin-gas", &[], "on one rank only"),

@@ -69,14 +69,20 @@ fn what_it_does_not_go_with() {
         &["interactions[0].many_body: found together with a bath with memory", "in cells, not in lists"],
     );
     LIQUID.refused_with(
-        &[&beside(r#"{"type":"langevin","friction":1}"#)],
-        &["interactions[0].many_body: found together with a bath on every particle"],
+        &[&beside(r#"{"type":"coloured-noise","strength":1,"time":0.1}"#)],
+        &["interactions[0].many_body: found together with a coloured noise"],
     );
-    LIQUID.refused_with(&["particles.1.fixed=true"], &["interactions[0].many_body: found together with particles[1]"]);
+    let bathed = beside(r#"{"type":"langevin","friction":1}"#);
+    LIQUID.refused_with(
+        &[&bathed, r#"integrator={"type":"cotter-reich"}"#],
+        &["interactions[0].many_body: found together with a bath on every particle", "`splitting`"],
+    );
+    LIQUID.accepted(&[&bathed, "particles.1.fixed=true", r#"integrator={"type":"splitting"}"#]);
     LIQUID.refused_with(
         &[&beside(r#"{"type":"bonds","pairs":[[0,1]],"exclude_repulsion":true}"#)],
         &["interactions[0].many_body: found together with bonds", "`exclude_repulsion`"],
     );
     // Without strength it is as if it were not there.
-    LIQUID.accepted(&["interactions.0.many_body.repulsion=0", "particles.1.fixed=true"]);
+    let noise = r#"interactions.1={"type":"coloured-noise","strength":1,"time":0.1}"#;
+    LIQUID.accepted(&["interactions.0.many_body.repulsion=0", noise]);
 }

@@ -219,17 +219,8 @@ fn layers_behind_walls() {
         &["particles[1].velocities: found velocities", "that of their wall"],
     );
     CHANNEL.refused_with(&[&layer(&[r#"chain={"beads":3}"#])], &["particles[1].chain: found a chain"]);
-    CHANNEL.refused_with(
-        &[&layer(&[]), "particles.0.fixed=true"],
-        &["particles[0].fixed: found true together with frozen particles in particles[1]"],
-    );
-    CHANNEL.refused_with(
-        &[
-            &layer(&[]),
-            r#"interactions=[{"type":"dpd","repulsion":25},{"type":"coloured-noise","strength":1,"time":1}]"#,
-        ],
-        &["interactions[1]: found a coloured noise together with frozen particles"],
-    );
+    let noise = r#"interactions=[{"type":"dpd","repulsion":25},{"type":"coloured-noise","strength":1,"time":1}]"#;
+    CHANNEL.accepted(&[&layer(&[]), noise]);
     let warnings = CHANNEL.warnings(&[&layer(&["placement.thickness=0.9"])]);
     assert!(warnings.iter().any(|warning| warning.contains("less than the cutoff of 1")), "{warnings:?}");
     // Specular walls move if something behind them drags the fluid along.
@@ -244,7 +235,7 @@ fn what_takes_no_layers() {
     let interactions = r#"interactions=[{"type":"dpd","repulsion":25,"many_body":{"repulsion":9}},
         {"type":"langevin","friction":1},
         {"type":"bonds","pairs":[[0,1],[1,300]],"potential":{"type":"harmonic","stiffness":2}},
-        {"type":"bonds","pairs":[[2,3]],"friction":1},
+        {"type":"bonds","pairs":[[301,3]],"friction":1},
         {"type":"body-force","force":[1,0,0],"species":["wall"]}]"#;
     let changes = [
         r#"space.walls={"x":{},"z":{}}"#,
@@ -258,9 +249,8 @@ fn what_takes_no_layers() {
     for expected in [
         r#"particles[2].placement.axis: found "x" beside "z" in particles[1]"#,
         "interactions[0]: found a many-body repulsion together with frozen particles in particles[1]",
-        "interactions[1]: found a bath on every particle together with frozen particles",
         "interactions[2].pairs[1]: found particle 300, which is frozen",
-        "interactions[3]: found a bath on every bond together with frozen particles",
+        "interactions[3].pairs[0]: found particle 301, which is frozen",
         "interactions[4].species[0]: found `wall`",
         "output.diffusion: found in a scene with frozen particles",
         "output.stress: found in a scene with frozen particles",
@@ -268,12 +258,6 @@ fn what_takes_no_layers() {
     ] {
         assert!(problems.iter().any(|problem| problem.contains(expected)), "{expected}\n{problems:#?}");
     }
-    let remembers = r#"interactions.0.bath={"type":"memory","rate":3}"#;
-    let problems = CHANNEL.problems(&[&layer(&[]), remembers]);
-    assert!(
-        problems.iter().any(|problem| problem.contains("interactions[0]: found a bath with memory")),
-        "{problems:#?}"
-    );
     let problems = CHANNEL.problems(&[&layer(&[]), "molecules=[{\"beads\":[\"water\"],\"count\":3}]"]);
     assert!(problems.iter().any(|problem| problem.contains("particles[1].placement: found beside")), "{problems:#?}");
 }

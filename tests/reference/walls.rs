@@ -6,8 +6,8 @@ use mesoscope::state::State;
 use serde_json::{Value, json};
 
 use crate::support::{
-    COTTER_REICH, Device, GROOT_WARREN, INTEGRATORS, Implementation, PREDICTED, SideBySide, before_and_after,
-    reference_of_particles, start, units_of_a_step,
+    COTTER_REICH, Device, GROOT_WARREN, INTEGRATORS, Implementation, PREDICTED, SPLITTING, STAGED, SideBySide,
+    before_and_after, reference_of_particles, start, units_of_a_step,
 };
 
 fn read(document: &Value) -> Scene {
@@ -81,10 +81,6 @@ fn agree_in_motion(document: &Value, exchanged: impl Fn(&State, [i64; 3], &str))
             }
         }
     });
-    if model.has_fixed_particles() {
-        // The device sums the forces on these too, which no column shows.
-        return;
-    }
     let [measured, expected] = both.energies(&what);
     let scale = (state.len() as f64 * model.units.momentum) * (units * STEPS) as f64;
     for (a, b) in measured.on_walls.momentum.as_flattened().iter().zip(expected.on_walls.momentum.as_flattened()) {
@@ -109,47 +105,60 @@ fn walls_agree_with_the_reference() {
     }
 }
 
-/// Couplings that persist, or act on single particles: pairs and bonds with memory, friction along bonds, baths of both kinds on every particle, a
-/// coloured noise, particles that are fixed.
+/// Friction along bonds of the first particles, see [`agree_beside`].
+fn frictional_bonds(bath: &Value) -> Value {
+    json!({"type": "bonds", "pairs": [[0, 1], [1, 2]], "friction": 3, "bath": bath,
+        "potential": {"type": "harmonic", "stiffness": 40}})
+}
+
+fn coloured_noise() -> Value {
+    json!({"type": "coloured-noise", "strength": 20, "time": 0.1})
+}
+
+fn memory() -> Value {
+    json!({"type": "memory", "rate": 3})
+}
+
+/// What persists, or acts on single particles: friction along bonds, baths of both kinds on every particle, a coloured noise.
+fn couplings() -> [Value; 6] {
+    [
+        json!({"type": "langevin", "friction": 2}),
+        json!({"type": "langevin", "friction": 2, "bath": memory()}),
+        coloured_noise(),
+        frictional_bonds(&json!({"type": "white"})),
+        frictional_bonds(&memory()),
+        json!({"type": "body-force", "force": [30, -1]}),
+    ]
+}
+
+/// Compares a scene of two dimensions, with three more particles at the front if the interaction is one of bonds.
+fn agree_beside(mut document: Value, coupling: &Value) {
+    if coupling["type"] == "bonds" {
+        let at = |place: f64| [1.0 + place, 2.0];
+        let listed = json!({"type": "listed", "positions": [at(0.0), at(0.6), at(1.2)]});
+        document["particles"].as_array_mut().unwrap().insert(0, json!({"species": "light", "placement": listed}));
+    }
+    if coupling["type"] == "langevin" || coupling["type"] == "coloured-noise" {
+        agree_in_motion(&document, |_, _, _| {});
+    } else {
+        agree(&document);
+    }
+}
+
 #[test]
 fn couplings_between_walls_agree_with_the_reference() {
-    let bonds = |bath: Value| {
-        json!({"type": "bonds", "pairs": [[0, 1], [1, 2]], "friction": 3, "bath": bath,
-            "potential": {"type": "harmonic", "stiffness": 40}})
-    };
-    let noise = json!({"type": "coloured-noise", "strength": 20, "time": 0.1});
-    let memory = json!({"type": "memory", "rate": 3});
-    let white = json!({"type": "white"});
-    let others = [
-        vec![],
-        vec![json!({"type": "langevin", "friction": 2})],
-        vec![json!({"type": "langevin", "friction": 2, "bath": memory})],
-        vec![noise.clone()],
-        vec![bonds(white)],
-        vec![bonds(memory.clone())],
-        vec![json!({"type": "body-force", "force": [30, -1]})],
-    ];
-    for (number, others) in others.iter().enumerate() {
+    for (number, coupling) in couplings().iter().enumerate() {
         let (edges, walls) = &channels()[number % 2];
-        let mut document = fluid(edges, walls, COTTER_REICH, others);
+        let mut document = fluid(edges, walls, COTTER_REICH, std::slice::from_ref(coupling));
         if number % 2 == 0 {
-            document["interactions"][0]["bath"] = memory.clone();
+            document["interactions"][0]["bath"] = memory();
         }
-        if others.iter().any(|other| other["type"] == "bonds") {
-            let at = |place: f64| [1.0 + place, 2.0];
-            let listed = json!({"type": "listed", "positions": [at(0.0), at(0.6), at(1.2)]});
-            document["particles"].as_array_mut().unwrap().insert(0, json!({"species": "light", "placement": listed}));
-        }
-        if others.iter().any(|other| other["type"] == "langevin" || other["type"] == "coloured-noise") {
-            agree_in_motion(&document, |_, _, _| {});
-        } else {
-            agree(&document);
-        }
+        agree_beside(document, coupling);
     }
     // In a volume, where some are fixed, and on a line.
     let (edges, walls) = &channels()[3];
     for integrator in [COTTER_REICH, GROOT_WARREN, PREDICTED] {
-        let mut document = fluid(edges, walls, integrator, std::slice::from_ref(&noise));
+        let mut document = fluid(edges, walls, integrator, &[coloured_noise()]);
         document["particles"][1]["fixed"] = json!(true);
         agree_in_motion(&document, |_, _, _| {});
         agree(&fluid(&[40.0], &json!({"x": {}}), integrator, &[]));
@@ -245,6 +254,45 @@ fn frozen_layers_beside_others_agree_with_the_reference() {
             json!({"species": "light", "placement": {"type": "listed", "positions": [near(0.0), near(0.6), near(-0.6)]}}),
         );
         agree(&document);
+    }
+}
+
+/// Beside layers the walls absorb what baths and couplings give to frozen particles, and nothing acts on these alone: not the baths on every
+/// particle, nor a random force.
+#[test]
+fn couplings_beside_layers_agree_with_the_reference() {
+    for (number, coupling) in couplings().iter().enumerate() {
+        let channel = &layered_channels()[number % 2];
+        let mut document = layered_fluid(channel, COTTER_REICH, std::slice::from_ref(coupling));
+        if number % 2 == 0 {
+            document["interactions"][0]["bath"] = memory();
+        }
+        agree_beside(document, coupling);
+    }
+    // A bath whose coupling is not its friction, in a volume; split steps; particles on a line.
+    for integrator in [SPLITTING, STAGED] {
+        for coupling in [&couplings()[0], &couplings()[3]] {
+            agree_beside(layered_fluid(&layered_channels()[0], integrator, std::slice::from_ref(coupling)), coupling);
+        }
+    }
+    let mut document = layered_fluid(&layered_channels()[2], COTTER_REICH, &[]);
+    document["interactions"][0] = json!({"type": "dpd", "repulsion": 25, "friction": 0,
+        "bath": {"type": "memory", "rate": 3, "coupling": 12}});
+    agree(&document);
+    let layer = json!({"species": "wall", "count": 5,
+        "placement": {"type": "behind-walls", "axis": "x", "thickness": 1.5}});
+    for integrator in [COTTER_REICH, GROOT_WARREN, PREDICTED] {
+        agree(&layered_fluid(&(vec![40.0], json!({"x": {}}), json!([layer])), integrator, &[]));
+    }
+}
+
+/// Fixed particles beside layers: both are held, and walls absorb impulses on the latter alone.
+#[test]
+fn fixed_particles_beside_layers_agree_with_the_reference() {
+    for (number, integrator) in INTEGRATORS.iter().enumerate() {
+        let mut document = layered_fluid(&layered_channels()[number % 4], integrator, &[]);
+        document["particles"][1]["fixed"] = json!(true);
+        agree_in_motion(&document, |_, _, _| {});
     }
 }
 

@@ -74,6 +74,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             many_body_plans,
             relaxed_plans,
             layered_plans,
+            porous_plans,
             shared_bond_plans,
         ];
         thread::scope(|scope| {
@@ -444,11 +445,17 @@ fn coupled_plans_between_walls(spaces: &[&str]) -> Vec<(String, Plan)> {
         r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
         r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"fixed":true}]"#,
     ];
+    let layer = r#"{"species":"B","count":50,"placement":{"type":"behind-walls","axis":"AXIS","thickness":1}}"#;
+    let layered = format!(r#"particles=[{{"species":"A","count":200}},{layer}]"#);
     let mut plans = Vec::new();
     for space in spaces.iter().copied().chain([r#"space={"box":[900],"walls":{"x":{}}}"#]) {
+        let axis = ["x", "y", "z"].into_iter().find(|axis| space.contains(&format!(r#""{axis}":{{"#))).unwrap_or("x");
+        let layered = layered.replace("AXIS", axis);
+        let particles: Vec<&str> = particles.into_iter().chain([layered.as_str()]).collect();
         let edges = [("[9,7,8]", "[1,2,-3]"), ("[900]", "[1]")];
         let force = edges.iter().find(|(edges, _)| space.contains(edges)).map_or("[1,2]", |(_, force)| force);
-        for (others, particles) in others.iter().flat_map(|others| particles.map(|particles| (others, particles))) {
+        let all = others.iter().flat_map(|others| particles.iter().map(move |particles| (others, *particles)));
+        for (others, particles) in all {
             let interactions = format!("interactions=[{}]", others.replace("[1,2]", force));
             let integrator = r#"integrator={"type":"cotter-reich"}"#;
             let changes = [particles, &interactions, space, integrator];
@@ -459,6 +466,47 @@ fn coupled_plans_between_walls(spaces: &[&str]) -> Vec<(String, Plan)> {
                     let changes = [particles, &interactions, space, &integrator];
                     let options = Options { listed: true, ..Options::default() };
                     plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// Pairs beside fixed particles, with bonds, baths in split steps, ranges of their own and a many-body repulsion.
+fn porous_plans() -> Vec<(String, Plan)> {
+    let particles =
+        r#"particles=[{"species":"A","count":200,"chain":{"beads":2}},{"species":"B","count":50,"fixed":true}]"#;
+    let bonds = r#",{"type":"bonds","friction":2,"potential":{"type":"harmonic","stiffness":9}},
+        {"type":"langevin","friction":1},{"type":"tether","stiffness":1}"#;
+    let spared = r#",{"type":"bonds","potential":{"type":"harmonic","stiffness":9},"exclude_repulsion":true}"#;
+    let interactions = [
+        r#"{"type":"dpd","repulsion":25,"friction":4.5}"#,
+        r#"{"type":"dpd","repulsion":25}"#,
+        r#"{"type":"dpd","repulsion":25,"friction":4.5,"pairs":[{"between":["A","B"],"cutoff":0.8}]}"#,
+        r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}"#,
+    ];
+    let profiles = r#"output.profiles={"axis":"x","every":2,"quantities":["density","velocity","temperature"]}"#;
+    let mut plans = Vec::new();
+    for (row, pairs) in interactions.iter().enumerate() {
+        for (column, space) in [
+            "space.box=[9,7]",
+            "space.box=[9,7,8]",
+            r#"space={"box":[9,7],"walls":{"y":{}}}"#,
+            r#"space={"box":[9,7,8],"walls":{"z":{}}}"#,
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            for (number, integrator) in INTEGRATORS.iter().enumerate() {
+                let splits = integrator.contains("splitting") && column < 2;
+                let excluding = if row == 3 { "" } else { spared };
+                for others in ["", excluding, bonds].into_iter().filter(|others| splits || *others != bonds) {
+                    let interactions = format!("interactions=[{pairs}{others}]");
+                    let changes = [particles, &interactions, space, integrator, "time.steps=1000", profiles];
+                    let traversal = [Traversal::Rows, Traversal::Clusters][(row + column + number) % 2];
+                    let options = Options { traversal: Some(traversal), ..Options::default() };
+                    plans.extend(plans_of(&format!("{} {traversal:?}", changes.join(" ")), &fluid(&changes), options));
                 }
             }
         }

@@ -52,23 +52,23 @@ fn cross_half_step(id: u32, hold: ptr<function, Hold>) -> Steps {
 }
 
 // The impulses of both half steps around this step: one ends at it, one begins with it.
-fn advance_hold(id: u32) -> Held {
+fn advance_hold(id: u32) -> NoiseImpulses {
     // Stored momenta of step 0 are full-step ones, and its process begins with it.
     let crossed = u32(1 + clock_closing());
     let whole = Steps(round(HOLD_IMPULSE * force_of(holds[id].force)));
     let halves = holds[id].halves;
-    var held = Held(clock_closing() * whole, whole);
+    var impulses = NoiseImpulses(clock_closing() * whole, whole);
     var left = halves - crossed;
     // Most forces outlast a step.
     for (var pending = halves < crossed; pending; pending = false) {
         var hold = holds[id];
-        for (var closing = clock_closing(); closing != 0; closing = 0) { held.closing = cross_half_step(id, &hold); }
-        held.opening = cross_half_step(id, &hold);
+        for (var closing = clock_closing(); closing != 0; closing = 0) { impulses.closing = cross_half_step(id, &hold); }
+        impulses.opening = cross_half_step(id, &hold);
         holds[id] = hold;
         left = hold.halves;
     }
     holds[id].halves = left;
-    return held;
+    return impulses;
 }
 // The impulse of the half step that ends at this step alone, for a report: nothing is stored. At step 0, where the momentum is
 // complete without it, it is that of the half step that begins there, which shows the force.

@@ -6,7 +6,7 @@ override MOMENTUM_DISPLACEMENT: f32; // momentum times displacement, over its qu
 fn note_bath_products(position: vec4<u32>, species: i32, bath: Vector, momentum: Vector) {
     if (position_energy(species) == 0.0) { return; }
     let displacement = separation(position, tethers[position.w]);
-    total_add(12u, sum64_of_signed(dot(bath, momentum) * BATH_MOMENTUM));
-    total_add(13u, sum64_of_signed(dot(bath, displacement) * BATH_DISPLACEMENT));
-    total_add(14u, sum64_of_signed(dot(momentum, displacement) * MOMENTUM_DISPLACEMENT));
+    total_add(SUM_BATH_MOMENTUM, sum64_of_signed(dot(bath, momentum) * BATH_MOMENTUM));
+    total_add(SUM_BATH_DISPLACEMENT, sum64_of_signed(dot(bath, displacement) * BATH_DISPLACEMENT));
+    total_add(SUM_MOMENTUM_DISPLACEMENT, sum64_of_signed(dot(momentum, displacement) * MOMENTUM_DISPLACEMENT));
 }

@@ -1,7 +1,7 @@
 // A report of excluded pairs: motion and configuration.
-fn note_excluded(pair: vec2<u32>, repulsion: Repulsion, contact: Contact) {
+fn note_excluded(pair: Ends, repulsion: Repulsion, contact: Contact) {
     if (!is_counted(pair)) { return; }
-    note_virial_of_excluded(repulsion, contact);
-    note_configuration_of_excluded(repulsion, contact);
+    note_virial_of_excluded(pair, repulsion, contact);
+    note_configuration_of_excluded(pair, repulsion, contact);
 }
 fn finish_exclusions(group: u32, lane: u32) { total_reduce(group, lane); }

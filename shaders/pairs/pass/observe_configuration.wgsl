@@ -16,4 +16,4 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: PairSums) {
     let bonded = take_gathered_kick(index);
     if (is_own(me.position)) { report_configuration(me, sums, bonded); }
 }
-fn pass_finish(group: u32, lane: u32) { reduce_quantities(group, lane, 5u, PAIR_QUANTITIES); }
+fn pass_finish(group: u32, lane: u32) { reduce_configuration(group, lane); }

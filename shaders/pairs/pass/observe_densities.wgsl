@@ -15,9 +15,9 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     store_density(me.position.w, sums.density);
     if (!is_own(me.position)) { return; }
     let slope = Vector(sums.slope);
-    pair_total_add(8u, sum64_of_f32(dot(slope, slope) * DENSITY_CURVATURE));
+    total_add(SUM_CURVATURE, sum64_of_f32(mobile_part(me) * dot(slope, slope) * DENSITY_CURVATURE));
 }
 fn pass_finish(group: u32, lane: u32) {
     raise(failures_of_particles);
-    reduce_quantity(FIRST_GROUP + group, lane, 8u, pair_totals[8]);
+    reduce_totals(group, lane, SUM_CURVATURE, SUM_CURVATURE);
 }

@@ -1,6 +1,5 @@
 // What a report of a split step needs of the first of two stages of relaxation: its virial and its part of the forces.
 struct Sums { impulse: Steps, virial: Sum64 }
-var<private> first_virial: Sum64; // of an invocation
 
 fn pass_begin(me: Particle) -> Sums {
     prepare_noise();
@@ -19,9 +18,9 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     if (!is_own(me.position)) { return; }
-    first_virial = sum64_add(first_virial, reported_virial(me, sums.virial));
+    total_add(SUM_FIRST_STAGE_VIRIAL, reported_virial(me, sums.virial));
     begin_force();
     add_reported_force(momentum_word(sums.impulse, 0));
     store_force(me.position.w);
 }
-fn pass_finish(group: u32, lane: u32) { reduce_quantity(group, lane, PAIR_QUANTITIES, first_virial); }
+fn pass_finish(group: u32, lane: u32) { reduce_totals(group, lane, SUM_FIRST_STAGE_VIRIAL, SUM_FIRST_STAGE_VIRIAL); }

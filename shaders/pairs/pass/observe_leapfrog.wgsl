@@ -34,6 +34,7 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     store_particle(place, advanced_particle(me.position, word, Steps(0)));
 }
 fn pass_finish(group: u32, lane: u32) {
-    reduce_quantities(group, lane, 0u, PAIR_QUANTITIES);
-    reduce_taken_up(group, lane);
+    reduce_motion(group, lane);
+    reduce_configuration(group, lane);
+    reduce_absorbed(group, lane);
 }

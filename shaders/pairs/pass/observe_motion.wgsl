@@ -32,6 +32,6 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     store_force(me.position.w);
 }
 fn pass_finish(group: u32, lane: u32) {
-    reduce_quantities(group, lane, 0u, 5u);
-    reduce_taken_up(group, lane);
+    reduce_motion(group, lane);
+    reduce_absorbed(group, lane);
 }

@@ -2,6 +2,7 @@
 override DRIFT: f32;   // displacement in a step per unit of momentum at unit mass
 
 fn inverse_mass_of(species: i32) -> f32 { return coefficient_entry(u32(species)).w; }
+fn yielding_of(species: i32) -> f32 { return inverse_mass_of(species); }
 fn drift_of(species: i32) -> f32 { return DRIFT * inverse_mass_of(species); }
 fn kinetic_of(species: i32) -> f32 { return KINETIC * inverse_mass_of(species); }
 

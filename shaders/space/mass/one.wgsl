@@ -3,6 +3,7 @@ override INVERSE_MASS: f32;
 override DRIFT: f32;   // displacement in a step per unit of momentum
 
 fn inverse_mass_of(species: i32) -> f32 { return INVERSE_MASS; }
+fn yielding_of(species: i32) -> f32 { return INVERSE_MASS; }
 fn drift_of(species: i32) -> f32 { return DRIFT; }
 fn kinetic_of(species: i32) -> f32 { return KINETIC; }
 

@@ -3,5 +3,5 @@ override MEAN_VOLUME: f32;
 
 fn observe_gas(cell: Particle, volume: f32) {
     let molecules = mass_of(cell) / MOLECULAR_MASS;
-    total_add(6u, sum64_of_signed(-molecules * TEMPERATURE * log(volume / MEAN_VOLUME) * KINETIC));
+    total_add(SUM_POTENTIAL_ENERGY, sum64_of_signed(-molecules * TEMPERATURE * log(volume / MEAN_VOLUME) * KINETIC));
 }

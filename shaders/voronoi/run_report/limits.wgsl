@@ -1,2 +1,2 @@
 // How often a limit has cut an exchange so far.
-fn observe_run() { total_add(9u, Sum64(atomicLoad(&control.limited), atomicLoad(&control.limited_high))); }
+fn observe_run() { total_add(SUM_LIMITED_EXCHANGES, Sum64(atomicLoad(&control.limited), atomicLoad(&control.limited_high))); }

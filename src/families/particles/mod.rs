@@ -15,6 +15,7 @@ pub(crate) mod plan;
 pub mod reference;
 pub(crate) mod stability;
 mod start;
+mod sums;
 mod unneeded;
 mod warnings;
 
@@ -29,6 +30,7 @@ use crate::document::{
     BondPotential, FileStart, Integrator, Interaction, PairRelaxation, Problems, Scene, Surroundings, Warning,
 };
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
+use crate::shaders::Sum;
 use crate::state::State;
 use model::{surroundings, topology};
 use reference::{CouplingsReference, Reference};
@@ -121,7 +123,7 @@ impl Particles {
     /// The number of coordinates that have such a bath, and can move.
     pub(crate) fn oscillating_coordinates(&self, model: &Model) -> u64 {
         let Some(bath) = self.position_bath.as_ref().filter(|_| self.oscillates_in_memory()) else { return 0 };
-        let oscillates = |(species, step): &(&Species, &BathStep)| !species.fixed && step.continuous_coupling > 0.0;
+        let oscillates = |(_, step): &(&Species, &BathStep)| step.continuous_coupling > 0.0;
         let species = model.species.iter().zip(&bath.steps).filter(oscillates);
         species.map(|(species, _)| species.count * model.units.dimension as u64).sum()
     }
@@ -360,7 +362,6 @@ impl Physics for Particles {
             (chained, "harmonic chains"),
             (self.coloured_noise.is_some(), "coloured noise"),
             (!chained && self.has_memory(), "baths with memory"),
-            (model.species.iter().any(|species| species.fixed && !species.frozen), "fixed particles"),
             (
                 !chained && !splits && of_split_steps,
                 "tethers, Langevin baths and friction along bonds where steps are not split",
@@ -410,9 +411,10 @@ impl Physics for Particles {
         if !model.exchanges_momentum() {
             return Vec::new();
         }
-        let momentum = super::conservation::momentum(state, 2, model.units.dimension, model.units.momentum);
-        let put_in = observables::put_in_place(model);
-        let walls = observables::walls_place(model);
+        let sums = sums::sums(model);
+        let momentum = super::conservation::momentum(state, &sums, model.units.dimension, model.units.momentum);
+        let put_in = sums.place(Sum::GivenMomentum);
+        let walls = sums.place(Sum::Walls).map(|first| (first, plan::walls::count(model)));
         // What frozen particles have by the motion of their walls is no part of the momentum of a report.
         let carried = |axis: usize| -> i64 {
             let frozen = |(momentum, species): (&[i32; 3], &u32)| {

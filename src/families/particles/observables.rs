@@ -1,36 +1,19 @@
 //! From the integer sums of a report to observables of particles.
 
-use super::plan::{external, walls};
+use super::plan::walls;
+use super::sums::sums;
 use crate::families::{BathProducts, Column, Model, Observables, OnWalls, Particles, PutIn, column};
 use crate::plan::Plan;
+use crate::shaders::Sum;
 
-/// The observables of a step from the sums of its report.
-pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {
-    let sum = |index: usize| sums.get(index).map_or(f64::NAN, |sum| *sum as f64);
-    let quanta = plan.quanta;
-    // Energy, square and number of the baths follow, where there are any that remember; in steps that relax in two stages the
-    // virial of the first; then what walls have taken up and what body forces have put in.
-    let staged = model.particles().relaxes_in_two_stages(model);
-    let from_outside = walls::sums(model) + external::sums(model);
-    let remembering = !staged && sums.len() as u64 - from_outside.min(sums.len() as u64) > 9;
-    let put_in = put_in_place(model).map_or_else(PutIn::default, |first| PutIn {
-        momentum: [0, 1, 2].map(|axis| sum(first + axis) * model.units.momentum),
-        work: sum(first + 3) * quanta.energy,
-    });
-    let on_walls = walls_place(model).map_or_else(OnWalls::default, |(first, number)| {
-        OnWalls::new(model, (0..number).map(|wall| [0, 1, 2].map(|axis| sum(first + 3 * wall + axis))))
-    });
+/// The observables of a step from the row of its report.
+pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model) -> Observables {
+    let sums = sums(model);
+    let row = sums.row(values);
+    let (units, quanta) = (model.units, plan.quanta);
     let products = quanta.bath_products;
-    let coordinates = model.particles().oscillating_coordinates(model);
-    let bath_products = if coordinates > 0 {
-        BathProducts {
-            momentum: sum(12) * products.momentum / coordinates as f64,
-            displacement: sum(13) * products.displacement / coordinates as f64,
-            momentum_displacement: sum(14) * products.momentum_displacement / coordinates as f64,
-        }
-    } else {
-        BathProducts::default()
-    };
+    let coordinates = model.particles().oscillating_coordinates(model).max(1) as f64;
+    let baths = row.number(Sum::BathCount);
     Observables {
         step,
         particles: plan.particles,
@@ -38,39 +21,28 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model) -
         dimension: model.units.dimension,
         volume: model.units.volume(),
         mass: model.mobile_mass(),
-        kinetic_energy: sum(0) * quanta.energy,
-        total_virial: (sum(1) + if staged { sum(9) } else { 0.0 }) * quanta.pair_energy,
-        momentum: [2, 3, 4].map(|index| sum(index) * model.units.momentum),
-        potential_energy: sum(5) * quanta.pair_energy,
-        conservative_virial: sum(6) * quanta.pair_energy,
-        gradient_squared: sum(7) * quanta.force_squared,
-        laplacian: sum(8) * quanta.curvature,
+        kinetic_energy: row.number(Sum::KineticEnergy) * quanta.energy,
+        total_virial: (row.number(Sum::Virial) + row.number(Sum::FirstStageVirial)) * quanta.pair_energy,
+        momentum: row.vector(Sum::Momentum, 0).map(|sum| sum * units.momentum),
+        potential_energy: row.number(Sum::PotentialEnergy) * quanta.pair_energy,
+        conservative_virial: row.number(Sum::ConservativeVirial) * quanta.pair_energy,
+        gradient_squared: row.number(Sum::SquaredForce) * quanta.force_squared,
+        laplacian: row.number(Sum::Curvature) * quanta.curvature,
         about_centre_of_mass: model.measures_about_centre_of_mass(),
-        bath_energy: if remembering { sum(9) * quanta.pair_energy } else { 0.0 },
-        bath_square: if remembering && sum(11) > 0.0 { sum(10) * quanta.bath_squared / sum(11) } else { 0.0 },
-        bath_products,
-        put_in,
-        on_walls,
+        bath_energy: row.number(Sum::BathEnergy) * quanta.pair_energy,
+        bath_square: if baths > 0.0 { row.number(Sum::BathSquare) * quanta.bath_squared / baths } else { 0.0 },
+        bath_products: BathProducts {
+            momentum: row.number(Sum::BathMomentum) * products.momentum / coordinates,
+            displacement: row.number(Sum::BathDisplacement) * products.displacement / coordinates,
+            momentum_displacement: row.number(Sum::MomentumDisplacement) * products.momentum_displacement / coordinates,
+        },
+        put_in: PutIn {
+            momentum: row.vector(Sum::GivenMomentum, 0).map(|sum| sum * units.momentum),
+            work: row.number(Sum::GivenWork) * quanta.energy,
+        },
+        on_walls: OnWalls::new(model, (0..walls::count(model)).map(|wall| row.vector(Sum::Walls, 3 * wall))),
         cells: None,
     }
-}
-
-/// The number of sums before those of walls and body forces.
-fn own_sums(model: &Model) -> usize {
-    let products = if model.particles().oscillates_in_memory() { 3 } else { 0 };
-    let remembering = if model.has_memory() { 3 } else { 0 };
-    9 + usize::from(model.particles().relaxes_in_two_stages(model)) + remembering + products
-}
-
-/// The place of the first sum of what walls have taken up, and their number, if there are any.
-pub(super) fn walls_place(model: &Model) -> Option<(usize, usize)> {
-    let number = walls::count(model);
-    (number > 0).then(|| (own_sums(model), number))
-}
-
-/// The place of the first sum of what body forces have put in, if there are any.
-pub(super) fn put_in_place(model: &Model) -> Option<usize> {
-    model.particles().body_forces.as_ref().map(|_| own_sums(model) + walls::sums(model) as usize)
 }
 
 /// The columns of the table of energies.

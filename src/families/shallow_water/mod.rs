@@ -220,7 +220,7 @@ impl Physics for ShallowWater {
     }
 
     fn kept(&self, _: &Model, state: &State) -> Vec<KeptSum> {
-        vec![conservation::mass(state, KeptQuantity::MeshMass, 5, self.mass_unit)]
+        conservation::mass(state, KeptQuantity::MeshMass, &observables::sums(), self.mass_unit).into_iter().collect()
     }
 
     fn kept_to_rounding(&self, model: &Model) -> Option<&'static str> {

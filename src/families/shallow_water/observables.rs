@@ -1,13 +1,23 @@
 //! From the integer sums of a report to observables of shallow water.
 
 use crate::families::{BathProducts, Column, Model, Observables, OnWalls, PutIn, ShallowWater, column};
-use crate::plan::Plan;
+use crate::plan::{Plan, Sums};
+use crate::shaders::Sum;
 
-/// The observables of a step from the sums of its report.
-pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, water: &ShallowWater) -> Observables {
-    let sum = |index: usize| sums.get(index).map_or(f64::NAN, |sum| *sum as f64);
+/// What a report of shallow water sums.
+pub(super) fn sums() -> Sums {
+    Sums::default()
+        .with(Sum::KineticEnergy, 1)
+        .with(Sum::Momentum, 2)
+        .with_if(true, &[Sum::PotentialEnergy, Sum::BathSquare, Sum::Mass])
+}
+
+/// The observables of a step from the row of its report.
+pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model, water: &ShallowWater) -> Observables {
+    let sums = sums();
+    let row = sums.row(values);
     let quanta = plan.quanta;
-    let bath_squares = sum(4) * quanta.bath_squared;
+    let bath_squares = row.number(Sum::BathSquare) * quanta.bath_squared;
     let energy_per_square = match &water.bath {
         Some(bath) if bath.continuous_coupling.is_finite() && bath.continuous_coupling > 0.0 => {
             0.5 * water.wave_speed.powi(2) / bath.continuous_coupling
@@ -21,9 +31,9 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, w
         dimension: 2,
         volume: model.units.volume(),
         mass: water.total_mass() as f64 * water.mass_unit,
-        kinetic_energy: sum(0) * quanta.energy,
-        momentum: [sum(1), sum(2), 0.0].map(|sum| sum * quanta.energy / water.wave_speed),
-        potential_energy: sum(3) * quanta.pair_energy,
+        kinetic_energy: row.number(Sum::KineticEnergy) * quanta.energy,
+        momentum: row.vector(Sum::Momentum, 0).map(|sum| sum * quanta.energy / water.wave_speed),
+        potential_energy: row.number(Sum::PotentialEnergy) * quanta.pair_energy,
         bath_energy: energy_per_square * bath_squares,
         bath_square: bath_squares / water.nodes() as f64,
         bath_products: BathProducts::default(),

@@ -23,6 +23,7 @@ use super::{
 };
 use crate::document::{InitialMasses, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
+use crate::shaders::Sum;
 use crate::state::{Reported, State};
 use crate::tessellation::Tessellation;
 use reference::VoronoiReference;
@@ -150,12 +151,14 @@ impl Physics for Voronoi {
     }
 
     fn kept(&self, model: &Model, state: &State) -> Vec<KeptSum> {
-        let mut kept = vec![conservation::mass(state, KeptQuantity::Mass, 3, self.mass_unit)];
-        kept.extend(conservation::momentum(state, 1, model.units.dimension, model.units.momentum));
-        if self.keeps_energy() {
+        let sums = observables::sums(self, model);
+        let mut kept: Vec<KeptSum> =
+            conservation::mass(state, KeptQuantity::Mass, &sums, self.mass_unit).into_iter().collect();
+        kept.extend(conservation::momentum(state, &sums, model.units.dimension, model.units.momentum));
+        if let Some(place) = sums.place(Sum::TotalEnergy) {
             let total = state.energies.iter().map(|energy| i64::from(*energy)).sum();
             let (quantity, unit) = (KeptQuantity::Energy, self.energy_unit);
-            kept.push(KeptSum { quantity, direction: "", place: 7, unit, put_in: None, walls: None, total });
+            kept.push(KeptSum { quantity, direction: "", place, unit, put_in: None, walls: None, total });
         }
         kept
     }

@@ -3,36 +3,53 @@
 use crate::document::Integrator;
 use crate::families::column::column;
 use crate::families::{BathProducts, CellObservables, Column, Model, Observables, OnWalls, PutIn, Voronoi, column};
-use crate::plan::Plan;
+use crate::plan::{Plan, Sums};
+use crate::shaders::Sum;
 
 /// The residual of the solver of the friction is counted in these.
 const RESIDUAL: f64 = 1.0 / (1_u64 << 40) as f64;
 
-/// The observables of a step from the sums of its report.
-pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, cells: &Voronoi) -> Observables {
-    let sum = |index: usize| sums.get(index).map_or(f64::NAN, |sum| *sum as f64);
-    let whole = |index: usize| sums.get(index).copied().unwrap_or(0);
-    let quanta = plan.quanta;
-    let mass_units = whole(3);
+/// What a report of cells sums.
+pub(super) fn sums(cells: &Voronoi, model: &Model) -> Sums {
+    let energies = cells.keeps_energy();
+    let (solves, limited) = (cells.solves(model), cells.has_limits(model.temperature));
+    Sums::default()
+        .with(Sum::KineticEnergy, 1)
+        .with(Sum::Momentum, 2)
+        .with_if(true, &[Sum::Mass, Sum::Volume, Sum::FaceSides])
+        .with_if(energies, &[Sum::InternalEnergy, Sum::TotalEnergy, Sum::Temperature])
+        .with_if(!energies && !cells.exchanges_mass(), &[Sum::PotentialEnergy])
+        .with_if(solves || limited, &[Sum::LimitedExchanges])
+        .with_if(solves, &[Sum::Iterations, Sum::Residual])
+}
+
+/// The observables of a step from the row of its report.
+pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model, cells: &Voronoi) -> Observables {
+    let sums = sums(cells, model);
+    let row = sums.row(values);
+    let whole = |sum: Sum| row.value(sum).unwrap_or(0);
+    let (units, quanta) = (model.units, plan.quanta);
+    let kinetic_energy = row.number(Sum::KineticEnergy) * quanta.energy;
+    let mass_units = whole(Sum::Mass);
     let mass = mass_units as f64 * cells.mass_unit;
     // What one molecule has of both, as an ideal gas of two dimensions, and with it the product of pressure and volume.
     let (free_energy, internal_energy, internal_temperature) = if cells.keeps_energy() {
         // Kinetic and internal energy together are integers, whose sum says whether any is lost.
-        let internal = whole(7) as f64 * cells.energy_unit - sum(0) * quanta.energy;
-        (0.0, internal, sum(8) * quanta.energy / plan.particles as f64)
+        let internal = whole(Sum::TotalEnergy) as f64 * cells.energy_unit - kinetic_energy;
+        (0.0, internal, row.number(Sum::Temperature) * quanta.energy / plan.particles as f64)
     } else {
-        // Zero where there is no potential.
-        (sum(6) * quanta.energy, mass / cells.molecular_mass * model.temperature, model.temperature)
+        let free_energy = row.number(Sum::PotentialEnergy) * quanta.energy;
+        (free_energy, mass / cells.molecular_mass * model.temperature, model.temperature)
     };
     Observables {
         step,
         particles: plan.particles,
         mobile: plan.particles,
         dimension: 2,
-        volume: model.units.volume(),
+        volume: units.volume(),
         mass,
-        kinetic_energy: sum(0) * quanta.energy,
-        momentum: [sum(1), sum(2), 0.0].map(|sum| sum * model.units.momentum),
+        kinetic_energy,
+        momentum: row.vector(Sum::Momentum, 0).map(|sum| sum * units.momentum),
         potential_energy: free_energy,
         conservative_virial: 2.0 * internal_energy,
         total_virial: f64::NAN,
@@ -45,16 +62,16 @@ pub(super) fn observables(step: u64, sums: &[i64], plan: &Plan, model: &Model, c
         put_in: PutIn::default(),
         on_walls: OnWalls::default(),
         cells: Some(CellObservables {
-            volume: sum(4) * quanta.length_squared,
+            volume: row.number(Sum::Volume) * quanta.length_squared,
             // Every face has two sides.
-            faces: whole(5) as u64 / 2,
+            faces: whole(Sum::FaceSides) as u64 / 2,
             mass_units,
             internal_energy,
             internal_temperature,
-            pressure: internal_energy / model.units.volume(),
-            limited_exchanges: whole(9) as u64,
-            iterations: whole(10) as u64,
-            residual: whole(11) as f64 * RESIDUAL,
+            pressure: internal_energy / units.volume(),
+            limited_exchanges: whole(Sum::LimitedExchanges) as u64,
+            iterations: whole(Sum::Iterations) as u64,
+            residual: whole(Sum::Residual) as f64 * RESIDUAL,
         }),
     }
 }

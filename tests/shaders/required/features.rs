@@ -380,7 +380,7 @@ pub fn features() -> Vec<Feature> {
                 }
             },
             without: nothing,
-            own: Some(&["layers", "FROZEN"]),
+            own: Some(&["layers", "FROZEN", "file external/absorbed", "file space/held/"]),
             more: &["coefficients"],
             // Beside a table of species the prefilter reads positions.
             instead: &["probes"],
@@ -533,7 +533,7 @@ pub fn features() -> Vec<Feature> {
             },
             with: |scene| set_last_group(scene, "fixed", json!(true)),
             without: nothing,
-            own: Some(&["file couplings/fixed"]),
+            own: Some(&["file space/held/", "file space/mass/beside_held"]),
             more: &[],
             instead: &[],
             always: true,

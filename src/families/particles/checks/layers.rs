@@ -1,6 +1,6 @@
 //! Checks of layers of frozen particles behind walls.
 
-use super::{acts, is_fixed_in_space};
+use super::acts;
 use crate::document::{Interaction, ParticleGroup, Placement, Problem, Problems, Scene, Velocities};
 
 /// Whether a group makes up a layer behind the walls across an axis.
@@ -65,30 +65,16 @@ fn check_group(scene: &Scene, group: &ParticleGroup, path: &str, problems: &mut 
     }
 }
 
-/// Frozen particles take part in pairs without memory, and in nothing else.
+/// Frozen particles take part in pairs, and in nothing else.
 fn check_interactions(scene: &Scene, layer: usize, problems: &mut Problems) {
     let where_from = format!("together with frozen particles in particles[{layer}]");
-    if let Some(index) = scene.particles.iter().position(is_fixed_in_space) {
-        let path = format!("particles[{index}].fixed");
-        problems.push(Problem::new(path, format!("found true {where_from}"), "particles that move, beside layers"));
-    }
-    if scene.space.lengths.len() == 1 {
-        let path = format!("particles[{layer}].placement");
-        problems.push(Problem::new(path, "found in a scene of one dimension", "layers in two or three dimensions"));
-    }
     for (index, interaction) in scene.interactions.iter().enumerate().filter(|(_, interaction)| acts(interaction)) {
         let path = format!("interactions[{index}]");
         let (what, accepted) = match interaction {
-            Interaction::Dpd(dpd) if dpd.remembers() => ("a bath with memory", "pairs without memory beside layers"),
             Interaction::Dpd(dpd) if dpd.acting_many_body().is_some() => (
                 "a many-body repulsion",
                 "repulsions of pairs alone beside layers, whose local densities end behind the wall",
             ),
-            Interaction::ColouredNoise(_) => ("a coloured noise", "friction between pairs beside layers"),
-            Interaction::Langevin(_) => ("a bath on every particle", "friction between pairs beside layers"),
-            Interaction::Bonds(bonds) if bonds.has_bath() => {
-                ("a bath on every bond", "bonds without a bath, and friction between pairs, beside layers")
-            }
             Interaction::Bonds(bonds) => {
                 check_members(scene, &bonds.pairs, &format!("{path}.pairs"), problems);
                 continue;

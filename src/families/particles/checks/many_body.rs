@@ -1,6 +1,6 @@
 //! Checks of the many-body repulsion that a schema cannot express.
 
-use super::beyond_pairs;
+use super::{is_coupled, reason};
 use crate::document::{DpdInteraction, Interaction, Problem, Problems, Scene};
 
 /// Checks the many-body repulsion of an interaction by itself.
@@ -37,10 +37,10 @@ pub(super) fn check_together(scene: &Scene, problems: &mut Problems) {
         |interaction: &Interaction| matches!(interaction, Interaction::Dpd(dpd) if dpd.acting_many_body().is_some());
     let Some(index) = scene.interactions.iter().position(acts) else { return };
     let path = format!("interactions[{index}].many_body");
-    if let Some(more) = beyond_pairs(scene) {
-        let accepted = "a many-body repulsion of pairs without memory, beside bonds and angles without a bath and body forces, in two or \
-                        three dimensions: local densities are found in cells, not in lists, and were not compared beside other baths";
-        problems.push(Problem::new(&path, format!("found together with {more}"), accepted));
+    if is_coupled(scene) {
+        let accepted = "a many-body repulsion of pairs without memory, in two or three dimensions; baths on particles and bonds without \
+                        memory, and tethers, beside it where steps are `splitting`: local densities are found in cells, not in lists";
+        problems.push(Problem::new(&path, format!("found together with {}", reason(scene)), accepted));
     }
     let excludes =
         |interaction: &Interaction| matches!(interaction, Interaction::Bonds(bonds) if bonds.exclude_repulsion);

@@ -136,10 +136,13 @@ fn is_split(scene: &Scene, interaction: &Interaction) -> bool {
 }
 
 /// Whether a scene that names no integrator, and has the default of all, is one of couplings: where it cannot be split,
-/// and where there is more than bonds and angles but no pair force, for particles that nobody searches need no order.
+/// where there is more than bonds and angles but no pair force, for particles without pairs need no order; and where particles are fixed, so that
+/// scenes keep the step that was the only one for them.
 pub(crate) fn is_coupled_by_default(scene: &Scene) -> bool {
     let pairs = |interaction: &Interaction| matches!(interaction, Interaction::Dpd(_));
-    is_coupled(scene) || (has_more_than(scene, |_| false) && !scene.interactions.iter().any(pairs))
+    let fixed =
+        scene.interactions.iter().all(Interaction::is_of_particles) && scene.particles.iter().any(is_fixed_in_space);
+    is_coupled(scene) || fixed || (has_more_than(scene, |_| false) && !scene.interactions.iter().any(pairs))
 }
 
 /// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and
@@ -152,9 +155,7 @@ fn has_more_than(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> bool {
         other => acts(other) && !taken(other),
     };
     scene.interactions.iter().all(Interaction::is_of_particles)
-        && (scene.space.lengths.len() == 1
-            || scene.particles.iter().any(is_fixed_in_space)
-            || scene.interactions.iter().any(coupled))
+        && (scene.space.lengths.len() == 1 || scene.interactions.iter().any(coupled))
 }
 
 /// Whether particles are held where they start, not behind walls.
@@ -338,10 +339,7 @@ fn first_of_more(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> String 
         };
         return format!("{what} in interactions[{index}]");
     }
-    match scene.particles.iter().position(is_fixed_in_space) {
-        Some(group) => format!("particles[{group}], which are fixed"),
-        None => "a box of one dimension".to_owned(),
-    }
+    "a box of one dimension".to_owned()
 }
 
 fn check_groot_warren(scene: &Scene, problems: &mut Problems) {

@@ -1,6 +1,6 @@
 //! Checks of shear that a schema cannot express.
 
-use super::{beyond_pairs, is_coupled};
+use super::{beyond_pairs, is_coupled, is_fixed_in_space};
 use crate::document::{Axis, DpdInteraction, Integrator, Interaction, Output, Problem, Problems, Scene, brief};
 use crate::families::{Model, ShearedBox};
 
@@ -47,6 +47,11 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
              neither lists of neighbours nor places and velocities of single particles follow the boundaries",
         );
     }
+    let fixed = scene.particles.iter().position(is_fixed_in_space);
+    if let Some(group) = fixed {
+        let found = format!("found together with particles[{group}], which are fixed");
+        refuse(at, found, "particles that move: across a boundary that shears, the images of a fixed particle move");
+    }
     if !scene.space.walls.is_empty() {
         let named = scene.space.walls.of_axes()[shear.gradient as usize].is_some();
         let found = if named { "found across an axis with walls" } else { "found together with `space.walls`" };
@@ -58,7 +63,7 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         let found = format!("found together with a body force in interactions[{index}]");
         refuse(at, found, "no body force: its work on what crosses a boundary is not booked");
     }
-    if scene.integrator == (Integrator::CotterReich {}) && !is_coupled(scene) {
+    if scene.integrator == (Integrator::CotterReich {}) && !is_coupled(scene) && fixed.is_none() {
         let accepted =
             "`splitting` or `groot-warren`: its friction sees distances before a drift, in which a boundary has moved";
         refuse("integrator", "found `cotter-reich` and `space.shear`".to_owned(), accepted);

@@ -22,6 +22,8 @@ pub struct PairForce {
     species: usize,
     repulsion: Vec<f64>,
     friction: Vec<f64>,
+    /// Pairs of species of which both are held, and have no bath.
+    uncoupled: Vec<bool>,
     cutoffs: Vec<f64>,
     exponents: Vec<f64>,
 }
@@ -38,6 +40,7 @@ impl PairForce {
             species: count,
             repulsion: vec![interaction.repulsion; count * count],
             friction: vec![interaction.friction; count * count],
+            uncoupled: vec![false; count * count],
             cutoffs: vec![interaction.cutoff; count * count],
             exponents: vec![interaction.weight_exponent; count * count],
         };
@@ -59,10 +62,14 @@ impl PairForce {
                 }
             }
         }
-        // Frozen particles do not move each other.
+        // Held particles do not move each other.
         for pair in 0..count * count {
-            if species[pair / count].frozen && species[pair % count].frozen {
-                (force.repulsion[pair], force.friction[pair]) = (0.0, 0.0);
+            let [one, other] = [&species[pair / count], &species[pair % count]];
+            if one.fixed && other.fixed {
+                (force.friction[pair], force.uncoupled[pair]) = (0.0, true);
+            }
+            if one.frozen && other.frozen {
+                force.repulsion[pair] = 0.0;
             }
         }
         force.unite_what_does_not_act();
@@ -101,6 +108,7 @@ impl PairForce {
             species,
             repulsion: zeros.clone(),
             friction: zeros,
+            uncoupled: vec![false; species * species],
             cutoffs: vec![0.5 * units.shortest_length(); species * species],
             exponents: vec![2.0; species * species],
         }
@@ -204,7 +212,8 @@ impl PairForce {
     /// The bath step of a pair of species, coupled to φ(r).
     #[must_use]
     pub fn bath_step(&self, a: usize, b: usize, time_step: f64) -> BathStep {
-        BathStep::of(&self.bath, self.friction(a, b), time_step)
+        let step = BathStep::of(&self.bath, self.friction(a, b), time_step);
+        if self.uncoupled[a * self.species + b] { step.uncoupled() } else { step }
     }
 
     /// Whether any pair of species has friction, with memory or without.

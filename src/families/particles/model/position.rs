@@ -26,7 +26,11 @@ impl PositionBath {
             let own = interaction.species.iter().find(|entry| entry.name == name);
             own.map_or(interaction.friction, |entry| entry.friction)
         };
-        let step = |species: &Species| BathStep::of(&interaction.bath, friction(&species.name), time_step);
+        // What is held gains nothing from a bath.
+        let step = |species: &Species| {
+            let step = BathStep::of(&interaction.bath, friction(&species.name), time_step);
+            if species.fixed { step.uncoupled() } else { step }
+        };
         Self {
             temperature: interaction.bath.temperature(temperature),
             steps: species.iter().map(step).collect(),

@@ -6,8 +6,6 @@ use crate::families::{FixedImpulse, Model};
 use crate::plan::{Kernel, Plan};
 use crate::shaders::{Array, Choices, Constant, Entry, external};
 
-/// Sums that a report adds: momentum and work.
-pub(super) const SUMS: u64 = 4;
 /// Sums in a row of the account, see `shaders/external/body_force.wgsl`.
 const ACCOUNT: u64 = 8;
 /// Rows of the account: enough workgroups to read particles as fast as memory can, few enough to add up. Where there are fewer particles a lane
@@ -22,11 +20,6 @@ pub(super) fn profile(model: &Model) -> Option<external::Profile> {
         ForceProfile::Opposed => external::Profile::Opposed,
         ForceProfile::Sinusoidal => external::Profile::Sinusoidal,
     })
-}
-
-/// Sums that a report has for body forces.
-pub(crate) fn sums(model: &Model) -> u64 {
-    if model.particles().body_forces.is_some() { SUMS } else { 0 }
 }
 
 /// Rows of the account of workgroups of a size; none without body forces.

@@ -2,7 +2,7 @@
 
 use crate::families::Model;
 use crate::plan::Plan;
-use crate::shaders::{Choices, Constant, core, external, pairs, space};
+use crate::shaders::{Choices, Constant, external, pairs, space};
 
 /// What all kernels choose, if there is shear; `has_table` where species have one.
 pub(super) fn choices(model: &Model, has_table: bool) -> Choices {
@@ -15,7 +15,6 @@ pub(super) fn choices(model: &Model, has_table: bool) -> Choices {
         .with(pairs::Visit::Sheared)
         .with(pairs::ClusterRows::Sheared)
         .with(pairs::ReportedMotion::Peculiar)
-        .with(core::Reported::WithWalls)
         .and(&of_species(model, has_table))
 }
 

@@ -1,9 +1,9 @@
 //! How kernels know what species are like: by constants where there are few, else by a table.
 
 use super::law::have_ranges;
-use crate::families::Model;
+use crate::families::{self, Model};
 use crate::shaders::Choices;
-use crate::shaders::space::{Coefficients, Mass, MassOfParticle, RelativeMotion};
+use crate::shaders::space::{Coefficients, Held, Mass, MassOfParticle, RelativeMotion};
 
 /// Where kernels find the coefficients of pairs and the masses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,8 +15,8 @@ pub(crate) struct Species {
     ranges: bool,
     /// Whether particles may be copies that shear gives another velocity.
     sheared: bool,
-    /// Whether some are frozen behind walls.
-    frozen: bool,
+    /// Whether some are held.
+    held: bool,
 }
 
 impl Species {
@@ -25,8 +25,8 @@ impl Species {
         let first = masses.next().unwrap_or(Some(1.0));
         let mass = first.filter(|mass| masses.all(|other| other == Some(*mass)));
         let ranges = model.particles().pair_force.as_ref().is_some_and(have_ranges);
-        let (sheared, frozen) = (model.particles().shear.is_some(), model.has_frozen_particles());
-        Self { count: model.species.len(), mass, ranges, sheared, frozen }
+        let (sheared, held) = (model.particles().shear.is_some(), model.species.iter().any(|species| species.fixed));
+        Self { count: model.species.len(), mass, ranges, sheared, held }
     }
 
     /// Whether there is a table: all coefficients of a single species that can move are constants.
@@ -44,7 +44,16 @@ impl Species {
         self.mass.unwrap_or(1.0)
     }
 
-    /// Where kernels find masses and coefficients.
+    /// The inverse mass of a species in the table: none of one that is fixed, the negative of one that is frozen and moves with its wall.
+    pub fn inverse_mass(species: &families::Species) -> f64 {
+        match (species.fixed, species.frozen) {
+            (_, true) => -1.0 / species.mass,
+            (true, false) => 0.0,
+            (false, false) => 1.0 / species.mass,
+        }
+    }
+
+    /// Where kernels find masses and coefficients, and who moves.
     pub fn choices(self) -> Choices {
         let coefficients = match (self.have_table(), self.ranges) {
             (false, _) => Coefficients::Single,
@@ -57,11 +66,12 @@ impl Species {
             (false, false) => RelativeMotion::Velocities,
             (false, true) => RelativeMotion::ShearedVelocities,
         };
-        let (mass, mass_of_particle) = match (self.have_one_mass(), self.frozen) {
-            (_, true) => (Mass::BesideLayers, MassOfParticle::BesideLayers),
-            (true, false) => (Mass::One, MassOfParticle::OfSpecies),
-            (false, false) => (Mass::BySpecies, MassOfParticle::OfSpecies),
+        let mass = match (self.have_one_mass(), self.held) {
+            (_, true) => Mass::BesideHeld,
+            (true, false) => Mass::One,
+            (false, false) => Mass::BySpecies,
         };
-        Choices::new().with(motion).with(mass).with(mass_of_particle).with(coefficients)
+        let choices = Choices::new().with(motion).with(mass).with(MassOfParticle::OfSpecies).with(coefficients);
+        choices.with_if(self.held, Held::BySpecies)
     }
 }

@@ -3,17 +3,12 @@
 
 use crate::document::Reflection;
 use crate::families::{Model, PlaneWalls};
-use crate::plan::{Kernel, Plan};
-use crate::shaders::{Array, Choices, Constant, Entry, core, external, pairs, space};
+use crate::plan::{Kernel, Plan, Sums};
+use crate::shaders::{Array, Choices, Constant, Entry, Sum, external, space};
 
 /// What a model has that takes up momentum: its walls, and boundaries that shear as one.
 pub(crate) fn count(model: &Model) -> usize {
     2 * model.particles().walls.len() + usize::from(model.particles().shear.is_some())
-}
-
-/// Sums that a report has for walls: three components of momentum for each.
-pub(crate) fn sums(model: &Model) -> u64 {
-    3 * count(model) as u64
 }
 
 /// What kernels choose that move particles between walls, if there are any.
@@ -21,9 +16,8 @@ pub(super) fn choices(model: &Model) -> Choices {
     let walls = !model.particles().walls.is_empty();
     Choices::new()
         .with_if(walls, space::Travel::BetweenWalls)
-        .with_if(model.has_frozen_particles(), pairs::Frozen::BehindWalls)
+        .with_if(model.has_frozen_particles(), external::Absorbed::ByWalls)
         .with_if(walls, external::Drifted::BetweenWalls)
-        .with_if(walls, core::Reported::WithWalls)
         .with_if(model.particles().walls_move(), external::WallMotion::Moving)
 }
 
@@ -75,24 +69,21 @@ pub(super) fn add_constants(model: &Model, plan: &mut Plan) {
     }
 }
 
-/// The place of the sums of the walls that have layers among the sums of a report, of which those of walls begin at a place.
-pub(super) fn frozen_sums(model: &Model, first_sum: u64) -> Option<(Constant, f64)> {
+/// The place of the sums of the walls that have layers.
+pub(super) fn frozen_sums(model: &Model, sums: &Sums) -> Option<(Constant, f64)> {
     let pair = model.particles().walls.iter().position(|walls| walls.layer > 0.0)?;
-    model.has_frozen_particles().then_some((Constant::FrozenSums, (first_sum + 6 * pair as u64) as f64))
+    let first = sums.place(Sum::Walls)?;
+    model.has_frozen_particles().then_some((Constant::FrozenSums, (first + 6 * pair) as f64))
 }
 
-/// Adds the kernel that tells a report what walls have taken up, before anything moves on from there: into a row after the given number of
-/// them, at the given place of it. The number of rows that it adds.
-pub(super) fn add_account(model: &Model, choices: &Choices, first_row: u64, first_sum: u64, plan: &mut Plan) -> u64 {
-    let sums = sums(model);
+/// Adds the kernel that reports what walls have absorbed, before anything moves on from there, into a row after the given number of them. The
+/// number of rows that it adds.
+pub(super) fn add_account(model: &Model, choices: &Choices, first_row: u64, plan: &mut Plan) -> u64 {
+    let sums = 3 * count(model) as u64;
     if sums == 0 {
         return 0;
     }
-    let constants = vec![
-        (Constant::FirstGroup, first_row as f64),
-        (Constant::WallSums, first_sum as f64),
-        (Constant::WallCount, sums as f64),
-    ];
+    let constants = vec![(Constant::FirstGroup, first_row as f64), (Constant::WallCount, sums as f64)];
     let report = plan.add_kernel(Kernel::new("report_walls", Entry::ReportWalls, choices.clone(), 1).with(constants));
     plan.report.insert(0, report);
     plan.add_buffer(Array::WallImpulses, 8 * sums);

@@ -1,6 +1,6 @@
 //! The end of a step of particles: the opening kick, what friction will see of it, and the drift.
 
-use super::layers;
+use super::held;
 use super::shear;
 use super::walls::{self, Flight, Way};
 use crate::document::Integrator;
@@ -23,19 +23,15 @@ pub(super) fn end(
     parts: i64,
 ) -> Result<(), Unstable> {
     add(&mut momenta, opening);
-    let taken = layers::taken_up(model, state, &momenta);
-    layers::hold(model, state, &mut momenta);
+    let absorbed = held::absorbed(model, state, &momenta);
+    held::hold(model, state, &mut momenta);
     let advanced = narrow(&momenta, state.step)?;
     let mut turned = move_on(model, masses, state, &advanced, parts, parts)?;
-    if !taken.is_empty() {
-        state.walls = walls::add(&state.walls, &taken);
+    if !absorbed.is_empty() {
+        state.walls = walls::add(&state.walls, &absorbed);
     }
-    // What frozen particles are given, friction sees nothing of.
-    for (particle, turned) in turned.iter_mut().enumerate() {
-        if layers::is_frozen(model, state, particle) {
-            *turned = [0; 3];
-        }
-    }
+    // Friction sees none of the impulses on held particles.
+    held::spare(model, state, &mut turned);
     state.predicted = match model.integrator {
         Integrator::GrootWarren { lambda } if lambda != 0.5 => {
             let turn = |(kick, turned): (&[i64; 3], &[i64; 3])| std::array::from_fn(|axis| kick[axis] * turned[axis]);

@@ -5,7 +5,7 @@ mod body_force;
 mod couplings;
 mod densities;
 mod end_of_step;
-mod layers;
+mod held;
 mod leapfrog;
 mod motion;
 mod observables;
@@ -123,7 +123,7 @@ impl Reference {
     /// [`Unstable`] when a momentum does not fit the integer state or a bond is too long.
     pub fn reported_state(&self) -> Result<Reported, Unstable> {
         let mut momenta = self.report(&self.pairs())?.momenta;
-        layers::hold(&self.model, &self.state, &mut momenta);
+        held::hold(&self.model, &self.state, &mut momenta);
         let momenta = narrow(&momenta, self.state.step)?;
         Ok(Reported { momenta, ..self.state.clone().into() })
     }
@@ -147,7 +147,7 @@ impl Reference {
     pub fn state_between_forces(&self) -> Result<State, Unstable> {
         let Report { mut momenta, kick, .. } = self.report(&self.pairs())?;
         add(&mut momenta, &kick);
-        layers::hold(&self.model, &self.state, &mut momenta);
+        held::hold(&self.model, &self.state, &mut momenta);
         let momenta = narrow(&momenta, self.state.step)?;
         let mut state = State { predicted: Vec::new(), ..self.state.clone() };
         end_of_step::move_on(&self.model, &self.masses, &mut state, &momenta, 1, 2)?;

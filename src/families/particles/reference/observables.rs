@@ -2,7 +2,7 @@
 
 use super::body_force;
 use super::couplings::observables::of_configuration;
-use super::layers;
+use super::held;
 use super::pairs::find_pairs;
 use super::shear::{self, Images};
 use super::walls;
@@ -15,7 +15,7 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
     let mut total = [0_i64; 3];
     let mut kinetic_energy = 0.0;
     for (particle, (momentum, mass)) in momenta.iter().zip(masses).enumerate() {
-        if layers::is_frozen(model, state, particle) {
+        if held::is_held(model, state, particle) {
             continue;
         }
         let flow = [shear::flow(model, state, particle), 0.0, 0.0];
@@ -26,7 +26,7 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
         }
     }
     Observables {
-        mass: (0..state.len()).filter(|id| !layers::is_frozen(model, state, *id)).map(|id| masses[id]).sum(),
+        mass: (0..state.len()).filter(|id| !held::is_frozen(model, state, *id)).map(|id| masses[id]).sum(),
         kinetic_energy,
         momentum: total.map(|units| units as f64 * model.units.momentum),
         put_in: body_force::put_in(model, state, masses),

@@ -2,6 +2,7 @@
 //! one after the other, on momenta that are rounded to whole units once.
 
 use super::couplings::bonds::span;
+use super::held;
 use super::pairs::{self, dot};
 use super::shear::Images;
 use super::stress::Virials;
@@ -42,7 +43,12 @@ pub(super) fn of_bonds(model: &Model, state: &State, masses: &[f64], momenta: &m
         let [first, second] = [pair.first, pair.second]
             .map(|end| momenta[end].map(|units| units as f64 * model.units.momentum / masses[end]));
         let velocity = dot(pair.direction(), std::array::from_fn(|axis| first[axis] - second[axis]));
-        let reduced_mass = 1.0 / (1.0 / masses[pair.first] + 1.0 / masses[pair.second]);
+        let inverse_mass = |end: usize| if held::is_held(model, state, end) { 0.0 } else { 1.0 / masses[end] };
+        let reduced_mass = 1.0 / (inverse_mass(pair.first) + inverse_mass(pair.second));
+        // Two held ends have no motion to relax.
+        if reduced_mass.is_infinite() {
+            continue;
+        }
         let friction = 0.5 * model.time_step * bath.coupling;
         let kept = (-friction * model.time_step / reduced_mass).exp();
         let gaussian = noise::gaussian(noise::words(model.generator, key, [place, 0]));
@@ -50,6 +56,9 @@ pub(super) fn of_bonds(model: &Model, state: &State, masses: &[f64], momenta: &m
         let impulse = reduced_mass * (after - velocity);
         let impulses = pair.direction().map(|component| impulse * component);
         pairs::exchange(momenta, &pair, impulses, model.units.momentum);
+        for end in [pair.first, pair.second].into_iter().filter(|end| held::is_held(model, state, *end)) {
+            momenta[end] = state.momenta[end].map(i64::from);
+        }
         virials.add(&pair, 0.0, impulse / model.time_step);
     }
 }

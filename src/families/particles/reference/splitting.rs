@@ -18,7 +18,7 @@ use super::body_force;
 use super::couplings::bonded_kicks;
 use super::couplings::pairs::excluded_pairs;
 use super::densities::Densities;
-use super::layers;
+use super::held;
 use super::pairs::{self, Forces, Pair, dot};
 use super::relaxation;
 use super::stress::Virials;
@@ -81,9 +81,9 @@ pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Un
         add(&mut momenta, &kick);
         relaxation::of_particles(model, state, &reference.masses, &mut momenta);
         relaxation::of_bonds(model, state, &reference.masses, &mut momenta, &mut virials);
-        // Friction sees frozen particles with the velocity of their wall, whatever the wall is to take up.
+        // Friction sees held particles with the velocity that they keep, whatever a wall is to absorb.
         let mut seen = momenta.clone();
-        layers::hold(model, state, &mut seen);
+        held::hold(model, state, &mut seen);
         let impulses = relax(reference, found, &seen, &mut virials);
         add(&mut momenta, &impulses);
     }
@@ -150,7 +150,7 @@ fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]], virials: &
                 seen[axis] = momentum[axis] + (sum[axis] as f64 / 2.0).round_ties_even() as i64;
             }
         }
-        layers::hold(model, state, &mut seen);
+        held::hold(model, state, &mut seen);
     }
 }
 
@@ -173,7 +173,7 @@ fn two_stages(
     for [friction, noise] in [[first, first_noise], [second, 1.0 - first_noise]] {
         let mut seen = momenta.to_vec();
         add(&mut seen, &sums);
-        layers::hold(model, &reference.state, &mut seen);
+        held::hold(model, &reference.state, &mut seen);
         for (pair, &(rate, random)) in found.iter().zip(couplings) {
             let own = rate * model.time_step;
             let among = rate_among_others(reference, fields, pair, own);
@@ -193,7 +193,7 @@ fn two_stages(
 
 /// 1/mᵢ, which is none of what no impulse moves.
 fn inverse_mass(reference: &Reference, particle: usize) -> f64 {
-    if layers::is_frozen(&reference.model, &reference.state, particle) { 0.0 } else { 1.0 / reference.masses[particle] }
+    if held::is_held(&reference.model, &reference.state, particle) { 0.0 } else { 1.0 / reference.masses[particle] }
 }
 
 /// 1 / (1/mᵢ + 1/mⱼ).

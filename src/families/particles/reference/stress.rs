@@ -1,6 +1,6 @@
 //! The virials r f of what acts between particles, as tensors, at the report point.
 
-use super::layers;
+use super::held;
 use super::pairs::Pair;
 use crate::families::Model;
 use crate::state::State;
@@ -25,13 +25,13 @@ pub(super) struct Virials {
     pub total: f64,
     /// Of each particle.
     pub each: Vec<Virial>,
-    /// The part of its share of every pair by which each particle counts in the total: none of what is frozen behind walls.
+    /// The part of its share of every pair by which each particle counts in the total: none of what is held.
     counts: Vec<f64>,
 }
 
 impl Virials {
     pub fn new(model: &Model, state: &State) -> Self {
-        let counts = |particle: usize| if layers::is_frozen(model, state, particle) { 0.0 } else { 1.0 };
+        let counts = |particle: usize| if held::is_held(model, state, particle) { 0.0 } else { 1.0 };
         Self { total: 0.0, each: vec![Virial::default(); state.len()], counts: (0..state.len()).map(counts).collect() }
     }
 

@@ -1,7 +1,7 @@
 //! Reflection at plane walls, in the same integer places as on the device: particles are at the places 0 to end - 1 of a walled axis, and
 //! the walls half a place beyond them, so that k places behind the lower wall is the place k - 1.
 
-use super::layers;
+use super::held;
 use crate::families::reference::whole_fractions;
 use crate::families::{Model, OnWalls, PlaneWalls};
 use crate::state::{State, WallImpulse};
@@ -141,7 +141,7 @@ pub(super) fn add(walls: &[WallImpulse], taken: &[[i64; 3]]) -> Vec<WallImpulse>
 
 /// What walls have taken up until a report point, with what they are to take up of the momenta of frozen particles there.
 pub(super) fn on_walls(model: &Model, state: &State, momenta: &[[i64; 3]]) -> OnWalls {
-    let all = add(&state.walls, &layers::taken_up(model, state, momenta));
+    let all = add(&state.walls, &held::absorbed(model, state, momenta));
     let walls = if all.is_empty() { &state.walls } else { &all };
     OnWalls::new(model, walls.iter().map(|wall| wall.momentum().map(|units| units as f64)))
 }

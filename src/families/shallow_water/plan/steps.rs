@@ -9,7 +9,7 @@ use super::{
     Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal, WATER, words,
 };
 use crate::document::Integrator;
-use crate::families::shallow_water::{Bins, WaterLayout};
+use crate::families::shallow_water::{Bins, WaterLayout, observables};
 use crate::families::{Model, ShallowWater};
 use crate::noise;
 use crate::plan::ProductQuanta;
@@ -17,9 +17,6 @@ use crate::shaders::noise::Deviate;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, grid, mesh, water};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Sums of a report, in order: kinetic energy, two components of momentum, potential energy, squared bath variables,
-/// mass on the nodes.
-const OBSERVABLES: u64 = 6;
 /// What rounding may take from the depth, relative to the mean depth and to that of a lone particle.
 const DEPTH_ROUNDING: f64 = 1e-5;
 /// Bytes that every adapter can bind.
@@ -375,13 +372,12 @@ impl Builder<'_> {
         };
         let (push, push_on) = (self.cell_kernel("push", &push), self.cell_kernel("push_from_report", &push));
         let report = self.kernel("report", Entry::ReportWater, &Choices::new(), self.water.nodes());
-        self.plan.kernels[report].constants.push((Constant::Quantities, OBSERVABLES as f64));
         self.plan.kernels[push].constants.push((Constant::Closes, 1.0));
         self.plan.kernels[push_on].constants.push((Constant::Closes, 0.0));
         self.plan.advance.push(push);
         self.plan.finish_report.push(push_on);
         self.plan.report.push(report);
-        self.plan.sample_observables(measured.every, OBSERVABLES, groups);
+        self.plan.sample_observables(measured.every, &observables::sums(), groups);
         if self.tracers() > 0 {
             self.drifting();
         }

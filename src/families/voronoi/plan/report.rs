@@ -2,29 +2,14 @@
 
 use super::{Builder, plane};
 use crate::families::Voronoi;
+use crate::families::voronoi::observables;
 use crate::plan::{Need, Reported};
 use crate::shaders::{Array, Choices, Constant, Entry, voronoi};
-
-/// Sums of a report, in order: kinetic energy, two components of momentum, mass, volume, sides of faces; then free energy,
-/// or internal energy, total energy and temperature; then exchanges that a limit has cut; then iterations and residual.
-const OF_MOTION: u64 = 6;
-const OF_GAS: u64 = 3;
-const OF_LIMITS: u64 = 1;
-const OF_SOLVER: u64 = 2;
 
 impl Builder<'_> {
     /// Whether the velocities after friction are solved for.
     fn solves(&self) -> bool {
         self.cells.solves(self.model)
-    }
-
-    fn quantities(&self) -> u64 {
-        let gas = OF_MOTION + if self.cells.keeps_energy() { OF_GAS } else { 1 };
-        match (self.solves(), self.has_limits()) {
-            (true, _) => OF_MOTION + OF_GAS + OF_LIMITS + OF_SOLVER,
-            (false, true) => OF_MOTION + OF_GAS + OF_LIMITS,
-            (false, false) => gas,
-        }
     }
 
     /// The kernel that adds up what the cells are like.
@@ -45,7 +30,6 @@ impl Builder<'_> {
         let observe = self.kernel("observe", Entry::ObserveCells, &choices, groups);
         let quanta = self.plan.quanta;
         self.plan.kernels[observe].constants = vec![
-            (Constant::Quantities, self.quantities() as f64),
             (Constant::FirstGroup, 0.0),
             (Constant::Kinetic, 1.0 / quanta.energy),
             (Constant::VolumeSteps, 1.0 / quanta.length_squared),
@@ -56,9 +40,8 @@ impl Builder<'_> {
 
     /// The sampler of the observables.
     pub(super) fn observables(&mut self) {
-        let quantities = self.quantities();
-        let groups = self.groups(self.particles);
-        self.plan.sample_observables(self.measured.every, quantities, groups);
+        let (sums, groups) = (observables::sums(self.cells, self.model), self.groups(self.particles));
+        self.plan.sample_observables(self.measured.every, &sums, groups);
     }
 
     /// The cells of a report, where an analysis needs them.

@@ -23,19 +23,13 @@ use super::{
     texture_candidates, words,
 };
 use crate::document::Integrator;
+use crate::families::particles::sums::sums;
 use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
 use crate::families::{BathStep, Model, PairForce};
 use crate::noise::stream;
 use crate::plan::{Layout, ProductQuanta};
 use crate::shaders::noise::Deviate;
-use crate::shaders::{Array, Choices, Constant, Entry, core, couplings, grid, space};
-
-/// Sums of a report without baths that remember, in the order of `shaders/core/sums.wgsl`; those of baths follow.
-const OBSERVABLES: u64 = 9;
-/// Energy, square and number of the baths that remember.
-const BATH_OBSERVABLES: u64 = 3;
-/// Products of oscillators with their baths.
-const PRODUCTS: u64 = 3;
+use crate::shaders::{Array, Choices, Constant, Entry, couplings, grid, space};
 
 /// Makes the plan of a model.
 pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> PhysicsPlan {
@@ -172,7 +166,6 @@ impl Builder<'_> {
         constants.extend([
             (Constant::Particles, self.particles as f64),
             (Constant::Workgroup, self.options.workgroup() as f64),
-            (Constant::Quantities, self.quantities() as f64),
             (Constant::Species, model.species.len() as f64),
             (Constant::Cutoff, cutoff),
             (Constant::WeightRootExponent, 0.5 * self.force.common_weight_exponent().unwrap_or(0.0)),
@@ -209,11 +202,6 @@ impl Builder<'_> {
 
     fn scales(&self) -> Scales<'_> {
         Scales { model: self.model, species: self.species, quanta: self.plan.quanta }
-    }
-
-    /// Inverse masses; none of what is held.
-    fn inverse_mass(&self, species: usize) -> f64 {
-        self.scales().inverse_mass(species)
     }
 
     /// Impulse of half a step by a unit force, in momentum units.
@@ -280,12 +268,6 @@ impl Builder<'_> {
         self.report_groups += external::add_account(self.model, &choices, workgroup, first, &mut self.plan);
     }
 
-    fn quantities(&self) -> u64 {
-        let remembering = if baths(self.model).is_empty() { 0 } else { BATH_OBSERVABLES };
-        let products = if self.model.particles().oscillates_in_memory() { PRODUCTS } else { 0 };
-        OBSERVABLES + remembering + products + walls::sums(self.model) + external::sums(self.model)
-    }
-
     /// Workgroups with a lane for each of some things.
     fn groups(&self, things: u64) -> u64 {
         things.div_ceil(self.options.workgroup()).max(1)
@@ -308,7 +290,6 @@ impl Builder<'_> {
             .with(if self.predicted() { space::Particle::Predicted } else { space::Particle::Plain })
             .and(&self.species.choices())
             .with(words(self.model.generator))
-            .with_if(self.model.particles().oscillates_in_memory(), core::Reported::WithProducts)
             .with_any(external::profile(self.model))
             .and(&walls::choices(self.model))
     }
@@ -373,11 +354,9 @@ impl Builder<'_> {
 
     /// Kernels that take what the report has left, and the sampler of the observables.
     fn observables(&mut self) {
-        let quantities = self.quantities();
-        let first_sum = quantities - external::sums(self.model) - walls::sums(self.model);
         let (choices, first_row) = (self.choices(), self.report_groups);
-        self.report_groups += walls::add_account(self.model, &choices, first_row, first_sum, &mut self.plan);
-        self.plan.sample_observables(self.measured.every, quantities, self.report_groups);
+        self.report_groups += walls::add_account(self.model, &choices, first_row, &mut self.plan);
+        self.plan.sample_observables(self.measured.every, &sums(self.model), self.report_groups);
         self.plan.finish_report.clone_from(&self.plan.advance);
     }
 }

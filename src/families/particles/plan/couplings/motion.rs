@@ -2,16 +2,14 @@
 
 use super::Builder;
 use crate::families::particles::plan::{position_bath, walls};
+use crate::families::particles::sums::sums;
 use crate::shaders::{Array, Choices, Constant, Entry, baths, couplings};
 
 impl Builder<'_> {
     pub(super) fn motion(&mut self) {
         let groups = self.groups(self.particles);
         self.position_constants();
-        let choices = self
-            .position_bath()
-            .and(&self.held_noise())
-            .with_if(self.model.has_fixed_particles(), couplings::Fixed::Held);
+        let choices = self.position_bath().and(&self.held_noise());
         let anchored =
             choices.clone().with_if(self.visits_pairs(), couplings::Anchors::Kept).and(&walls::booking(self.model));
         let advance = self.kernel("move", Entry::MoveParticles, &anchored, groups);
@@ -35,6 +33,9 @@ impl Builder<'_> {
             .with_if(products, baths::PositionProducts::Tethered)
             .with_any(forces);
         self.report_kernel("observe", Entry::ObserveParticles, &report, groups);
+        if let Some(observe) = self.plan.report.last() {
+            self.plan.kernels[*observe].constants.extend(walls::frozen_sums(self.model, &sums(self.model)));
+        }
         if self.model.has_potential() {
             self.plan.add_buffer(Array::Forces, 16 * self.particles);
             self.report_kernel("square_forces", Entry::SquareForces, &Choices::new(), groups);
@@ -55,7 +56,7 @@ impl Builder<'_> {
     pub(super) fn position_coefficients(&self, species: usize) -> [f64; 3] {
         let Some(bath) = self.model.particles().position_bath.as_ref() else { return [0.0; 3] };
         let Some(step) = bath.steps.get(species) else { return [0.0; 3] };
-        let counts = bath.memory && step.continuous_coupling > 0.0 && !self.model.species[species].fixed;
+        let counts = bath.memory && step.continuous_coupling > 0.0;
         let energy = if counts { 0.5 / step.continuous_coupling } else { 0.0 };
         [step.response(), step.noise(bath.temperature), energy / self.plan.quanta.pair_energy]
     }

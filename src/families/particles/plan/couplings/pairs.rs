@@ -4,6 +4,7 @@ use super::Builder;
 use crate::document::{Bath, Integrator};
 use crate::families::BathStep;
 use crate::families::particles::plan::law::{law, ranges};
+use crate::families::particles::plan::species::Species;
 use crate::families::particles::plan::stress;
 use crate::shaders::{Choices, Constant, Entry, baths, couplings, pairs};
 
@@ -106,7 +107,7 @@ impl Builder<'_> {
         for a in 0..count {
             for b in 0..count {
                 table.extend(self.pair_impulses(a, b).map(|value| value as f32));
-                table.push(self.inverse_mass(b) as f32);
+                table.push(Species::inverse_mass(&self.model.species[b]) as f32);
             }
         }
         for species in 0..count {

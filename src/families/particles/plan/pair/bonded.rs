@@ -27,7 +27,7 @@ impl Builder<'_> {
     /// Makes the kernels of bonds and angles. Those of a report leave rows of sums after the given number of rows, which they raise.
     pub(super) fn bonded(&mut self, rows: &mut u32) -> BondedKernels {
         let scales = Scales { model: self.model, species: self.species, quanta: self.plan.quanta };
-        let (splits, observables) = (self.splits(), self.observables());
+        let splits = self.splits();
         let mut kernels = BondedKernels::default();
         let excluded = bonded::excluded(&scales, &mut self.plan);
         for bonded in bonded::all(&scales).into_iter().chain(excluded) {
@@ -36,8 +36,8 @@ impl Builder<'_> {
             kernels.kicks.push(self.bonded_kernel(bonded.name, &bonded, &bonded.choices.clone().and(&kicks)));
             let mut report = |name, observed: &Observed, kicks: &Choices| {
                 let kernel = self.bonded_kernel(name, &bonded, &observed.choices.clone().and(kicks));
-                let own = [(Constant::Quantities, observables as f64), (Constant::FirstGroup, f64::from(*rows))];
-                self.plan.kernels[kernel].constants.extend(own.into_iter().chain(scales.once(observed.scales)));
+                let first = (Constant::FirstGroup, f64::from(*rows));
+                self.plan.kernels[kernel].constants.extend([first].into_iter().chain(scales.once(observed.scales)));
                 *rows += self.plan.kernels[kernel].workgroups;
                 kernel
             };

@@ -39,8 +39,8 @@ impl Builder<'_> {
         if masks == Masks::Keep {
             self.plan.kernels[step].renamed.push((Array::KeptMasks, Array::Particles));
         }
-        let report = self.observation("report_densities", Choices::new().with(pairs::Pass::ObserveDensities));
-        self.plan.kernels[report].constants.push((Constant::FirstGroup, f64::from(*rows)));
+        let pass = Choices::new().with(pairs::Pass::ObserveDensities);
+        let report = self.observation("report_densities", *rows, pass);
         *rows += self.plan.kernels[report].workgroups;
         DensityKernels { step: vec![step], report: vec![report] }
     }

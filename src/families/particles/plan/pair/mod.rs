@@ -22,16 +22,13 @@ use super::{
     Traversal, deviate, texture_candidates, words,
 };
 use crate::document::Integrator;
+use crate::families::particles::sums::sums;
 use crate::families::particles::{CoupledLayout, ParticleLayout};
 use crate::families::{Model, PairForce};
 use crate::noise;
 use crate::plan::Cells;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, couplings, grid, pairs, space};
 use crate::state::Units;
-
-/// Sums of a report, in order: kinetic energy, virial of all forces, three components of momentum; potential energy,
-/// virial of the conservative force, squared force, curvature.
-const OBSERVABLES: u64 = 9;
 
 /// Cells up to which a step ends with the prefix sum for the next one, where lanes are taken one after the other. With 1 000 cells
 /// (3 000 particles) this saves a tenth of a step; with 3 000 it saves nothing any more.
@@ -462,14 +459,9 @@ impl Builder<'_> {
         if self.splits() && account > 0 {
             self.plan.kernels[self.plan.before_report[0]].constants.push((Constant::Halves, 2.0));
         }
-        let observables = self.observables();
         let rows = u64::from(rows) + account;
-        let first = observables - external::sums(self.model) - walls::sums(self.model);
-        let of_walls = walls::add_account(self.model, &choices, rows, first, &mut self.plan);
-        if account + of_walls > 0 {
-            self.plan.constants.push((Constant::Quantities, observables as f64));
-        }
-        self.plan.sample_observables(self.measured.every, observables, rows + of_walls);
+        let of_walls = walls::add_account(self.model, &choices, rows, &mut self.plan);
+        self.plan.sample_observables(self.measured.every, &sums(self.model), rows + of_walls);
     }
 
     /// What passes choose that give frozen particles impulses before the end of a step.
@@ -477,20 +469,13 @@ impl Builder<'_> {
         if self.model.has_frozen_particles() { walls::booking(self.model) } else { Choices::new() }
     }
 
-    /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup.
-    fn observation(&mut self, name: &'static str, pass: Choices) -> usize {
+    /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup, from a row on.
+    fn observation(&mut self, name: &'static str, first_group: u32, pass: Choices) -> usize {
         let pass = pass.with_if(self.traversal == Traversal::Clusters, core::Reduction::OfEight);
         let kernel = self.traversal(name, self.traversal, Masks::Unkept, &pass);
-        let observables = self.observables();
-        self.plan.kernels[kernel].constants.push((Constant::Quantities, observables as f64));
-        let first = observables - external::sums(self.model) - walls::sums(self.model);
-        self.plan.kernels[kernel].constants.extend(walls::frozen_sums(self.model, first));
+        self.plan.kernels[kernel].constants.push((Constant::FirstGroup, f64::from(first_group)));
+        self.plan.kernels[kernel].constants.extend(walls::frozen_sums(self.model, &sums(self.model)));
         kernel
-    }
-
-    /// Number of the sums of a report.
-    fn observables(&self) -> u64 {
-        OBSERVABLES + u64::from(self.relaxes_in_two_stages()) + walls::sums(self.model) + external::sums(self.model)
     }
 
     /// One pass a step. Returns the number of rows of sums that the report leaves.
@@ -498,7 +483,7 @@ impl Builder<'_> {
         let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model));
         let names = ["leapfrog", "leapfrog_edges", "leapfrog_inner"];
         let advance = self.last_pass(names, self.traversal, Masks::Unkept, &pass);
-        let report = self.observation("report", forces.clone().with(pairs::Pass::ObserveLeapfrog));
+        let report = self.observation("report", 0, forces.clone().with(pairs::Pass::ObserveLeapfrog));
         let mut rows = self.plan.kernels[report].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = self.stress();
@@ -537,8 +522,9 @@ impl Builder<'_> {
         let bathed = self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model);
         let earlier = self.relaxes_in_two_stages() || bathed;
         let added = (earlier && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
-        let motion = self.observation("report_motion", kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
-        let configuration = self.observation("report_configuration", with(pairs::Pass::ObserveConfiguration));
+        let motion =
+            self.observation("report_motion", 0, kept.clone().with_any(added).with(pairs::Pass::ObserveMotion));
+        let configuration = self.observation("report_configuration", 0, with(pairs::Pass::ObserveConfiguration));
         let choices = self.choices().and(&walls::booking(self.model));
         let rest = self.kernel("drift_rest", Entry::DriftRest, choices, self.slots);
         if self.is_sheared() {
@@ -583,7 +569,7 @@ impl Builder<'_> {
         let bathed = self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model);
         let later = bathed && kept.has(pairs::ReportedForce::Kept);
         let kept = kept.clone().with_if(later, pairs::ReportedForce::Added);
-        let report = self.observation("report_first_stage", kept.with(pairs::Pass::ObserveFirstStage));
+        let report = self.observation("report_first_stage", 0, kept.with(pairs::Pass::ObserveFirstStage));
         let [first_stage, second_stage] = stages();
         for kernel in [first, report] {
             self.plan.kernels[kernel].constants.extend(first_stage);
@@ -717,8 +703,7 @@ impl Builder<'_> {
             for a in 0..count {
                 for b in 0..count {
                     table.extend(self.impulses(a, b).map(|value| value as f32));
-                    let inverse_mass = (1.0 / self.model.species[b].mass) as f32;
-                    table.push(if self.model.species[b].frozen { -inverse_mass } else { inverse_mass });
+                    table.push(Species::inverse_mass(&self.model.species[b]) as f32);
                 }
             }
             let ranges = ranges(self.force, count);

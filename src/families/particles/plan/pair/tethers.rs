@@ -28,8 +28,7 @@ impl Builder<'_> {
         // Half a drift later the report of a split step needs the impulses there.
         let seen = if self.splits() { seen.and(&kicks) } else { seen };
         let report = alone(self, "report_tethers", &seen);
-        let own = [(Constant::Quantities, self.observables() as f64), (Constant::FirstGroup, f64::from(*rows))];
-        self.plan.kernels[report].constants.extend(own);
+        self.plan.kernels[report].constants.push((Constant::FirstGroup, f64::from(*rows)));
         *rows += self.plan.kernels[report].workgroups;
         let reports = if self.splits() { &mut kernels.configuration } else { &mut kernels.report };
         reports.push(report);

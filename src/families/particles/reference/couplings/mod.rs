@@ -28,7 +28,7 @@ use crate::families::Model;
 use crate::families::Observables;
 use crate::families::particles::reference::motion::Motion;
 use crate::families::particles::reference::stress::{Virial, Virials};
-use crate::families::particles::reference::{body_force, end_of_step, layers};
+use crate::families::particles::reference::{body_force, end_of_step, held};
 use crate::families::reference::bath::BathSums;
 use crate::families::reference::{Unstable, add, narrow, widen};
 use crate::state::{Reported, State};
@@ -122,7 +122,7 @@ impl CouplingsReference {
     /// [`Unstable`] when a momentum does not fit the integer state or a bond is too long.
     pub fn reported_state(&self) -> Result<Reported, Unstable> {
         let mut momenta = self.evaluate()?.momenta;
-        layers::hold(&self.model, &self.state, &mut momenta);
+        held::hold(&self.model, &self.state, &mut momenta);
         let momenta = narrow(&momenta, self.state.step)?;
         Ok(Reported { momenta, ..self.state.clone().into() })
     }
@@ -171,14 +171,12 @@ impl CouplingsReference {
             add(&mut momenta, &kick);
         }
         if let Some(noise) = model.particles().coloured_noise.as_ref() {
-            let held = coloured_noise::advance(model, noise, state);
-            add(&mut momenta, &held.closing);
-            add(&mut opening, &held.opening);
-            baths.holds = held.holds;
-        }
-        for particle in (0..state.len()).filter(|&particle| is_fixed(model, state, particle)) {
-            momenta[particle] = [0; 3];
-            opening[particle] = [0; 3];
+            let mut impulses = coloured_noise::advance(model, noise, state);
+            held::spare(model, state, &mut impulses.closing);
+            held::spare(model, state, &mut impulses.opening);
+            add(&mut momenta, &impulses.closing);
+            add(&mut opening, &impulses.opening);
+            baths.holds = impulses.holds;
         }
         Ok(Evaluation { momenta, opening, baths, bath_sums, virials })
     }
@@ -206,12 +204,6 @@ pub(super) fn bonded_kicks(
         tethers::kick(model, stiffness, state, kick);
     }
     Ok(())
-}
-
-/// Whether a particle is held where it is.
-fn is_fixed(model: &Model, state: &State, particle: usize) -> bool {
-    let species = &model.species[state.species[particle] as usize];
-    species.fixed && !species.frozen
 }
 
 /// Adds an impulse to that of one particle, rounded half to even to whole units.

@@ -5,9 +5,9 @@
 //! The configurational temperature is that of the particles that can move.
 
 use super::angles::Corner;
-use super::{CouplingsReference, Evaluation, bonds, is_fixed, pairs, tethers};
+use super::{CouplingsReference, Evaluation, bonds, pairs, tethers};
 use crate::families::particles::reference::densities::Densities;
-use crate::families::particles::reference::layers;
+use crate::families::particles::reference::held;
 use crate::families::particles::reference::observables::of_motion;
 use crate::families::particles::reference::pairs::{Forces, Pair, find_pairs};
 use crate::families::particles::reference::potential::Potential;
@@ -22,16 +22,20 @@ struct Configuration {
     gradients: Vec<[f64; 3]>,
     laplacians: Vec<f64>,
     dimension: usize,
-    /// Whether each particle is frozen behind a wall, and has no part of virials.
-    frozen: Vec<bool>,
+    /// Whether each particle is held, and has no part of virials.
+    held: Vec<bool>,
 }
 
 impl Configuration {
+    /// The part of what a pair adds that belongs to ends that can move.
+    fn mobile_share(&self, pair: &Pair) -> f64 {
+        0.5 * [pair.first, pair.second].into_iter().filter(|end| !self.held[*end]).count() as f64
+    }
+
     /// Adds the potential of a pair or a bond.
     fn add(&mut self, pair: &Pair, potential: &Potential) {
         self.potential += potential.energy;
-        let within = [pair.first, pair.second].into_iter().filter(|end| !self.frozen[*end]).count();
-        self.virial += 0.5 * within as f64 * potential.virial(pair.distance);
+        self.virial += self.mobile_share(pair) * potential.virial(pair.distance);
         let gradient = potential.gradient(pair);
         let laplacian = potential.laplacian(pair.distance, self.dimension);
         for (end, sign) in [(pair.first, 1.0), (pair.second, -1.0)] {
@@ -47,7 +51,7 @@ impl Configuration {
         self.potential += densities.energy();
         for pair in found {
             let (force, laplacian) = (densities.force(pair), densities.laplacian(pair));
-            self.virial += pair.distance * force;
+            self.virial += self.mobile_share(pair) * pair.distance * force;
             for (end, sign) in [(pair.first, -1.0), (pair.second, 1.0)] {
                 self.laplacians[end] += laplacian;
                 for (axis, component) in pair.direction().into_iter().enumerate() {
@@ -81,7 +85,7 @@ fn products(reference: &CouplingsReference, evaluation: &Evaluation) -> BathProd
     let bath = model.particles().position_bath.as_ref().filter(|_| model.particles().oscillates_in_memory());
     let Some(bath) = bath else { return BathProducts::default() };
     let (mut sums, mut count) = (BathProducts::default(), 0_u64);
-    for particle in (0..state.len()).filter(|particle| !is_fixed(model, state, *particle)) {
+    for particle in (0..state.len()).filter(|particle| !held::is_held(model, state, *particle)) {
         if bath.steps[state.species[particle] as usize].continuous_coupling == 0.0 {
             continue;
         }
@@ -111,7 +115,7 @@ pub(in crate::families::particles::reference) fn of_configuration(
     motion: &Observables,
 ) -> Observables {
     let configuration = configuration(model, state, images);
-    let mobile = |particle: &usize| !is_fixed(model, state, *particle) && !configuration.frozen[*particle];
+    let mobile = |particle: &usize| !configuration.held[*particle];
     let squares = |particle: usize| configuration.gradients[particle].iter().map(|slope| slope * slope).sum::<f64>();
     Observables {
         potential_energy: configuration.potential,
@@ -131,7 +135,7 @@ fn configuration(model: &Model, state: &State, images: &Images<'_>) -> Configura
         gradients: vec![[0.0; 3]; count],
         laplacians: vec![0.0; count],
         dimension,
-        frozen: (0..count).map(|particle| layers::is_frozen(model, state, particle)).collect(),
+        held: (0..count).map(|particle| held::is_held(model, state, particle)).collect(),
     };
     if let Some(force) = model.particles().pair_force.as_ref() {
         let excluded = pairs::excluded_pairs(model);
@@ -321,7 +325,10 @@ mod tests {
     fn the_virial_is_that_of_a_stretched_box() {
         for dimension in 1..=3 {
             let mut reference = crowd(dimension);
-            // Tethers and what is held pull at points in space.
+            // Tethers pull at points in space, and held particles have no part in virials.
+            for species in &mut reference.model.species {
+                species.fixed = false;
+            }
             if let Family::Particles(particles) = &mut reference.model.family {
                 particles.tether = None;
             }

@@ -1,6 +1,6 @@
 //! Langevin dynamics: a bath coupled to every coordinate of every particle by itself, h = x.
 
-use super::{is_fixed, push};
+use super::push;
 use crate::families::particles::reference::motion::Motion;
 use crate::families::reference::bath::{self, BathSums};
 use crate::families::{Model, PositionBath};
@@ -26,9 +26,7 @@ pub(super) fn kick(
             let gaussian = noise::gaussian(noise::words(model.generator, key, [particle as u32, axis as u32]));
             let kept = baths.get_mut(particle).map(|bath| &mut bath[axis]);
             let value = bath::at_report(step, bath.temperature, model.clock(state.step), kept, drift[axis], gaussian);
-            if !is_fixed(model, state, particle) {
-                bath_sums.add(step, value);
-            }
+            bath_sums.add(step, value);
             impulse[axis] = -0.5 * model.time_step * value;
         }
         push(sum, impulse, model.units.momentum);

@@ -1,9 +1,9 @@
-// Frozen particles behind walls have a velocity, and no impulse moves them. Their entries hold the negative of the inverse mass that goes
-// with their momentum.
+// Some particles are held: no impulse moves them. Frozen particles have a velocity, and their entries hold the negative of the inverse mass that
+// goes with their momentum; entries of fixed particles are zero.
 override DRIFT: f32;   // displacement in a step per unit of momentum at unit mass
 
 fn inverse_mass_of(species: i32) -> f32 { return abs(coefficient_entry(u32(species)).w); }
-// The velocity that a unit of momentum gives a particle: none of what is frozen.
+// The velocity that an impulse of a unit gives a particle: none of what is held.
 fn yielding_of(species: i32) -> f32 { return max(coefficient_entry(u32(species)).w, 0.0); }
 fn drift_of(species: i32) -> f32 { return DRIFT * inverse_mass_of(species); }
 fn kinetic_of(species: i32) -> f32 { return KINETIC * yielding_of(species); }
@@ -11,8 +11,8 @@ fn kinetic_of(species: i32) -> f32 { return KINETIC * yielding_of(species); }
 // Whether what belongs to this particle is computed before what belongs to the other one: see `by_species`.
 fn mine_first(me: Particle, other: Particle) -> bool { return me.position.w < other.position.w; }
 fn rate_scale_of(species: i32) -> f32 { return yielding_of(species); }
-// The rate at which a pair relaxes among others, as in `by_species`: a pair with a frozen particle relaxes at the rate of the other one
-// against what has no end of mass. Two that are frozen have no friction.
+// The rate at which a pair relaxes among others, as in `by_species`: a pair with a held particle relaxes at the rate of the other one
+// against an infinite mass. Two that are held have no friction.
 fn pair_rate(me: Particle, other: Particle, own: f32, mine: f32, theirs: f32) -> f32 {
     let in_order = mine_first(me, other);
     let my_inverse = yielding_of(species_of(me));
