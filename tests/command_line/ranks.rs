@@ -77,7 +77,7 @@ fn everything_that_hinders_is_told() {
     place.scene["output"]["profiles"] = json!({"axis": "y", "bins": 3, "every": 2});
     let reasons = [
         "baths with memory: on one rank only",
-        "where steps are not split: on one rank only",
+        "friction along bonds where steps are not split, and tethers and Langevin baths there without pairs: on one rank only",
         "`output.profiles` is measured on one device",
     ];
     fails(&["run", &place.scene(), "--out", &place.argument("out"), "--ranks", "2"], 2, &reasons);
@@ -93,7 +93,6 @@ fn what_is_not_shared_is_told_with_what_is() {
         ("coloured-noise", &[], "coloured noise: on one rank only"),
         ("dpd-fluid", &["integrator.type=cotter-reich", memory], "baths with memory: on one rank only"),
         ("dpd-fluid", &["integrator.type=cotter-reich", "space.box=[40]"], "particles on a line: on one rank only"),
-        ("langevin-gas", &[], "on one rank only"),
         ("gle-oscillator", &[], "on one rank only"),
         ("dpd-fluid", &[r#"output.stress={"every":10}"#], "`output.stress` is measured on one device"),
     ] {

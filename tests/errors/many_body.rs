@@ -68,21 +68,24 @@ fn what_it_does_not_go_with() {
         &[r#"interactions.0.bath={"type":"memory","rate":5}"#, r#"integrator={"type":"cotter-reich"}"#],
         &["interactions[0].many_body: found together with a bath with memory", "in cells, not in lists"],
     );
+    let rubbing = beside(r#"{"type":"bonds","pairs":[[0,1]],"friction":1}"#);
     LIQUID.refused_with(
-        &[&beside(r#"{"type":"coloured-noise","strength":1,"time":0.1}"#)],
-        &["interactions[0].many_body: found together with a coloured noise"],
+        &[&rubbing, r#"integrator={"type":"cotter-reich"}"#],
+        &["interactions[0].many_body: found together with a bath on every bond", "`splitting`"],
     );
-    let bathed = beside(r#"{"type":"langevin","friction":1}"#);
-    LIQUID.refused_with(
-        &[&bathed, r#"integrator={"type":"cotter-reich"}"#],
-        &["interactions[0].many_body: found together with a bath on every particle", "`splitting`"],
-    );
-    LIQUID.accepted(&[&bathed, "particles.1.fixed=true", r#"integrator={"type":"splitting"}"#]);
+    LIQUID.accepted(&[&rubbing, "particles.1.fixed=true", r#"integrator={"type":"splitting"}"#]);
+    for beside in [
+        beside(r#"{"type":"coloured-noise","strength":1,"time":0.1}"#),
+        beside(r#"{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3}}"#),
+        beside(r#"{"type":"tether","stiffness":1}"#),
+    ] {
+        LIQUID.accepted(&[&beside, "particles.1.fixed=true"]);
+    }
     LIQUID.refused_with(
         &[&beside(r#"{"type":"bonds","pairs":[[0,1]],"exclude_repulsion":true}"#)],
         &["interactions[0].many_body: found together with bonds", "`exclude_repulsion`"],
     );
     // Without strength it is as if it were not there.
-    let noise = r#"interactions.1={"type":"coloured-noise","strength":1,"time":0.1}"#;
-    LIQUID.accepted(&["interactions.0.many_body.repulsion=0", noise]);
+    let memory = r#"interactions.0.bath={"type":"memory","rate":5}"#;
+    LIQUID.accepted(&["interactions.0.many_body.repulsion=0", memory]);
 }

@@ -9,8 +9,8 @@ use mesoscope::state::State;
 use serde_json::{Value, json};
 
 use crate::support::{
-    COTTER_REICH, Device, GROOT_WARREN, INTEGRATORS, Implementation, Measured, SPLITTING, STAGED, SideBySide, engine,
-    observables, same_energies, start,
+    COTTER_REICH, Device, GROOT_WARREN, INTEGRATORS, Implementation, Measured, PREDICTED, SPLITTING, STAGED,
+    SideBySide, engine, observables, same_energies, start,
 };
 
 fn read(document: &Value) -> Scene {
@@ -245,6 +245,24 @@ fn a_fluid_beside_fixed_particles_agrees_with_the_reference() {
     }
     for integrator in [GROOT_WARREN, COTTER_REICH] {
         agree(&porous(BOXES[1], integrator, &attracting));
+    }
+    // What acts on single particles in steps that are not split, beside local densities and bonds.
+    let noise = json!({"type": "coloured-noise", "strength": 20, "time": 0.1});
+    let remembering = json!({"type": "langevin", "friction": 2, "bath": {"type": "memory", "rate": 3}});
+    let tether = json!({"type": "tether", "stiffness": 5});
+    let bond = json!({"type": "bonds", "pairs": [[0, 1], [2, 20]], "potential": {"type": "harmonic", "stiffness": 1}});
+    for (integrator, others) in [
+        (COTTER_REICH, vec![&remembering, &noise]),
+        (COTTER_REICH, vec![&remembering, &tether]),
+        (COTTER_REICH, vec![&bathed[1], &bond]),
+        (PREDICTED, vec![&noise, &tether]),
+    ] {
+        let mut interactions = attracting.clone();
+        interactions.as_array_mut().unwrap().extend(others.into_iter().cloned());
+        agree(&porous(BOXES[2], integrator, &interactions));
+        interactions[0] = json!({"type": "dpd", "repulsion": 25, "friction": 4.5, "pairs": [
+            {"between": ["wall", "fluid"], "cutoff": 0.8}]});
+        agree(&porous(BOXES[1], integrator, &interactions));
     }
 }
 

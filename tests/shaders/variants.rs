@@ -14,6 +14,7 @@ use mesoscope::gpu::{GpuError, LinkedShader, validate};
 use mesoscope::plan::{Division, Domain, Hardware, Kernel, Options, Part, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
 use mesoscope::scene::Scene;
+use mesoscope::shaders::baths::Positions;
 use mesoscope::shaders::external::Jump;
 use mesoscope::shaders::space::Coefficients;
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
@@ -486,8 +487,21 @@ fn porous_plans() -> Vec<(String, Plan)> {
         r#"{"type":"dpd","repulsion":25,"friction":4.5,"pairs":[{"between":["A","B"],"cutoff":0.8}]}"#,
         r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}"#,
     ];
+    let acting = r#",{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3}},
+        {"type":"coloured-noise","strength":1,"time":0.1}"#;
     let profiles = r#"output.profiles={"axis":"x","every":2,"quantities":["density","velocity","temperature"]}"#;
     let mut plans = Vec::new();
+    // Of one of several ranks, in steps that are not split.
+    for (space, parts) in [("space.box=[9,24]", [1, 2, 1]), ("space.box=[7,8,24]", [1, 1, 2])] {
+        let bathed = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"langevin","friction":1},
+            {"type":"tether","stiffness":1}]"#;
+        let changes = ["time.steps=1000", space, r#"integrator={"type":"cotter-reich"}"#, bathed, particles];
+        for traversal in [Traversal::Rows, Traversal::Clusters] {
+            let part = Some(Part { division: Division { parts }, rank: 1 });
+            let options = Options { traversal: Some(traversal), part, ..Options::default() };
+            plans.extend(plans_of(&format!("{} {traversal:?} shared", changes.join(" ")), &fluid(&changes), options));
+        }
+    }
     for (row, pairs) in interactions.iter().enumerate() {
         for (column, space) in [
             "space.box=[9,7]",
@@ -501,7 +515,8 @@ fn porous_plans() -> Vec<(String, Plan)> {
             for (number, integrator) in INTEGRATORS.iter().enumerate() {
                 let splits = integrator.contains("splitting") && column < 2;
                 let excluding = if row == 3 { "" } else { spared };
-                for others in ["", excluding, bonds].into_iter().filter(|others| splits || *others != bonds) {
+                let bathed = if integrator.contains("cotter-reich") { acting } else { "" };
+                for others in ["", excluding, bathed, bonds].into_iter().filter(|others| splits || *others != bonds) {
                     let interactions = format!("interactions=[{pairs}{others}]");
                     let changes = [particles, &interactions, space, integrator, "time.steps=1000", profiles];
                     let traversal = [Traversal::Rows, Traversal::Clusters][(row + column + number) % 2];
@@ -1225,6 +1240,12 @@ fn workgroup_memory_stays_within_the_core_limit() {
     }
 }
 
+/// Whether a table of coefficients has a row for each species, of the baths on particles.
+fn has_rows_of_species(kernel: &Kernel) -> bool {
+    ["move", "relax_particles"].contains(&kernel.name)
+        || [Positions::White, Positions::Memory].into_iter().any(|positions| kernel.choices.has(positions))
+}
+
 #[test]
 fn host_structs_lie_as_in_the_shaders() {
     let offset = |shader: &LinkedShader, structure: &str, member: &str| {
@@ -1311,7 +1332,7 @@ fn host_structs_lie_as_in_the_shaders() {
                 let ranges = plan.kernels.iter().any(|kernel| kernel.choices.has(Coefficients::Ranges));
                 let rows = if ranges {
                     2 + 1 + 2
-                } else if plan.kernels.iter().any(|kernel| ["move", "relax_particles"].contains(&kernel.name)) {
+                } else if plan.kernels.iter().any(has_rows_of_species) {
                     3
                 } else {
                     2

@@ -17,9 +17,11 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).strain += abs(magnitude);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    let kick = sums.kick + take_gathered_kick(index) + external_kick(me);
-    let full_step = steps_of(me.momentum) + clock_closing() * kick;
-    store_advanced(row, index, me, full_step + kick, kick, sums.strain);
+    let own = advance_own(me);
+    let kick = sums.kick + take_gathered_kick(index) + external_kick(me) + own.both;
+    let opening = kick + own.opening;
+    let full_step = steps_of(me.momentum) + clock_closing() * (kick + own.closing);
+    store_advanced(row, index, me, full_step + opening, opening, sums.strain);
 }
 fn pass_finish(group: u32, lane: u32) {
     raise(failures_of_particles);

@@ -23,18 +23,22 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     if (!is_own(me.position)) { return; }
     let bonded = gathered_kick(index);
-    let kick = sums.kick + bonded + external_kick(me);
+    report_configuration(me, sums.pairs, bonded);
+    let own = observe_own(me);
+    let kick = sums.kick + bonded + external_kick(me) + own.both + own.closing;
     let momentum = steps_of(me.momentum) + clock_closing() * kick;
     report_motion(me, momentum, sums.pairs.virial);
-    report_configuration(me, sums.pairs, bonded);
     add_reported_force(momentum_word(kick, 0));
     store_force(me.position.w);
     let place = reported_place(row, index, me.position.w);
-    let word = momentum_word(reported_motion(me, momentum), species_of(me));
+    let kept = reported_motion(me, momentum);
+    observe_own_products(me, kept);
+    let word = momentum_word(kept, species_of(me));
     store_particle(place, advanced_particle(me.position, word, Steps(0)));
 }
 fn pass_finish(group: u32, lane: u32) {
     reduce_motion(group, lane);
     reduce_configuration(group, lane);
+    reduce_own(group, lane);
     reduce_absorbed(group, lane);
 }

@@ -114,6 +114,11 @@ impl Particles {
             && self.position_bath.as_ref().is_some_and(|bath| !bath.memory)
     }
 
+    /// Whether something acts on single particles in steps that are not split: baths on their coordinates, or a random force.
+    pub(crate) fn acts_on_particles(&self, model: &Model) -> bool {
+        (self.position_bath.is_some() && !self.relaxes_particles(model)) || self.coloured_noise.is_some()
+    }
+
     /// Whether particles are oscillators in baths with memory: a report adds the covariances of bath, momentum and displacement, which theory
     /// knows.
     pub(crate) fn oscillates_in_memory(&self) -> bool {
@@ -343,7 +348,7 @@ impl Physics for Particles {
     }
 
     fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
-        if self.are_coupled || self.are_sprung() {
+        if self.are_coupled || self.are_sprung() || self.acts_on_particles(model) {
             stability::check(scene, model, problems);
         }
         if !self.are_coupled {
@@ -363,8 +368,8 @@ impl Physics for Particles {
             (self.coloured_noise.is_some(), "coloured noise"),
             (!chained && self.has_memory(), "baths with memory"),
             (
-                !chained && !splits && of_split_steps,
-                "tethers, Langevin baths and friction along bonds where steps are not split",
+                !chained && self.are_coupled && !splits && of_split_steps,
+                "friction along bonds where steps are not split, and tethers and Langevin baths there without pairs",
             ),
             (!chained && model.units.dimension == 1, "particles on a line"),
         ];
@@ -461,8 +466,9 @@ impl Physics for Particles {
 
     fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn Stepper>> {
         let (model, state) = (model.clone(), state.clone());
-        // Whose steps are not split, bonds and tethers are couplings like others.
-        Some(if self.are_coupled || (self.are_sprung() && !self.splits(&model)) {
+        // Where steps are not split, bonds, tethers and whatever acts on single particles are couplings like others.
+        let coupled = (self.are_sprung() && !self.splits(&model)) || self.acts_on_particles(&model);
+        Some(if self.are_coupled || coupled {
             Box::new(CouplingsReference::new(model, state))
         } else {
             Box::new(Reference::new(model, state))

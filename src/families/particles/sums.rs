@@ -9,7 +9,7 @@ use crate::shaders::Sum;
 pub(super) fn sums(model: &Model) -> Sums {
     let particles = model.particles();
     let configuration = [Sum::PotentialEnergy, Sum::ConservativeVirial, Sum::SquaredForce, Sum::Curvature];
-    let given = if particles.body_forces.is_some() { 1 } else { 0 };
+    let given = usize::from(particles.body_forces.is_some());
     Sums::default()
         .with_if(true, &[Sum::KineticEnergy, Sum::Virial])
         .with(Sum::Momentum, 3)

@@ -289,7 +289,8 @@ pub fn features() -> Vec<Feature> {
             without: |scene| set(scene, "langevin", "bath", Value::Null),
             own: Some(&["position_baths", "file baths/positions/memory", "file baths/position_report"]),
             more: &["position_baths"],
-            instead: &[],
+            // Beside a table of species and the baths the prefilter reads positions.
+            instead: &["probes"],
             always: true,
         },
         Feature {
@@ -308,8 +309,9 @@ pub fn features() -> Vec<Feature> {
             with: |scene| add(scene, json!({"type": "tether", "stiffness": 2})),
             without: |scene| remove(scene, "tether"),
             own: Some(&["tether", "TETHER"]),
-            more: &["report_tethers", "square_forces", "tethers", "forces"],
-            instead: &[],
+            more: &["report_tethers", "square_forces", "tethers", "forces", "kicks"],
+            // Beside a table of species and the impulses of tethers the prefilter reads positions.
+            instead: &["probes"],
             always: true,
         },
         Feature {

@@ -16,10 +16,10 @@ use std::path::Path;
 use std::thread;
 
 use mesoscope::families::Model;
-use mesoscope::families::particles::CoupledLayout;
 use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
 use mesoscope::scene::{self, Integrator, PairRelaxation, Scene};
+use mesoscope::shaders::Entry;
 use serde_json::Value;
 
 use crate::variants::{plans, report, shader};
@@ -49,7 +49,7 @@ fn plan_as_it_is(scene: &Scene, hardware: Hardware, listed: bool) -> Plan {
 }
 
 fn is_coupled(plan: &Plan) -> bool {
-    plan.layout.of::<CoupledLayout>().is_some()
+    plan.kernels.iter().any(|kernel| kernel.entry == Entry::MoveParticles)
 }
 
 /// A word for plans that are made alike.

@@ -1,6 +1,6 @@
 //! Checks of the many-body repulsion that a schema cannot express.
 
-use super::{is_coupled, reason};
+use super::{depends_on_density, is_coupled, reason};
 use crate::document::{DpdInteraction, Interaction, Problem, Problems, Scene};
 
 /// Checks the many-body repulsion of an interaction by itself.
@@ -33,13 +33,11 @@ pub(super) fn check(dpd: &DpdInteraction, species: usize, path: &str, problems: 
 
 /// Checks that what is beside it goes with it.
 pub(super) fn check_together(scene: &Scene, problems: &mut Problems) {
-    let acts =
-        |interaction: &Interaction| matches!(interaction, Interaction::Dpd(dpd) if dpd.acting_many_body().is_some());
-    let Some(index) = scene.interactions.iter().position(acts) else { return };
+    let Some(index) = scene.interactions.iter().position(depends_on_density) else { return };
     let path = format!("interactions[{index}].many_body");
     if is_coupled(scene) {
-        let accepted = "a many-body repulsion of pairs without memory, in two or three dimensions; baths on particles and bonds without \
-                        memory, and tethers, beside it where steps are `splitting`: local densities are found in cells, not in lists";
+        let accepted = "a many-body repulsion of pairs without memory, in two or three dimensions, and beside it friction along bonds only \
+                        where steps are `splitting`: local densities are found in cells, not in lists";
         problems.push(Problem::new(&path, format!("found together with {}", reason(scene)), accepted));
     }
     let excludes =

@@ -1,6 +1,6 @@
 //! Checks of shear that a schema cannot express.
 
-use super::{beyond_pairs, is_coupled, is_fixed_in_space};
+use super::{beyond_pairs, is_fixed_in_space};
 use crate::document::{Axis, DpdInteraction, Integrator, Interaction, Output, Problem, Problems, Scene, brief};
 use crate::families::{Model, ShearedBox};
 
@@ -39,7 +39,8 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     } else {
         check_edge(scene, shear.gradient, &mut refuse);
     }
-    if let Some(more) = beyond_pairs(scene) {
+    let beyond = beyond_pairs(scene);
+    if let Some(more) = &beyond {
         refuse(
             at,
             format!("found together with {more}"),
@@ -63,7 +64,7 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         let found = format!("found together with a body force in interactions[{index}]");
         refuse(at, found, "no body force: its work on what crosses a boundary is not booked");
     }
-    if scene.integrator == (Integrator::CotterReich {}) && !is_coupled(scene) && fixed.is_none() {
+    if scene.integrator == (Integrator::CotterReich {}) && beyond.is_none() && fixed.is_none() {
         let accepted =
             "`splitting` or `groot-warren`: its friction sees distances before a drift, in which a boundary has moved";
         refuse("integrator", "found `cotter-reich` and `space.shear`".to_owned(), accepted);

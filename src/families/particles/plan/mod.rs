@@ -4,6 +4,7 @@ mod bonded;
 pub(crate) mod couplings;
 pub(crate) mod external;
 mod law;
+mod own;
 pub(crate) mod pair;
 mod position_bath;
 pub(crate) mod quanta;
@@ -14,11 +15,18 @@ mod tethers;
 pub(crate) mod walls;
 
 use super::layout::PARTICLE;
+use crate::document::Integrator;
+use crate::families::Model;
 use crate::plan::{
     Grid, Hardware, Kernel, Measured, Need, Options, Ordered, PhysicsPlan, Plan, Quanta, Reported, Texture, Traversal,
     deviate, prefix_sum, serial_memory, words,
 };
 use crate::shaders::{Array, pairs};
+
+/// Whether particles carry predicted momenta, which friction sees in the place of their own.
+fn predicted(model: &Model) -> bool {
+    matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5)
+}
 
 /// Buffers that may be held in textures.
 fn texture_candidates(plan: &Plan) -> Vec<Array> {

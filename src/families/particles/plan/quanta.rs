@@ -1,7 +1,7 @@
 //! The integer units in which a report sums what it observes of particles.
 
 use super::bonded::stiffest_spring;
-use crate::families::{Model, PairForce};
+use crate::families::{BathStep, Model, PairForce};
 use crate::plan::{ProductQuanta, Quanta};
 
 /// Units of the sums. A sum of 64 bits has to hold all particles, and a term the 24 bits of single precision: energies
@@ -10,6 +10,17 @@ use crate::plan::{ProductQuanta, Quanta};
 /// Springs far stiffer than what heat and repulsion make of the unit of length, as in the cold, need coarser units of the
 /// curvature and of the square of a force, which goes with it in equilibrium.
 pub(crate) fn quanta(model: &Model) -> Quanta {
+    let mut quanta = quanta_without_memory(model);
+    let temperature = quanta.energy * 2_f64.powi(32);
+    let largest = baths(model).into_iter().fold(0.0, |most: f64, step| most.max(step.coupling));
+    if largest > 0.0 {
+        quanta.bath_squared = (temperature * largest).log2().ceil().exp2() * 2_f64.powi(-32);
+        quanta.bath_products = products(model, temperature);
+    }
+    quanta
+}
+
+fn quanta_without_memory(model: &Model) -> Quanta {
     let lightest = model.species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min);
     let lightest = if lightest.is_finite() { lightest } else { 1.0 };
     let heaviest = model.species.iter().map(|species| species.mass).fold(lightest, f64::max);
@@ -35,4 +46,41 @@ pub(crate) fn quanta(model: &Model) -> Quanta {
         bath_squared: 0.0,
         bath_products: ProductQuanta::default(),
     }
+}
+
+/// Units of the products of typical baths, momenta and displacements of oscillators; none where there are no such.
+fn products(model: &Model, temperature: f64) -> ProductQuanta {
+    let particles = model.particles();
+    let bath = particles.position_bath.as_ref().filter(|_| particles.oscillates_in_memory());
+    let Some((bath, stiffness)) = bath.zip(particles.tether) else { return ProductQuanta::default() };
+    let coupling = bath.steps.iter().fold(0.0, |most: f64, step| most.max(step.coupling));
+    if coupling == 0.0 {
+        return ProductQuanta::default();
+    }
+    let longest = model.units.lengths.into_iter().fold(0.0, f64::max);
+    let (bath, momentum) = ((temperature * coupling).sqrt(), model.units.momentum * 2_f64.powi(24));
+    let displacement = (temperature / stiffness).sqrt().min(longest);
+    let quantum = |product: f64| product.log2().ceil().exp2() * 2_f64.powi(-32);
+    ProductQuanta {
+        momentum: quantum(bath * momentum),
+        displacement: quantum(bath * displacement),
+        momentum_displacement: quantum(momentum * displacement),
+    }
+}
+
+/// The baths that remember.
+fn baths(model: &Model) -> Vec<BathStep> {
+    let mut steps = Vec::new();
+    if let Some(force) = model.particles().pair_force.as_ref().filter(|force| force.remembers()) {
+        let count = model.species.len();
+        let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
+        steps.extend(pairs.map(|(a, b)| force.bath_step(a, b, model.time_step)));
+    }
+    if let Some(bath) = model.particles().position_bath.as_ref().filter(|bath| bath.memory) {
+        steps.extend(&bath.steps);
+    }
+    if let Some(bonds) = model.particles().bonds.as_ref() {
+        steps.extend(bonds.kinds.iter().filter_map(|kind| kind.bath).filter(BathStep::remembers));
+    }
+    steps
 }

@@ -57,6 +57,13 @@ impl Scales<'_> {
         0.5 * self.model.time_step / self.model.units.momentum
     }
 
+    /// Adds the constant of the law of baths, which another coupling may have added already.
+    pub fn add_bath_impulse(&self, plan: &mut Plan) {
+        if !plan.constants.iter().any(|(name, _)| *name == Constant::BathImpulse) {
+            plan.constants.push((Constant::BathImpulse, self.impulse()));
+        }
+    }
+
     /// Constants of a report that sums whatever has two ends once, while a traversal of pairs visits it from both.
     pub fn once(&self, asked: &[Constant]) -> Vec<(Constant, f64)> {
         let to_force = 1.0 / self.impulse();

@@ -4,7 +4,6 @@
 //! Every coupling leaves the impulses of half a step in the buffer `kicks`, in integers; the kernel `move` applies them twice
 //! and drifts. That is the scheme (14)-(17) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8.
 
-mod coloured_noise;
 mod exclusions;
 mod list;
 mod motion;
@@ -14,20 +13,22 @@ mod tethers;
 
 use super::bonded::{self, Scales};
 use super::external;
+use super::own;
+use super::predicted;
 use super::quanta;
 use super::species::Species;
 use super::stress;
 use super::walls;
 use super::{
-    Grid, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Quanta, Reported, deviate,
-    texture_candidates, words,
+    Grid, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Reported, deviate, texture_candidates,
+    words,
 };
 use crate::document::Integrator;
 use crate::families::particles::sums::sums;
 use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
-use crate::families::{BathStep, Model, PairForce};
+use crate::families::{Model, PairForce};
 use crate::noise::stream;
-use crate::plan::{Layout, ProductQuanta};
+use crate::plan::Layout;
 use crate::shaders::noise::Deviate;
 use crate::shaders::{Array, Choices, Constant, Entry, couplings, grid, space};
 
@@ -47,7 +48,6 @@ pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> Phys
     builder.pairs();
     builder.bonded();
     builder.tethers();
-    builder.coloured_noise();
     builder.body_forces();
     builder.motion();
     builder.observables();
@@ -62,14 +62,13 @@ pub(crate) fn plan(model: &Model, measured: &Measured, options: Options) -> Phys
 }
 
 fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
-    let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     let list = model.particles().pair_force.as_ref().filter(|force| force.acts()).map(|force| ListLayout {
         capacity: list::capacity(model, force, options) as usize,
         memory: force.remembers(),
     });
     let particles = ParticleLayout {
         dimension: model.units.dimension,
-        predicted,
+        predicted: predicted(model),
         account: external::rows(model, options.workgroup()) as usize,
         walls: walls::count(model),
     };
@@ -86,59 +85,10 @@ fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
         holds: model.particles().coloured_noise.is_some(),
         tethers: model.particles().tether.is_some(),
     };
-    let plan = model.empty_plan(grid.cells, layout, quanta(model), stream::PAIR);
+    let plan = model.empty_plan(grid.cells, layout, quanta::quanta(model), stream::PAIR);
     // What is reported has no predicted momentum.
     let reported = Layout::new(ParticleLayout { predicted: false, account: 0, walls: 0, ..particles });
     Plan { reported: Some((Array::Reported, reported)), ..plan }
-}
-
-/// Units of the sums: those of particles, and for the square of a bath that of the stiffest.
-fn quanta(model: &Model) -> Quanta {
-    let mut quanta = quanta::quanta(model);
-    let temperature = quanta.energy * 2_f64.powi(32);
-    let largest = baths(model).into_iter().fold(0.0, |most: f64, step| most.max(step.coupling));
-    if largest > 0.0 {
-        quanta.bath_squared = (temperature * largest).log2().ceil().exp2() * 2_f64.powi(-32);
-        quanta.bath_products = products(model, temperature);
-    }
-    quanta
-}
-
-/// Units of the products of typical baths, momenta and displacements of oscillators; none where there are no such.
-fn products(model: &Model, temperature: f64) -> ProductQuanta {
-    let particles = model.particles();
-    let bath = particles.position_bath.as_ref().filter(|_| particles.oscillates_in_memory());
-    let Some((bath, stiffness)) = bath.zip(particles.tether) else { return ProductQuanta::default() };
-    let coupling = bath.steps.iter().fold(0.0, |most: f64, step| most.max(step.coupling));
-    if coupling == 0.0 {
-        return ProductQuanta::default();
-    }
-    let longest = model.units.lengths.into_iter().fold(0.0, f64::max);
-    let (bath, momentum) = ((temperature * coupling).sqrt(), model.units.momentum * 2_f64.powi(24));
-    let displacement = (temperature / stiffness).sqrt().min(longest);
-    let quantum = |product: f64| product.log2().ceil().exp2() * 2_f64.powi(-32);
-    ProductQuanta {
-        momentum: quantum(bath * momentum),
-        displacement: quantum(bath * displacement),
-        momentum_displacement: quantum(momentum * displacement),
-    }
-}
-
-/// The baths that remember.
-fn baths(model: &Model) -> Vec<BathStep> {
-    let mut steps = Vec::new();
-    if let Some(force) = model.particles().pair_force.as_ref().filter(|force| force.remembers()) {
-        let count = model.species.len();
-        let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
-        steps.extend(pairs.map(|(a, b)| force.bath_step(a, b, model.time_step)));
-    }
-    if let Some(bath) = model.particles().position_bath.as_ref().filter(|bath| bath.memory) {
-        steps.extend(&bath.steps);
-    }
-    if let Some(bonds) = model.particles().bonds.as_ref() {
-        steps.extend(bonds.kinds.iter().filter_map(|kind| kind.bath).filter(BathStep::remembers));
-    }
-    steps
 }
 
 struct Builder<'a> {
@@ -154,7 +104,7 @@ struct Builder<'a> {
     report_groups: u64,
 }
 
-impl Builder<'_> {
+impl<'a> Builder<'a> {
     fn constants(&mut self) {
         let (model, units, quanta) = (self.model, self.model.units, self.plan.quanta);
         let half = 0.5 * model.time_step;
@@ -178,7 +128,7 @@ impl Builder<'_> {
             (Constant::Kinetic, units.momentum * units.momentum / (2.0 * mass * quanta.energy)),
             (Constant::InverseMass, 1.0 / mass),
             (Constant::FrictionPerLength, mass / (model.time_step * units.momentum)),
-            (Constant::BathSquare, motion::inverse(quanta.bath_squared)),
+            (Constant::BathSquare, own::inverse(quanta.bath_squared)),
         ]);
         self.plan.constants = constants;
         if !self.species.have_table() {
@@ -200,7 +150,7 @@ impl Builder<'_> {
         self.force.acts()
     }
 
-    fn scales(&self) -> Scales<'_> {
+    fn scales(&self) -> Scales<'a> {
         Scales { model: self.model, species: self.species, quanta: self.plan.quanta }
     }
 
@@ -234,10 +184,10 @@ impl Builder<'_> {
             self.plan.operations_per_particle += bonded.operations * bonded.count as f64 / self.particles.max(1) as f64;
         }
         let model = self.model;
-        bonded::add_tables(&Scales { model, species: self.species, quanta: self.plan.quanta }, &mut self.plan);
+        bonded::add_tables(&self.scales(), &mut self.plan);
         let Some(bonds) = model.particles().bonds.as_ref() else { return };
         if bonds.have_friction() {
-            self.bath_impulse();
+            self.scales().add_bath_impulse(&mut self.plan);
         }
         if bonds.have_memory() {
             if !model.particles().walls.is_empty() && self.species.have_table() && model.has_potential() {
@@ -245,13 +195,6 @@ impl Builder<'_> {
                 self.plan.storage_buffers = self.plan.storage_buffers.max(9);
             }
             self.plan.add_buffer(Array::BondBaths, 4 * bonds.count());
-        }
-    }
-
-    /// The constant of the law of baths, which another coupling may have named already.
-    fn bath_impulse(&mut self) {
-        if !self.plan.constants.iter().any(|(name, _)| *name == Constant::BathImpulse) {
-            self.plan.constants.push((Constant::BathImpulse, self.impulse()));
         }
     }
 
@@ -273,10 +216,6 @@ impl Builder<'_> {
         things.div_ceil(self.options.workgroup()).max(1)
     }
 
-    fn predicted(&self) -> bool {
-        self.plan.layout.of::<CoupledLayout>().is_some_and(|layout| layout.particles.predicted)
-    }
-
     /// What is chosen for every kernel: the space, the grid in it, the species, who draws random words, and how impulses are added.
     fn choices(&self) -> Choices {
         self.choices_without_kicks().and(&bonded::kicks(self.model.units.dimension))
@@ -287,7 +226,7 @@ impl Builder<'_> {
         self.dimension()
             .with(if volume { grid::Dimension::Volume } else { grid::Dimension::Plane })
             .with(grid::Rows::Plain)
-            .with(if self.predicted() { space::Particle::Predicted } else { space::Particle::Plain })
+            .with(if predicted(self.model) { space::Particle::Predicted } else { space::Particle::Plain })
             .and(&self.species.choices())
             .with(words(self.model.generator))
             .with_any(external::profile(self.model))

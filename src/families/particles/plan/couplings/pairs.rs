@@ -4,6 +4,7 @@ use super::Builder;
 use crate::document::{Bath, Integrator};
 use crate::families::BathStep;
 use crate::families::particles::plan::law::{law, ranges};
+use crate::families::particles::plan::own;
 use crate::families::particles::plan::species::Species;
 use crate::families::particles::plan::stress;
 use crate::shaders::{Choices, Constant, Entry, baths, couplings, pairs};
@@ -73,7 +74,7 @@ impl Builder<'_> {
         // All pairs of species have the rate in common, and with it all but the size of their baths.
         let step = BathStep::with_memory(scheme, 1.0, rate, self.model.time_step);
         let persistence = step.persistence;
-        self.bath_impulse();
+        self.scales().add_bath_impulse(&mut self.plan);
         self.plan.constants.extend([
             (Constant::Persistence, persistence),
             (Constant::Loss, 1.0 - persistence),
@@ -111,7 +112,7 @@ impl Builder<'_> {
             }
         }
         for species in 0..count {
-            table.extend(self.position_coefficients(species).map(|value| value as f32));
+            table.extend(own::coefficients(&self.scales(), species).map(|value| value as f32));
             table.push(0.0);
         }
         table.extend(ranges(self.force, count));

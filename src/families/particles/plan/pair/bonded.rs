@@ -1,7 +1,7 @@
 //! Bonds and angles beside pairs: their kernels add impulses by sorted particle, which the passes over pairs take up.
 
 use super::Builder;
-use crate::families::particles::plan::bonded::{self, Bonded, Observed, Scales};
+use crate::families::particles::plan::bonded::{self, Bonded, Observed};
 use crate::families::particles::plan::{shear, stress};
 use crate::shaders::{Array, Choices, Constant, couplings};
 
@@ -26,7 +26,7 @@ impl Builder<'_> {
 
     /// Makes the kernels of bonds and angles. Those of a report leave rows of sums after the given number of rows, which they raise.
     pub(super) fn bonded(&mut self, rows: &mut u32) -> BondedKernels {
-        let scales = Scales { model: self.model, species: self.species, quanta: self.plan.quanta };
+        let scales = self.scales();
         let splits = self.splits();
         let mut kernels = BondedKernels::default();
         let excluded = bonded::excluded(&scales, &mut self.plan);

@@ -9,8 +9,10 @@ mod particle_bath;
 mod stress;
 mod tethers;
 
+use super::bonded::Scales;
 use super::external;
 use super::law::{law, ranges};
+use super::own;
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::quanta::quanta;
 use super::serial_memory::TURNS;
@@ -19,7 +21,7 @@ use super::species::Species;
 use super::walls;
 use super::{
     Grid, Hardware, Kernel, Measured, Need, Options, Ordered, PARTICLE, PhysicsPlan, Plan, Quanta, Reported, Texture,
-    Traversal, deviate, texture_candidates, words,
+    Traversal, deviate, predicted, texture_candidates, words,
 };
 use crate::document::Integrator;
 use crate::families::particles::sums::sums;
@@ -94,21 +96,26 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
 }
 
 fn empty_plan(model: &Model, grid: &Grid, options: Options) -> Plan {
-    let predicted = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     let account = external::rows(model, options.workgroup()) as usize;
-    let layout = ParticleLayout { dimension: model.units.dimension, predicted, account, walls: walls::count(model) };
-    if model.particles().tether.is_none() {
-        return model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR);
-    }
-    let tied = CoupledLayout {
+    let layout = ParticleLayout {
+        dimension: model.units.dimension,
+        predicted: predicted(model),
+        account,
+        walls: walls::count(model),
+    };
+    let more = CoupledLayout {
         particles: layout,
         list: None,
-        position_baths: false,
+        position_baths: own::remembers(model),
         bond_baths: 0,
-        holds: false,
-        tethers: true,
+        holds: model.particles().coloured_noise.is_some(),
+        tethers: model.particles().tether.is_some(),
     };
-    model.empty_plan(grid.cells, tied, quanta(model), noise::stream::PAIR)
+    if more.position_baths || more.holds || more.tethers {
+        model.empty_plan(grid.cells, more, quanta(model), noise::stream::PAIR)
+    } else {
+        model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR)
+    }
 }
 
 /// What a traversal does with the hits of the prefilter.
@@ -175,7 +182,7 @@ fn space_of(units: &Units, predicted: bool) -> Choices {
     choices.with(if predicted { space::Particle::Predicted } else { space::Particle::Plain }).with(grid::Rows::Framed)
 }
 
-impl Builder<'_> {
+impl<'a> Builder<'a> {
     fn constants(&mut self) {
         let units = self.model.units;
         let half = 0.5 * self.model.time_step;
@@ -207,6 +214,9 @@ impl Builder<'_> {
         if self.splits() {
             constants.push((Constant::RateUnit, self.rate_unit()));
         }
+        if own::remembers(self.model) {
+            constants.push((Constant::BathSquare, own::inverse(self.plan.quanta.bath_squared)));
+        }
         if let Integrator::GrootWarren { lambda } = self.model.integrator {
             constants.push((Constant::Prediction, 2.0 * lambda - 1.0));
         }
@@ -227,6 +237,7 @@ impl Builder<'_> {
         }
         self.plan.constants = constants;
         self.particle_constants();
+        own::add(&self.scales(), &mut self.plan);
         walls::add_constants(self.model, &mut self.plan);
         self.density_constants();
     }
@@ -239,9 +250,8 @@ impl Builder<'_> {
         if self.relaxes_in_two_stages() && excess > 1.0 { RATE_UNIT / excess.log2().ceil().exp2() } else { RATE_UNIT }
     }
 
-    /// Whether particles carry predicted momenta.
-    fn predicted(&self) -> bool {
-        self.plan.layout.of::<ParticleLayout>().is_some_and(|layout| layout.predicted)
+    fn scales(&self) -> Scales<'a> {
+        Scales { model: self.model, species: self.species, quanta: self.plan.quanta }
     }
 
     /// Impulses of half a step in momentum units: repulsion at contact, friction per unit velocity (where all have one mass,
@@ -264,7 +274,7 @@ impl Builder<'_> {
 
     /// What is chosen for every kernel: the space, the species, and where the ordered particles are.
     fn choices(&self) -> Choices {
-        space_of(&self.model.units, self.predicted())
+        space_of(&self.model.units, predicted(self.model))
             .and(&self.species.choices())
             .with_if(self.splits(), space::Drift::Halves)
             .with_if(self.texels, arrays::Sorted::Apart)
@@ -325,7 +335,8 @@ impl Builder<'_> {
     fn more_buffers(&self) -> u32 {
         let (walled, dense) = (walls::count(self.model) > 0, self.model.particles().have_local_densities());
         let booked = self.options.part.is_some() && (walled || self.is_sheared());
-        [self.gathers(), walled, booked, self.species.have_table(), dense].into_iter().map(u32::from).sum()
+        let there = [self.gathers(), walled, booked, self.species.have_table(), dense];
+        there.into_iter().map(u32::from).sum::<u32>() + own::buffers(self.model)
     }
 
     /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
@@ -480,10 +491,17 @@ impl Builder<'_> {
 
     /// One pass a step. Returns the number of rows of sums that the report leaves.
     fn leapfrog_step(&mut self, forces: &Choices) -> u32 {
-        let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model));
+        // Whoever acts on single particles draws random words.
+        let words = Choices::new().with_any(own::acts(self.model).then_some(words(self.model.generator)));
+        let acting = own::choices(self.model).and(&words);
+        let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model)).and(&acting);
         let names = ["leapfrog", "leapfrog_edges", "leapfrog_inner"];
         let advance = self.last_pass(names, self.traversal, Masks::Unkept, &pass);
-        let report = self.observation("report", 0, forces.clone().with(pairs::Pass::ObserveLeapfrog));
+        let report = self.observation(
+            "report",
+            0,
+            forces.clone().with(pairs::Pass::ObserveLeapfrog).and(&own::report_choices(self.model)).and(&words),
+        );
         let mut rows = self.plan.kernels[report].workgroups;
         let bonded = self.bonded(&mut rows);
         let stress = self.stress();
@@ -621,7 +639,7 @@ impl Builder<'_> {
     /// The particles of a report.
     fn reported(&self) -> Reported {
         Reported {
-            choices: space_of(&self.model.units, self.predicted())
+            choices: space_of(&self.model.units, predicted(self.model))
                 .and(&self.species.choices())
                 .and(&shear::of_species(self.model, self.species.have_table())),
             particles: if self.options.part.is_some() { Array::Reported } else { Array::Particles },
@@ -670,6 +688,13 @@ impl Builder<'_> {
         if !self.texels {
             // Particles as they are stored and sorted, their cells, counts and ranks, the clock, and these.
             self.plan.storage_buffers = self.plan.storage_buffers.max(6 + self.more_buffers());
+            if own::products(self.model) > 0 {
+                // A report has sums in the place of counts and ranks, and the ends of tethers.
+                let forces = u32::from(self.measured.needs(Need::Forces));
+                let dense = u32::from(self.model.particles().have_local_densities());
+                let report = 5 + 3 + u32::from(self.species.have_table()) + dense + forces;
+                self.plan.storage_buffers = self.plan.storage_buffers.max(report);
+            }
         }
         self.plan.add_buffer(Array::Particles, PARTICLE * self.slots);
         if self.texels {
@@ -709,6 +734,11 @@ impl Builder<'_> {
             let ranges = ranges(self.force, count);
             if self.relaxes_particles() {
                 table.extend(self.particle_entries());
+            } else if own::bathes(self.model) {
+                for species in 0..count {
+                    table.extend(own::coefficients(&self.scales(), species).map(|value| value as f32));
+                    table.push(0.0);
+                }
             } else if !ranges.is_empty() {
                 // In the place of the baths of particles.
                 table.resize(4 * count * (count + 1), 0.0);

@@ -2,7 +2,7 @@
 
 use super::bonded::BondedKernels;
 use super::{Builder, Masks};
-use crate::families::particles::plan::bonded::{self, Scales};
+use crate::families::particles::plan::bonded;
 use crate::families::particles::plan::tethers;
 use crate::plan::Traversal;
 use crate::shaders::{Array, Choices, Constant, bonds, pairs};
@@ -16,7 +16,7 @@ impl Builder<'_> {
     /// Adds the kernels of tethers to those of bonds; that of a report raises the number of rows.
     pub(super) fn tethers(&mut self, rows: &mut u32, kernels: &mut BondedKernels) {
         let Some(stiffness) = self.model.particles().tether else { return };
-        let scales = Scales { model: self.model, species: self.species, quanta: self.plan.quanta };
+        let scales = self.scales();
         self.plan.constants.extend(tethers::constants(&scales, stiffness));
         let kicks = bonded::kicks(self.model.units.dimension);
         let pass = Choices::new().with(pairs::Pass::PullTethers);

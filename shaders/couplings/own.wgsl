@@ -1,0 +1,43 @@
+// The impulses of what acts on a particle by itself, in the half steps around this step and in integer momentum units.
+struct OwnImpulses {
+    both: Steps,    // of either half step
+    closing: Steps, // beyond it, of the half step that ends at this step
+    opening: Steps, // beyond it, of the half step that begins here
+}
+
+// Slot couplings/own: `advance_own` takes what acts on a particle by itself to this step; `observe_own` finds its impulses for a report, and leaves it
+// as it is; `observe_own_products` gets the momentum that follows, `reduce_own` ends the workgroup. The plan chooses `acting` if steps that are not
+// split have baths on coordinates or a random force.
+// Default: off, nothing acts on single particles but body forces.
+fn advance_own(me: Particle) -> OwnImpulses { return OwnImpulses(Steps(0), Steps(0), Steps(0)); }
+fn observe_own(me: Particle) -> OwnImpulses { return OwnImpulses(Steps(0), Steps(0), Steps(0)); }
+fn observe_own_products(me: Particle, momentum: Steps) {}
+fn reduce_own(group: u32, lane: u32) {}
+
+// Slot baths/coloured_noise: impulses of a coloured noise over the half steps around this step, in integer momentum units.
+// Default: off. The plan chooses `held` if the scene has such a noise.
+struct NoiseImpulses { closing: Steps, opening: Steps }
+fn advance_hold(id: u32) -> NoiseImpulses { return NoiseImpulses(Steps(0), Steps(0)); }
+fn closing_of_hold(id: u32) -> Steps { return Steps(0); }
+
+// Slot baths/positions: a bath on every coordinate, from what the last step has made of it; `position_impulse` is its impulse
+// of half a step, `keep_position_bath` stores it. Default: off. The plan chooses `memory` or `white`.
+fn position_bath(me: Particle, species: i32) -> Vector { return Vector(0.0); }
+fn position_impulse(bath: Vector) -> Vector { return bath; }
+fn keep_position_bath(id: u32, bath: Vector) {}
+
+// Slot baths/position_noise: noise of the position bath of a coordinate, in its unit.
+// Default: off, the position baths of this scene have no temperature. The plan chooses `gaussian` if they have.
+fn prepare_position_noise() {}
+fn position_noise(id: u32, species: i32, axis: u32) -> f32 { return 0.0; }
+
+// Slot baths/position_report: adds the energy of a position bath to a report.
+// Default: off, such baths have none. The plan chooses `observed` if they have memory.
+fn note_position_bath(species: i32, bath: Vector) {}
+fn reduce_position_baths(group: u32, lane: u32) {}
+
+// Slot baths/position_products: adds the products of a position bath, a momentum and a displacement to a report.
+// Default: off, nothing says what their means should be. The plan chooses `tethered` if such baths have memory and tethers say where
+// displacements begin.
+fn note_bath_products(position: vec4<u32>, species: i32, bath: Vector, momentum: Vector) {}
+fn reduce_bath_products(group: u32, lane: u32) {}
