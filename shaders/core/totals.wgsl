@@ -1,7 +1,8 @@
-// What the kernels of a report add up, each in integers of a unit that the plan states.
+// The sums of a report, each in integers of a unit that the plan states.
 //
-// A sum is known by its name: the constant holds its place in a row of the report, which the plan of a scene decides (src/plan/sums.rs). A row has
-// the sums that its scene needs, first those that kernels add up here, then those that accounts keep.
+// A sum is known by its name: the constant holds its place in a row of the report, which the plan of a scene decides
+// (src/plan/sums.rs). A row has the sums that its scene needs, first those that kernels add up here, then those that
+// accounts keep.
 
 override SUM_KINETIC_ENERGY: u32;
 override SUM_VIRIAL: u32;               // of all forces
@@ -51,7 +52,8 @@ fn observe_bath(energy: f32, square: f32) {
 
 // Adds the totals of a workgroup up, into a row of `partial_sums`. All lanes call it.
 fn total_reduce(group: u32, lane: u32) { reduce_totals(group, lane, 0u, OWN_SUMS - 1u); }
-// The totals from one sum to another: those of the motion (kinetic energy to momentum) stand together, as do those of the configuration.
+// The totals from one sum to another: those of the motion (kinetic energy to momentum) stand together, as do those of
+// the configuration.
 fn reduce_totals(group: u32, lane: u32, first: u32, last: u32) {
     for (var sum = first; sum <= last; sum++) { reduce_quantity(FIRST_GROUP + group, lane, sum, report_totals[sum]); }
 }

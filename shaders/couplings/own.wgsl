@@ -5,9 +5,10 @@ struct OwnImpulses {
     opening: Steps, // beyond it, of the half step that begins here
 }
 
-// Slot couplings/own: `advance_own` takes what acts on a particle by itself to this step; `observe_own` finds its impulses for a report, and leaves it
-// as it is; `observe_own_products` gets the momentum that follows, `reduce_own` ends the workgroup. The plan chooses `acting` if steps that are not
-// split have baths on coordinates or a random force.
+// Slot couplings/own: `advance_own` takes baths and forces of a particle by itself to this step; `observe_own` finds
+// their impulses for a report, and leaves them as they are; `observe_own_products` gets the momentum that follows,
+// `reduce_own` ends the workgroup. The plan chooses `acting` if steps that are not split have baths on coordinates or a
+// random force.
 // Default: off, nothing acts on single particles but body forces.
 fn advance_own(me: Particle) -> OwnImpulses { return OwnImpulses(Steps(0), Steps(0), Steps(0)); }
 fn observe_own(me: Particle) -> OwnImpulses { return OwnImpulses(Steps(0), Steps(0), Steps(0)); }

@@ -1,10 +1,10 @@
-// Particles that are held: fixed where they are, or frozen behind a wall and carried along with it. They keep the momentum that they have, which no
-// impulse changes.
+// Particles that are held: fixed where they are, or frozen behind a wall and carried along with it. They keep the
+// momentum that they have, which no impulse changes.
 //
-// Slot space/held: `held_momentum` is the momentum that a particle keeps of a new one, `held_kick` the impulse that it keeps of one;
-// `mobile_part` is 1 for a particle that can move and 0 for one that is held. The others are for reports, see pairs/observation: held particles
-// have no motion of their own and no part in virials, half of which belong to the other particle of a pair. The plan chooses `by_species` if any
-// species is held.
+// Slot space/held: `held_momentum` is the momentum that a particle keeps of a new one, `held_kick` the impulse that it
+// keeps of one; `mobile_part` is 1 for a particle that can move and 0 for one that is held. The others are for reports,
+// see pairs/observation: held particles have no motion of their own and no part in virials, half of which belong to the
+// other particle of a pair. The plan chooses `by_species` if any species is held.
 // Default: all particles can move.
 fn held_momentum(me: Particle, momentum: Steps) -> Steps { return momentum; }
 fn held_kick(me: Particle, kick: Steps) -> Steps { return kick; }
@@ -17,13 +17,13 @@ fn report_configuration(me: Particle, sums: PairSums, bonded: Steps) { observe_c
 fn reported_motion(me: Particle, momentum: Steps) -> Steps { return momentum; }
 fn reported_virial(me: Particle, virial: Sum64) -> Sum64 { return virial; }
 
-// Whether no impulse moves a particle.
+// No impulse moves the particle.
 fn is_held(me: Particle) -> bool { return yielding_of(species_of(me)) == 0.0; }
 // The part of what two particles have in common that belongs to those that can move.
 fn mobile_share(me: Particle, other: Particle) -> f32 { return 0.5 * (mobile_part(me) + mobile_part(other)); }
 
-// Slot external/absorbed: what absorbs the impulses on held particles, and reports them. The plan chooses `by_walls` if particles are frozen
-// behind walls.
+// Slot external/absorbed: absorbs the impulses on held particles, and reports them. The plan chooses `by_walls` if
+// particles are frozen behind walls.
 // Default: nothing, they are fixed in space.
 fn absorb(me: Particle, impulse: Steps) {}
 fn report_absorbed(me: Particle, impulse: Steps) {}

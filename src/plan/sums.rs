@@ -2,32 +2,31 @@
 
 use crate::shaders::{Constant, Sum};
 
-/// The sums of a report, each of one or more components, in the order in which its rows hold them: first those that kernels add up, then
-/// those that accounts keep.
+/// The sums of a report, each of one or more components, in the order in which its rows hold them: first those
+/// that kernels add up, then those that accounts keep.
 ///
 /// ```
 /// use mesoscope::{plan::Sums, shaders::Sum};
 ///
-/// let sums = Sums::default().with(Sum::KineticEnergy, 1).with(Sum::Momentum, 3).with_account(Sum::GivenWork, 1);
+/// let sums = Sums::default().with(Sum::KineticEnergy, 1).with_account(Sum::GivenWork, 1).with(Sum::Momentum, 3);
 /// assert_eq!(sums.len(), 5);
-/// assert_eq!(sums.place(Sum::Momentum), Some(1));
+/// assert_eq!([Sum::Momentum, Sum::GivenWork].map(|sum| sums.place(sum)), [Some(1), Some(4)]);
 /// assert_eq!(sums.place(Sum::Virial), None);
 /// assert_eq!(sums.row(&[7, 0, -2, 0, 3]).component(Sum::Momentum, 1), Some(-2));
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sums {
-    order: Vec<(Sum, usize)>,
-    /// Components of sums that kernels add up.
-    own: usize,
+    /// Sums that kernels add up, with the number of their components.
+    own: Vec<(Sum, usize)>,
+    /// Sums that accounts keep.
+    accounts: Vec<(Sum, usize)>,
 }
 
 impl Sums {
-    /// These sums, and one more that kernels add up, of a number of components. Those of accounts come after it.
+    /// These sums, and one more that kernels add up, of a number of components.
     #[must_use]
     pub fn with(mut self, sum: Sum, components: usize) -> Self {
-        debug_assert_eq!(self.own, self.len(), "sums of accounts come last");
-        self.order.push((sum, components));
-        self.own += components;
+        self.own.push((sum, components));
         self
     }
 
@@ -40,32 +39,26 @@ impl Sums {
     /// These sums, and one more that an account keeps; none of no components.
     #[must_use]
     pub fn with_account(mut self, sum: Sum, components: usize) -> Self {
-        self.order.extend((components > 0).then_some((sum, components)));
+        self.accounts.extend((components > 0).then_some((sum, components)));
         self
     }
 
     /// The number of all components.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.order.iter().map(|(_, components)| components).sum()
+        self.in_order().map(|(_, components)| components).sum()
     }
 
     /// Whether a report sums nothing.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.order.is_empty()
+        self.len() == 0
     }
 
     /// The place of a sum, or of its first component, in a row; nothing if the report lacks it.
     #[must_use]
     pub fn place(&self, sum: Sum) -> Option<usize> {
-        let before = self.order.iter().position(|(known, _)| *known == sum)?;
-        Some(self.order[..before].iter().map(|(_, components)| components).sum())
-    }
-
-    fn place_of_component(&self, sum: Sum, component: usize) -> Option<usize> {
-        let (_, components) = self.order.iter().find(|(known, _)| *known == sum)?;
-        self.place(sum).filter(|_| component < *components).map(|place| place + component)
+        self.place_of_component(sum, 0)
     }
 
     /// A row of a report with its values by name.
@@ -74,15 +67,31 @@ impl Sums {
         ReportRow { sums: self, values }
     }
 
-    /// What kernels of a report have to know of its rows.
+    /// The constants by which kernels of a report know its rows.
     pub(crate) fn constants(&self) -> Vec<(Constant, f64)> {
-        let mut constants = vec![(Constant::Quantities, self.len() as f64), (Constant::OwnSums, self.own as f64)];
+        let own: usize = self.own.iter().map(|(_, components)| components).sum();
+        let mut constants = vec![(Constant::Quantities, self.len() as f64), (Constant::OwnSums, own as f64)];
         let mut place = 0;
-        for (sum, components) in &self.order {
+        for (sum, components) in self.in_order() {
             constants.push((sum.constant(), place as f64));
             place += components;
         }
         constants
+    }
+
+    fn in_order(&self) -> impl Iterator<Item = (Sum, usize)> {
+        self.own.iter().chain(&self.accounts).copied()
+    }
+
+    fn place_of_component(&self, sum: Sum, component: usize) -> Option<usize> {
+        let mut first = 0;
+        for (known, components) in self.in_order() {
+            if known == sum {
+                return (component < components).then_some(first + component);
+            }
+            first += components;
+        }
+        None
     }
 }
 
@@ -103,8 +112,7 @@ impl ReportRow<'_> {
     /// The value of a component of a sum; nothing if the report lacks it.
     #[must_use]
     pub fn component(&self, sum: Sum, component: usize) -> Option<i64> {
-        let place = self.sums.place_of_component(sum, component)?;
-        self.values.get(place).copied()
+        self.values.get(self.sums.place_of_component(sum, component)?).copied()
     }
 
     /// The value of a sum as a number; zero if the report lacks it.

@@ -234,11 +234,12 @@ fn a_fluid_beside_fixed_particles_agrees_with_the_reference() {
         {"type": "dpd", "repulsion": 25, "friction": 4.5},
         {"type": "bonds", "pairs": [[0, 1], [1, 20]], "friction": 3, "potential": {"type": "harmonic", "stiffness": 1}},
         {"type": "bonds", "pairs": [[2, 21]], "exclude_repulsion": true}]);
+    let smooth = json!([{"type": "dpd", "repulsion": 25, "friction": 0}, {"type": "langevin", "friction": 2}]);
     let mut everything = bonded.clone();
     everything[0] = attracting[0].clone();
     everything[2] = json!({"type": "tether", "stiffness": 5});
     everything.as_array_mut().unwrap().push(bathed[1].clone());
-    for interactions in [&attracting, &bathed, &bonded, &everything] {
+    for interactions in [&attracting, &bathed, &bonded, &smooth, &everything] {
         for integrator in [SPLITTING, STAGED] {
             agree(&porous(BOXES[2], integrator, interactions));
         }

@@ -119,7 +119,7 @@ fn memory() -> Value {
     json!({"type": "memory", "rate": 3})
 }
 
-/// What persists, or acts on single particles: friction along bonds, baths of both kinds on every particle, a coloured noise.
+/// Couplings that persist, or act on single particles: friction along bonds, baths of both kinds, a coloured noise.
 fn couplings() -> [Value; 6] {
     [
         json!({"type": "langevin", "friction": 2}),
@@ -257,8 +257,8 @@ fn frozen_layers_beside_others_agree_with_the_reference() {
     }
 }
 
-/// Beside layers the walls absorb what baths and couplings give to frozen particles, and nothing acts on these alone: not the baths on every
-/// particle, nor a random force.
+/// Beside layers the walls absorb the impulses of pairs on frozen particles, and nothing acts on these alone: neither the
+/// baths on every particle nor a random force.
 #[test]
 fn couplings_beside_layers_agree_with_the_reference() {
     for (number, coupling) in couplings().iter().enumerate() {
@@ -269,6 +269,10 @@ fn couplings_beside_layers_agree_with_the_reference() {
         }
         agree_beside(document, coupling);
     }
+    // Split steps of pairs without friction visit their pairs once.
+    let mut document = layered_fluid(&layered_channels()[0], SPLITTING, &couplings()[..1]);
+    document["interactions"][0] = json!({"type": "dpd", "repulsion": 25, "friction": 0});
+    agree_beside(document, &couplings()[0]);
     // A bath whose coupling is not its friction, in a volume; split steps; particles on a line.
     for integrator in [SPLITTING, STAGED] {
         for coupling in [&couplings()[0], &couplings()[3]] {

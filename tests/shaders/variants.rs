@@ -1240,7 +1240,22 @@ fn workgroup_memory_stays_within_the_core_limit() {
     }
 }
 
-/// Whether a table of coefficients has a row for each species, of the baths on particles.
+/// Kernels of a report have room for all sums that a plan may have them add up.
+#[test]
+fn totals_have_room_for_all_sums() {
+    let page = include_str!("../../shaders/core/totals.wgsl");
+    let room = page.split_once("MOST_OWN_SUMS: u32 = ").and_then(|(_, rest)| rest.split_once("u;")).unwrap().0;
+    let room: f64 = room.parse().unwrap();
+    let mut most = 0.0_f64;
+    for (scene, plan) in plans() {
+        let own = plan.constants.iter().find(|(name, _)| *name == Constant::OwnSums).map_or(0.0, |(_, own)| *own);
+        assert!((1.0..=room).contains(&own), "{own} of {room} in {scene}");
+        most = most.max(own);
+    }
+    assert!(most >= 15.0, "no plan comes near the {room}: {most}");
+}
+
+/// A table of coefficients has a row for each species, of the baths on particles.
 fn has_rows_of_species(kernel: &Kernel) -> bool {
     ["move", "relax_particles"].contains(&kernel.name)
         || [Positions::White, Positions::Memory].into_iter().any(|positions| kernel.choices.has(positions))

@@ -6,7 +6,8 @@ fn absorb(me: Particle, impulse: Steps) {
     if (axis < DIMENSION && any(impulse != Steps(0))) { note_reflection(axis, is_behind_upper(place, axis), impulse); }
 }
 
-// The place of the sums of the walls that have layers in a report: three components for the lower wall, then for the upper one.
+// The place of the sums of the walls that have layers in a report: three components for the lower wall, then for the
+// upper one.
 override FROZEN_SUMS: u32;
 var<private> absorbed: array<vec2<u32>, 6>; // of each invocation
 

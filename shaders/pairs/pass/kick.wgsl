@@ -15,6 +15,7 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     failures_of_particles |= select(FAILURE_IMPULSE, 0u, is_within(sums.strain, STRAIN_LIMIT));
     let kick = sums.kick + gathered_kick(index);
     kicks[index] = momentum_word(kick, 0);
-    replace_momentum(index, me, steps_of(me.momentum) + clock_closing() * (kick + external_kick(me)));
+    let momentum = steps_of(me.momentum) + clock_closing() * (kick + external_kick(me));
+    replace_momentum(index, me, held_momentum(me, momentum));
 }
 fn pass_finish(group: u32, lane: u32) { raise(failures_of_particles); }

@@ -1,5 +1,5 @@
-// Some particles are held: no impulse moves them. Frozen particles have a velocity, and their entries hold the negative of the inverse mass that
-// goes with their momentum; entries of fixed particles are zero.
+// Some particles are held: no impulse moves them. Frozen particles have a velocity, and their entries hold the negative
+// of the inverse mass that goes with their momentum; entries of fixed particles are zero.
 override DRIFT: f32;   // displacement in a step per unit of momentum at unit mass
 
 fn inverse_mass_of(species: i32) -> f32 { return abs(coefficient_entry(u32(species)).w); }

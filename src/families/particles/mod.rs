@@ -62,9 +62,10 @@ pub struct Particles {
     pub angles: Option<Angles>,
     /// Harmonic chains, if the scene is of them; their springs are among the bonds.
     pub chains: Option<ChainTrios>,
-    /// Whether there is more than steps of pairs take: pairs without memory, bonds and angles without a bath, in two or
-    /// three dimensions, and where steps are split baths without memory on particles and bonds, and tethers. Then every
-    /// coupling adds its impulses up on its own, and listed pairs persist.
+    /// There is more than steps of pairs take, which is pairs without memory, bonds and angles without a bath and tethers
+    /// in two or three dimensions; in split steps also baths without memory on particles and bonds; in other steps baths
+    /// on particles, and a coloured noise beside local densities. Then every coupling adds its impulses up on its own, and
+    /// listed pairs persist.
     pub are_coupled: bool,
 }
 
@@ -114,7 +115,7 @@ impl Particles {
             && self.position_bath.as_ref().is_some_and(|bath| !bath.memory)
     }
 
-    /// Whether something acts on single particles in steps that are not split: baths on their coordinates, or a random force.
+    /// Steps that are not split have baths on coordinates of particles, or a random force on them.
     pub(crate) fn acts_on_particles(&self, model: &Model) -> bool {
         (self.position_bath.is_some() && !self.relaxes_particles(model)) || self.coloured_noise.is_some()
     }

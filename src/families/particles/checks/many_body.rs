@@ -36,8 +36,8 @@ pub(super) fn check_together(scene: &Scene, problems: &mut Problems) {
     let Some(index) = scene.interactions.iter().position(depends_on_density) else { return };
     let path = format!("interactions[{index}].many_body");
     if is_coupled(scene) {
-        let accepted = "a many-body repulsion of pairs without memory, in two or three dimensions, and beside it friction along bonds only \
-                        where steps are `splitting`: local densities are found in cells, not in lists";
+        let accepted = "a many-body repulsion of pairs without memory, in two or three dimensions, and beside it friction \
+                        along bonds only where steps are `splitting`: local densities are found in cells, not in lists";
         problems.push(Problem::new(&path, format!("found together with {}", reason(scene)), accepted));
     }
     let excludes =

@@ -117,16 +117,16 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
     }
 }
 
-/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and what
-/// [goes with pairs](goes_with_pairs); of other families it has not.
+/// A scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and what
+/// [goes with pairs](goes_with_pairs); a scene of another family has not.
 pub(crate) fn is_coupled(scene: &Scene) -> bool {
     has_more_than(scene, |interaction| goes_with_pairs(scene, interaction))
 }
 
-/// Whether an interaction is part of the steps of pairs: of split steps baths without memory on particles and bonds, and tethers; of other steps
-/// baths on particles, tethers, and a coloured noise beside local densities, which are found in cells: particles that it pushes make small steps, and a
-/// list of neighbours serves many of them (the scene `coloured-noise` is 7 % faster with it on lavapipe, 2026-11-27). Without pairs particles need
-/// no order in other steps.
+/// Steps of pairs take an interaction: split steps baths without memory on particles and bonds, and tethers; other steps
+/// baths on particles, tethers, and a coloured noise beside local densities, which are found in cells. Elsewhere a list of
+/// neighbours serves many of the short steps of coloured noise (its scene is 7 % faster so on lavapipe, 2026-11-27).
+/// Without pairs particles need no order in steps that are not split.
 fn goes_with_pairs(scene: &Scene, interaction: &Interaction) -> bool {
     let splits = matches!(scene.integrator, Integrator::Splitting { .. });
     let paired = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Dpd(_)));
@@ -140,14 +140,14 @@ fn goes_with_pairs(scene: &Scene, interaction: &Interaction) -> bool {
     }
 }
 
-/// Whether forces of an interaction depend on local densities.
+/// Forces of an interaction depend on local densities.
 fn depends_on_density(interaction: &Interaction) -> bool {
     matches!(interaction, Interaction::Dpd(dpd) if dpd.acting_many_body().is_some())
 }
 
 /// Whether a scene that names no integrator, and has the default of all, is one of couplings: where it cannot be split,
-/// where there is more than bonds and angles but no pair force, for particles without pairs need no order; and where particles are fixed, so that
-/// scenes keep the step that was the only one for them.
+/// where there is more than bonds and angles but no pair force, for particles without pairs need no order; and where
+/// particles are fixed, so that scenes keep the step that was the only one for them.
 pub(crate) fn is_coupled_by_default(scene: &Scene) -> bool {
     let pairs = |interaction: &Interaction| matches!(interaction, Interaction::Dpd(_));
     let fixed =

@@ -1,5 +1,5 @@
-//! What acts on particles by themselves in steps that are not split: baths on their coordinates, and a random force that is constant for random
-//! times.
+//! Baths on coordinates of particles, and a random force on them that is constant for random times, in steps that are not
+//! split.
 
 use super::bonded::Scales;
 use super::position_bath;
@@ -59,7 +59,7 @@ pub(super) fn report_choices(model: &Model) -> Choices {
         .with_if(model.particles().oscillates_in_memory(), baths::PositionProducts::Tethered)
 }
 
-/// Buffers that the kernel binds for it beyond others that ends a step; that of a report binds [one more](products) with products.
+/// Buffers that the kernel at the end of a step binds for them; that of a report binds [one more](products) with products.
 pub(super) fn buffers(model: &Model) -> u32 {
     u32::from(remembers(model)) + u32::from(model.particles().coloured_noise.is_some())
 }
@@ -69,8 +69,8 @@ pub(super) fn products(model: &Model) -> u32 {
     u32::from(model.particles().oscillates_in_memory())
 }
 
-/// What a kernel needs of a species' bath on coordinates: response of the bath to a drift, its noise of one step, its energy per square, which is
-/// zero of those that a report does not count; zeros of a species that is not there.
+/// The bath of a species as kernels know it: its response to a drift, its noise of one step, and its energy per square, which
+/// is zero of those that a report does not count; zeros of a species that is not there.
 pub(super) fn coefficients(scales: &Scales<'_>, species: usize) -> [f64; 3] {
     let Some(bath) = bath(scales.model) else { return [0.0; 3] };
     let Some(step) = bath.steps.get(species) else { return [0.0; 3] };

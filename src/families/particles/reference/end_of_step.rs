@@ -31,7 +31,7 @@ pub(super) fn end(
         state.walls = walls::add(&state.walls, &absorbed);
     }
     // Friction sees none of the impulses on held particles.
-    held::spare(model, state, &mut turned);
+    held::exclude(model, state, &mut turned);
     state.predicted = match model.integrator {
         Integrator::GrootWarren { lambda } if lambda != 0.5 => {
             let turn = |(kick, turned): (&[i64; 3], &[i64; 3])| std::array::from_fn(|axis| kick[axis] * turned[axis]);

@@ -1,4 +1,5 @@
-//! Particles that are held: fixed in space, or frozen behind a wall, which absorbs the impulses on them. They keep the momentum that they have.
+//! Particles that are held: fixed in space, or frozen behind a wall, which absorbs the impulses on them. They keep the
+//! momentum that they have.
 
 use crate::families::{Model, PlaneWalls};
 use crate::state::State;
@@ -13,7 +14,8 @@ pub(super) fn is_frozen(model: &Model, state: &State, particle: usize) -> bool {
     model.species[state.species[particle] as usize].frozen
 }
 
-/// The momentum that every wall is to absorb: what frozen particles have beyond that in the state; no elements without frozen particles.
+/// The momentum that every wall is to absorb: that of frozen particles beyond the one in the state; no elements without
+/// frozen particles.
 pub(super) fn absorbed(model: &Model, state: &State, momenta: &[[i64; 3]]) -> Vec<[i64; 3]> {
     if !model.has_frozen_particles() {
         return Vec::new();
@@ -39,7 +41,7 @@ pub(super) fn hold(model: &Model, state: &State, momenta: &mut [[i64; 3]]) {
 }
 
 /// Leaves out impulses on held particles.
-pub(super) fn spare(model: &Model, state: &State, impulses: &mut [[i64; 3]]) {
+pub(super) fn exclude(model: &Model, state: &State, impulses: &mut [[i64; 3]]) {
     for particle in (0..state.len()).filter(|&particle| is_held(model, state, particle)) {
         impulses[particle] = [0; 3];
     }

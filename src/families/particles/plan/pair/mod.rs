@@ -1,5 +1,5 @@
-//! The plan of a scene whose particles interact in pairs, and by bonds and angles that neither remember nor rub; in
-//! split steps with baths without memory on particles and along bonds, and tethers.
+//! The plan of a scene whose particles interact in pairs without memory, by bonds and angles without a bath, and by tethers; in split steps
+//! with baths without memory on particles and along bonds, in others with baths on particles and a coloured noise.
 
 mod bond_baths;
 mod bonded;
@@ -491,7 +491,7 @@ impl<'a> Builder<'a> {
 
     /// One pass a step. Returns the number of rows of sums that the report leaves.
     fn leapfrog_step(&mut self, forces: &Choices) -> u32 {
-        // Whoever acts on single particles draws random words.
+        // Baths and random forces on single particles draw random words.
         let words = Choices::new().with_any(own::acts(self.model).then_some(words(self.model.generator)));
         let acting = own::choices(self.model).and(&words);
         let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model)).and(&acting);
@@ -521,7 +521,10 @@ impl<'a> Builder<'a> {
         let dense = self.model.particles().have_local_densities();
         let found = with(pairs::Pass::Find).and(&self.booking_of_layers());
         let find = match (once, dense) {
-            (true, _) => self.traversal("kick", self.traversal, Masks::Unkept, &with(pairs::Pass::Kick)),
+            (true, _) => {
+                let pass = with(pairs::Pass::Kick).and(&self.booking_of_layers());
+                self.traversal("kick", self.traversal, Masks::Unkept, &pass)
+            }
             (false, true) => self.traversal("find", self.traversal, Masks::Kept, &found),
             (false, false) => self.traversal("find", self.traversal, Masks::Keep, &found),
         };

@@ -43,7 +43,7 @@ use crate::state::{Reported, State};
 /// ```
 /// use mesoscope::{families::Model, families::reference::CouplingsReference, scene};
 ///
-/// let scene = scene::load("langevin-gas", &["space.box=[4,4,4]".to_owned()])?;
+/// let scene = scene::load("gle-oscillator", &["particles.0.count=20".to_owned()])?;
 /// let model = Model::new(&scene);
 /// assert!(model.particles().are_coupled && !model.conserves_momentum());
 /// let start = mesoscope::families::initial_state(&scene, &model);
@@ -172,8 +172,8 @@ impl CouplingsReference {
         }
         if let Some(noise) = model.particles().coloured_noise.as_ref() {
             let mut impulses = coloured_noise::advance(model, noise, state);
-            held::spare(model, state, &mut impulses.closing);
-            held::spare(model, state, &mut impulses.opening);
+            held::exclude(model, state, &mut impulses.closing);
+            held::exclude(model, state, &mut impulses.opening);
             add(&mut momenta, &impulses.closing);
             add(&mut opening, &impulses.opening);
             baths.holds = impulses.holds;
