@@ -314,8 +314,10 @@ pub const ACCESSES: &[Access] = &[
         places: IN_EITHER,
         functions: &[
             LoadField("stored_position", "position"),
+            LoadField("stored_momentum", "momentum"),
             Load("stored_particle"),
             StoreField("store_position", "position"),
+            StoreField("replace_stored_momentum", "momentum"),
             Store("store_particle"),
         ],
     },

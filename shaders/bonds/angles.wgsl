@@ -20,9 +20,9 @@ fn visit_angle(angle: u32) {
     let ends = vec3<u32>(slots[word.x], slots[word.y], slots[word.z]);
     if (!are_known(ends)) { return; }
     let stiffness = bitcast<f32>(word.w);
-    let first_end = particle_in(ends.x);
-    let middle = particle_in(ends.y);
-    let last_end = particle_in(ends.z);
+    let first_end = particle_at(ends.x);
+    let middle = particle_at(ends.y);
+    let last_end = particle_at(ends.z);
     let first_arm = contact_of(separation(first_end.position, middle.position));
     let last_arm = contact_of(separation(last_end.position, middle.position));
     // Without an arm there is no angle, and no force.

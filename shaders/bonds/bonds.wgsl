@@ -34,8 +34,8 @@ fn way_of_end(kind: BondKind, particle: Particle) -> Steps { return last_drift(p
 
 // The change of a bond's length over the last step: even under exchange of its ends.
 fn change_of_length(kind: BondKind, me: Particle, other: Particle) -> f32 {
-    let drifted = way_of_end(kind, me) - way_of_end(kind, other);
-    let now = signed(fraction_of(me.position) - fraction_of(other.position));
+    let drifted = way_of_end(kind, me) - way_of_end(kind, other) - copy_drift(me.position, other.position);
+    let now = way_between(me.position, other.position);
     let after = Vector(now) * unit_lengths();
     let before = Vector(now - drifted) * unit_lengths();
     let lengths = length(after) + length(before);
@@ -43,6 +43,9 @@ fn change_of_length(kind: BondKind, me: Particle, other: Particle) -> f32 {
     let change = dot(after + before, Vector(drifted) * unit_lengths());
     return select(0.0, change / lengths, lengths > 0.0);
 }
+
+// Slot baths/seen: see couplings/own. Default: the change of the length itself.
+fn change_seen(kind: BondKind, me: Particle, other: Particle) -> f32 { return change_of_length(kind, me, other); }
 
 // Adds the impulses of one bond.
 fn visit_bond(bond: u32) {
@@ -52,7 +55,7 @@ fn visit_bond(bond: u32) {
     let slot = slots[word.x];
     let other_slot = slots[word.y];
     if (!are_known(vec3<u32>(slot, other_slot, other_slot))) { return; }
-    let ends = Ends(slot, other_slot, particle_in(slot), particle_in(other_slot));
+    let ends = Ends(slot, other_slot, particle_at(slot), particle_at(other_slot));
     let contact = contact_of(separation(ends.me.position, ends.other.position));
     let stretch = stretch_of(kind, contact.distance);
     let magnitude = stretch.force + bond_bath(bond, kind, ends.me, ends.other);
@@ -99,7 +102,7 @@ fn finish_bonds(group: u32, lane: u32) {}
 fn note_virial_of_bond(bond: Ends, magnitude: f32, contact: Contact) {
     total_add(SUM_VIRIAL, sum64_of_f32(share_of_bond(bond) * magnitude * contact.distance * PAIR_VIRIAL));
 }
-// Energy, virial and curvature of the potential, and the conservative forces themselves.
+// Energy, virial and curvature of the potential.
 fn note_configuration_of_bond(bond: Ends, stretch: Stretch, contact: Contact) {
     total_add(SUM_POTENTIAL_ENERGY, sum64_of_f32(stretch.energy * PAIR_VIRIAL));
     let share = share_of_bond(bond);
@@ -107,6 +110,9 @@ fn note_configuration_of_bond(bond: Ends, stretch: Stretch, contact: Contact) {
     // Two particles in the same place exert no force, and have no curvature across it either.
     let across = select(0.0, f32(DIMENSION - 1u) * stretch.force / contact.distance, contact.distance > 0.0);
     total_add(SUM_CURVATURE, sum64_of_f32(share * (stretch.curvature - across) * LAPLACIAN));
+}
+// The conservative forces on both ends, whoever of several ranks counts the bond.
+fn gather_force_of_bond(bond: Ends, stretch: Stretch, contact: Contact) {
     let force = Steps(round(stretch.force * contact.direction));
     add_force(bond.slot, kick_of_end(bond.me, force));
     add_force(bond.other_slot, kick_of_end(bond.other, -force));

@@ -8,8 +8,8 @@ fn visit_excluded(index: u32) {
     let other_slot = slots[pair.y];
     // Who is not known is beyond the cutoff.
     if (!is_known(slot) || !is_known(other_slot)) { return; }
-    let me = particle_in(slot);
-    let other = particle_in(other_slot);
+    let me = particle_at(slot);
+    let other = particle_at(other_slot);
     let contact = contact_of(separation(me.position, other.position));
     if (!contact.inside || pair.x == pair.y) { return; }
     let repulsion = repulsion_of(coefficients_of(species_of(me), species_of(other)), contact);
@@ -36,6 +36,12 @@ fn note_configuration_of_excluded(pair: Ends, repulsion: Repulsion, contact: Con
     total_add(SUM_POTENTIAL_ENERGY, sum64_of_signed(-repulsion.energy * PAIR_ENERGY));
     total_add(SUM_CONSERVATIVE_VIRIAL, sum64_of_signed(-share * repulsion.impulse * contact.distance * PAIR_VIRIAL));
     total_add(SUM_CURVATURE, sum64_of_signed(-share * repulsion.laplacian * LAPLACIAN));
+}
+// The conservative forces on both, whoever of several ranks counts the pair.
+fn gather_force_of_excluded(pair: Ends, repulsion: Repulsion, contact: Contact) {
+    let force = Steps(round(repulsion.impulse * contact.direction));
+    add_force(pair.slot, held_kick(pair.me, -force));
+    add_force(pair.other_slot, held_kick(pair.other, force));
 }
 
 // Takes back the repulsion of all pairs that bonds exclude. One invocation a pair; reads `excluded_pairs`, `slots` and particles,

@@ -86,10 +86,10 @@ override CONDITIONAL: u32; // kernels that depend on it
 
 // Begins a step of a scene with a list of neighbours, and decides whether it is rebuilt. One workgroup; a lane copies every
 // 64th word. `demands` holds the workgroups (x, y, z) of each kernel of the list: first as they are when it runs, then as they
-// are in this step, which are none if no particle has demanded a new list.
+// are in this step, which are none if no particle has demanded a new list and none is due.
 @compute @workgroup_size(64)
 fn begin_listed_step(@builtin(local_invocation_index) lane: u32) {
-    let demanded = atomicLoad(&control.demand) != 0u;
+    let demanded = atomicLoad(&control.demand) != 0u || is_outdated(control.next);
     for (var word = lane; word < 3u * CONDITIONAL; word += 64u) {
         demands[3u * CONDITIONAL + word] = select(0u, demands[word], demanded);
     }

@@ -2,13 +2,13 @@
 //
 // Slot couplings/kicks: `add_kick` adds the impulse of half a step to the particle in a slot, in integer momentum units, in any
 // order. Variants plane, volume; the plan follows the box.
-// Default: off, for the report of couplings whose impulses have been added already.
+// Default: off, for the motion at the report of a split step, whose impulses have been added already.
 fn add_kick(slot: u32, kick: Steps) {}
 
 // Slot couplings/gathered: the impulses of half a step that couplings have added to a sorted particle, for the passes over
-// pairs; `take_gathered_kick` also clears them for the next step.
-// Default: off, no coupling but pairs. The plan of pairs chooses `kept` if the scene has bonds, angles or tethers,
-// or if a split step visits its pairs once.
+// particles; `take_gathered_kick` also clears them for the next step.
+// Default: off, no coupling but pairs found in cells. The plan of particles chooses `kept` if the scene has listed pairs, bonds,
+// angles or tethers, or if a split step visits its pairs once.
 fn gathered_kick(slot: u32) -> Steps { return Steps(0); }
 fn take_gathered_kick(slot: u32) -> Steps { return Steps(0); }
 
@@ -20,25 +20,12 @@ fn external_kick(me: Particle) -> Steps { return Steps(0); }
 // Two particles of a pair or a bond, and their slots.
 struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
 
-// Slot couplings/places: the particle in a slot, for couplings that name particles.
-// Default: as it is stored. The plan of pairs, which sorts particles in every step, chooses `sorted`.
-fn particle_in(slot: u32) -> Particle { return stored_particle(slot); }
-
-// Sums the squares of the conservative forces, once all couplings have added theirs. One invocation a stored particle; reads and
-// clears `forces`.
-@compute @workgroup_size(WORKGROUP)
-fn square_forces(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let group = linear_workgroup(workgroup);
-    let slot = group * WORKGROUP + lane;
-    if (slot < PARTICLES) {
-        let force = Vector(steps_of(forces[slot]));
-        forces[slot] = vec4<i32>(0);
-        total_add(SUM_SQUARED_FORCE, sum64_of_f32(dot(force, force) * GRADIENT));
-    }
-    total_reduce(group, lane);
-}
+// Slot couplings/conservative: the conservative part of the impulse that couplings have added to a sorted particle before a
+// report, which is cleared. The plan of particles chooses `apart` if any of them has friction, and `none` if they have nothing else.
+// Default: all of it.
+fn conservative_kick(slot: u32, all: Steps) -> Steps { return all; }
 
 // Slot couplings/forces: adds the conservative impulse of half a step for a report. Variants plane, volume; the plan follows
 // the box.
-// Default: off, no force of this scene is conservative.
+// Default: off, no coupling has friction, or no force of this scene is conservative.
 fn add_force(slot: u32, force: Steps) {}

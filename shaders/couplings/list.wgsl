@@ -15,6 +15,12 @@ fn owns(id: u32, other: u32) -> bool { return (id < other) == (((id + other) & 1
 // (couplings/pairs) reads it. Default: off. The plan chooses `listed` if bonds exclude pairs.
 fn excluded(id: u32, other: u32) -> u32 { return 0u; }
 
+// Slot couplings/margin: how far a particle is from where it was when neighbours were listed, and whether a list is outdated
+// when a step begins, however little particles have moved. The plan chooses `sheared` if the scene has shear.
+// Default: only particles move.
+fn way_from_anchor(place: Fraction, anchor: Fraction) -> Steps { return signed(place - anchor); }
+fn is_outdated(step: vec2<u32>) -> bool { return false; }
+
 // After an upload: where the particles are stored, and whether their neighbours have to be listed. One invocation a stored
 // particle.
 @compute @workgroup_size(WORKGROUP)
@@ -23,7 +29,7 @@ fn take_stock(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
     if (slot >= PARTICLES) { return; }
     let position = stored_position(slot);
     note_slot(position.w, slot);
-    check_anchor(slot, fraction_of(position));
+    note_place(slot, fraction_of(position));
 }
 
 // Lists the pairs that a particle owns. One invocation a sorted particle; reads the sorted particles and `cells`, writes
@@ -32,19 +38,21 @@ fn take_stock(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
 fn list_neighbours(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
-    let position = position_at(slot);
-    let fraction = fraction_of(position);
-    let row = row_of(fraction);
-    let column = column_of(fraction);
+    let me = particle_at(slot);
+    let position = me.position;
+    let row = row_of(fraction_of(position));
+    begin_visit(row, me);
+    let columns = columns_of(me);
     var count = 0u;
     for (var across = 0u; across < SPAN_Y * SPAN_Z; across++) {
         let other_row = row_at(row, across);
+        let column = column_towards(row, other_row, columns);
         for (var along = 0u; along < SPAN_X; along++) {
             let cell = cell_index(other_row, (column + along + CELLS_X - SPAN_X / 2u) % CELLS_X);
             let end = cell_at(cell + 1u);
             for (var other = cell_at(cell); other < end; other++) {
                 let there = position_at(other);
-                let d = Vector(signed(fraction - fraction_of(there))) * unit_lengths();
+                let d = Vector(way_between(position, there)) * unit_lengths();
                 if (dot(d, d) < SQUARED_RANGE && owns(position.w, there.w)) {
                     count += 1u;
                     if (count <= LIST_CAPACITY) {

@@ -8,6 +8,7 @@
 fn visit_pairs_of(slot: u32) {
     prepare_noise();
     let me = stored_particle(slot);
+    begin_visit(0u, me);
     let count = neighbour_word(slot);
     var kick = Steps(0);
     var sound = true;

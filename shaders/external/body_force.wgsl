@@ -103,11 +103,3 @@ fn report_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     }
     partial_sums[row + SUM_GIVEN_WORK] = account[group * ACCOUNT + 3u];
 }
-
-// Adds the impulses of body forces to those of other couplings, where all are added up before particles move. One invocation a stored
-// particle; adds to `kicks`.
-@compute @workgroup_size(WORKGROUP)
-fn push_external(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (slot < PARTICLES) { add_kick(slot, external_kick(stored_particle(slot))); }
-}

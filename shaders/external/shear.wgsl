@@ -3,14 +3,16 @@
 override SHEAR_AXIS: u32;   // across which the boundaries are: 1 or 2
 override SHEAR_LOW: u32;    // what the shift grows by in half a step, in 2^-64 of the box: low and high word
 override SHEAR_HIGH: u32;
+override SHEAR_STEP: i32;   // and in a step, in 2^-32 of the box
 override SHEAR_FIRST: u32;  // the shift at the start, in 2^-32 of the box
 override SHEAR_MOMENT: u32; // half steps since the step began at which a kernel sees the particles
 override SHEAR_PART: u32;   // half steps in a part of a drift
 
 // The shift some half steps after the step began, in 2^-32 of the box: the high word of a product of 64 bits, exact in every step.
-fn shift_after(more: u32) -> u32 {
-    let step = clock_step();
-    let halves = sum64_add(Sum64(step.x << 1u, (step.y << 1u) | (step.x >> 31u)), Sum64(more, 0u));
+fn shift_after(more: u32) -> u32 { return shift_at(sum64_add(halves_of(clock_step()), Sum64(more, 0u))); }
+// The half steps before a step, and the shift after so many.
+fn halves_of(step: vec2<u32>) -> Sum64 { return Sum64(step.x << 1u, (step.y << 1u) | (step.x >> 31u)); }
+fn shift_at(halves: Sum64) -> u32 {
     return SHEAR_FIRST + high_of_product(halves.x, SHEAR_LOW) + halves.x * SHEAR_HIGH + halves.y * SHEAR_LOW;
 }
 
@@ -33,9 +35,10 @@ fn boxes_up(mine: Fraction, other: Fraction) -> i32 {
 }
 
 // The momentum along x with which a particle at a place would flow, in the linear profile that rests in the middle of the box.
-fn flow_at(fraction: Fraction, species: i32) -> f32 {
-    let place = bitcast<i32>(fraction[SHEAR_AXIS] ^ 0x80000000u);
-    return f32(jump_of(species)) * (f32(place) * 2.3283064e-10); // 2^-32
+fn flow_at(fraction: Fraction, species: i32) -> f32 { return flow_from_middle(species, from_middle(fraction)); }
+fn from_middle(fraction: Fraction) -> f32 { return f32(bitcast<i32>(fraction[SHEAR_AXIS] ^ 0x80000000u)); }
+fn flow_from_middle(species: i32, height: f32) -> f32 {
+    return f32(jump_of(species)) * (height * 2.3283064e-10); // 2^-32
 }
 
 // A particle that drifts through boundaries.

@@ -23,9 +23,16 @@ fn has_no_rank(rank: u32) -> bool { return false; }
 fn bin_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index >= stored_count() || forgets(index)) { return; }
-    let fraction = fraction_of(stored_position(index));
-    put_rank(index, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
+    count_into_cell(index, fraction_of(stored_position(index)));
 }
+fn count_into_cell(slot: u32, place: Fraction) {
+    put_rank(slot, atomicAdd(&counts[row_of(place) * CELLS_X + column_of(place)], 1u));
+}
+
+// Slot grid/next: what is noted of the place to which a stored particle has come. The plan chooses `cells` where
+// particles are ordered by cell at every step, `anchors` where neighbours are listed.
+// Default: nothing, no order is needed.
+fn note_place(slot: u32, place: Fraction) {}
 
 // Puts every particle into its cell, and a copy into the frame of the row if its cell is at an end. One invocation a stored
 // particle; reads `particles`, `ranks` and `cells`, writes the sorted array, and clears `counts` for the next step.
@@ -74,9 +81,8 @@ fn arrange_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
     note_slot(position.w, slot);
 }
 
-// Slot couplings/anchors: `note_anchor` keeps where a particle was when neighbours were listed, `check_anchor` demands a new list
-// when it has moved too far from there. Default: off, no neighbours are listed. Plans with a pair force choose `kept`.
-fn check_anchor(slot: u32, fraction: Fraction) {}
+// Slot couplings/anchors: keeps where a particle was when neighbours were listed. Default: off, no neighbours are listed. The plan
+// chooses `kept` for lists.
 fn note_anchor(slot: u32, position: vec4<u32>) {}
 
 // Slot couplings/origins: keeps where a particle was stored before the sort. Default: off. The plan chooses `kept` for pairs

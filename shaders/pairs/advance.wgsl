@@ -22,21 +22,17 @@ fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Ste
     let slot = unframed_index(row, index);
     let word = momentum_word(end.momentum, species);
     store_particle(slot, advanced_particle(position_word(end.place, me.position.w), word, held_kick(me, end.turned * kick)));
-    put_rank(slot, atomicAdd(&counts[row_of(end.place) * CELLS_X + column_of(end.place)], 1u));
+    note_place(slot, end.place);
 }
 
-// The particles in a buffer: the plan holds them in no texture where a step is split.
-var<storage, read_write> particles: array<Particle>;
-
-// The second half of a drift that a report has interrupted. One invocation a stored particle; updates it, adds to `counts`, and to
-// `wall_impulses` where momenta change, writes `ranks`.
+// The second half of a drift that a report has interrupted. One invocation a stored particle; updates it, and `wall_impulses`
+// where momenta change; notes its place.
 @compute @workgroup_size(WORKGROUP)
 fn drift_rest(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index >= sorted_count()) { return; }
-    let me = particles[index];
+    let me = stored_particle(index);
     let end = travel_rest(me.position, steps_of(me.momentum), species_of(me));
-    particles[index].position = position_word(end.place, me.position.w);
-    particles[index].momentum = momentum_word(end.momentum, me.momentum.w);
-    put_rank(index, atomicAdd(&counts[row_of(end.place) * CELLS_X + column_of(end.place)], 1u));
+    store_particle(index, Particle(position_word(end.place, me.position.w), momentum_word(end.momentum, me.momentum.w)));
+    note_place(index, end.place);
 }

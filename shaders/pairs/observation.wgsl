@@ -36,9 +36,10 @@ fn observe_configuration(sums: PairSums, bonded: Steps) {
     total_add(SUM_SQUARED_FORCE, sum64_of_f32(dot(f, f) * GRADIENT));
     total_add(SUM_CURVATURE, sums.laplacian);
 }
-// Slot pairs/reporting: where a report leaves a particle.
-// Default: by id, for analyses and trajectories. The plan chooses `in_order` for one of several ranks.
-fn reported_place(row: u32, index: u32, id: u32) -> u32 { return id; }
+// Slot pairs/reporting: leaves a sorted particle for analyses and trajectories. The plan chooses `in_order` for one of
+// several ranks, `aside` where particles stay as they are stored.
+// Default: by id, in the place of those that were sorted.
+fn report_particle(row: u32, index: u32, particle: Particle) { store_particle(particle.position.w, particle); }
 
 // Slot pairs/reported_force: the impulses on each particle at a report, by id, in integer momentum units.
 // Default: off. The plan chooses `kept` if an analysis needs forces.

@@ -46,7 +46,7 @@ fn drift_cells(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoc
     let position = drifted_place(me, velocity_of(me));
     store_position(slot, position);
     let fraction = fraction_of(position);
-    put_rank(slot, atomicAdd(&counts[row_of(fraction) * CELLS_X + column_of(fraction)], 1u));
+    count_into_cell(slot, fraction);
 }
 
 // Sorts the particles of every grid cell by id, so that nothing depends on the order in which they came, and separates those at

@@ -56,6 +56,12 @@ impl Bath {
         }
     }
 
+    /// Whether it has memory.
+    #[must_use]
+    pub fn remembers(&self) -> bool {
+        matches!(self, Self::Memory { .. })
+    }
+
     /// The temperature of the bath in a scene of a temperature.
     #[must_use]
     pub fn temperature(&self, scene: f64) -> f64 {

@@ -315,7 +315,7 @@ pub(crate) trait Physics {
     fn momentum_out_of_range(&self, plan: &Plan) -> String;
 
     /// What crowds where arrays of the plan are too small.
-    fn crowd(&self) -> &'static str;
+    fn crowd(&self, _: &Model) -> &'static str;
 
     /// The float64 reference from a state; none for a state without what the model needs.
     fn reference(&self, model: &Model, state: &State) -> Option<Box<dyn reference::Stepper>>;

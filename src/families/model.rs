@@ -79,7 +79,7 @@ impl Model {
     /// let force = model.particles().pair_force.as_ref();
     /// let repulsions = force.map(|force| [force.repulsion(0, 0), force.repulsion(0, 1)]);
     /// assert_eq!(repulsions, Some([25.0, 60.0]));
-    /// assert!(model.conserves_momentum() && !model.particles().are_coupled);
+    /// assert!(model.conserves_momentum() && !model.has_memory());
     /// # Ok::<(), mesoscope::scene::SceneError>(())
     /// ```
     #[must_use]

@@ -38,7 +38,7 @@ pub use sums::{ReportRow, Sums};
 pub use table::{Table, Words};
 pub use texture::Texture;
 
-use crate::shaders::{Array, Constant};
+use crate::shaders::{Array, Constant, storage_buffers};
 use crate::state::Units;
 
 /// Words of a particle that passes from rank to rank: `shaders/space/particle`.
@@ -177,6 +177,12 @@ impl Plan {
             operations_per_particle: 0.0,
             part: None,
         }
+    }
+
+    /// Counts the storage buffers that kernels bind.
+    pub(crate) fn count_storage_buffers(&mut self) {
+        let bound = self.kernels.iter().map(|kernel| storage_buffers(kernel.entry, &kernel.choices) as u32);
+        self.storage_buffers = bound.fold(self.storage_buffers, u32::max);
     }
 
     /// Adds a kernel and returns its index.

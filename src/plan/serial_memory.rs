@@ -4,7 +4,7 @@
 //! kernels often load lane by lane are kept in textures.
 
 use super::{Buffer, Plan, Texture};
-use crate::shaders::{Array, Entry, core, grid};
+use crate::shaders::{Array, Entry, arrays, core, grid};
 
 /// Iterations of all loops together that an invocation gets on average: software adapters leave loops after 65 535 of them.
 pub(crate) const TURNS: u64 = 1 << 14;
@@ -32,7 +32,9 @@ impl Plan {
         for kernel in &mut self.kernels {
             for &array in candidates {
                 let bound = kernel.array_of(array);
-                if self.textures.iter().any(|texture| texture.array == bound)
+                // Kernels that see sorted particles as they are stored do so wherever those lie.
+                if !(array == Array::Sorted && kernel.choices.has(arrays::Sorted::Stored))
+                    && self.textures.iter().any(|texture| texture.array == bound)
                     && let Some(texture) = array.in_texture()
                 {
                     kernel.choices.choose(texture);

@@ -35,6 +35,7 @@ pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardwa
     if follows {
         plan.follow(physics.followers, physics.stride);
     }
+    plan.count_storage_buffers();
     if options.suits_serial_memory(hardware) {
         plan.suit_serial_memory(&physics.texture_candidates);
     }

@@ -272,7 +272,7 @@ impl Simulation {
                     // Too rare for every run to pay for it in memory or time.
                     (options, reason, with) = match error {
                         EngineError::Crowded { .. } if options.has_room_left() => {
-                            (options.with_room(particles), task.model.physics().crowd(), "more memory")
+                            (options.with_room(particles), task.model.physics().crowd(&task.model), "more memory")
                         }
                         EngineError::Overreached { .. } if options.may_lengthen() => {
                             (options.with_longer_bonds(), "a bond is longer than expected", "wider halos")

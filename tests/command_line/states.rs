@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use mesoscope::families::reference::{CouplingsReference, Reference};
+use mesoscope::families::reference::Reference;
 use mesoscope::output::{Id, TrajectoryWriter, checkpoint, files};
 use mesoscope::scene::{self, KeptStart, Scene, TrajectoryFormat, Warning};
 use mesoscope::state::State;
@@ -319,7 +319,7 @@ fn copies_of_a_box_are_like_the_box() {
         mesoscope::state::crossings(a, b) != [0; 3]
     });
     assert!(crossing.count() > 3, "bonds cross the boundary");
-    let one = CouplingsReference::new(model, state.clone());
+    let one = Reference::new(model, state.clone());
     let alone = one.observe().unwrap();
     let [energy, kinetic] = [alone.potential_energy, alone.kinetic_energy];
     let (scene, _) = load(place.path(), &with_state(&text, json!({"file": "run", "replicate": [2, 1, 3]})));
@@ -327,7 +327,7 @@ fn copies_of_a_box_are_like_the_box() {
     assert!((0..3).all(|axis| (scene.space.lengths[axis] - lengths[axis]).abs() < 1e-12), "{:?}", scene.space);
     let (model, six) = start(&scene);
     assert_eq!((six.len(), model.particles().bonds.as_ref().unwrap().count()), (900, 6 * 48));
-    let seen = CouplingsReference::new(model, six).observe().unwrap();
+    let seen = Reference::new(model, six).observe().unwrap();
     // Positions are rounded to 2⁻³² of an edge, which changes no energy by more than a part in 10⁷.
     let ratio = seen.potential_energy / energy;
     assert!((ratio / 6.0 - 1.0).abs() < 1e-7, "{ratio}");
@@ -400,7 +400,7 @@ fn tethers_of_a_run_go_on() {
     fs::create_dir(place.path().join("run")).unwrap();
     let path = place.path().join("run").join(files::CHECKPOINT);
     checkpoint::save(&path, Id::of_run(&written), &written, &state, &[], &[]).unwrap();
-    let potential = |model, state| CouplingsReference::new(model, state).observe().unwrap().potential_energy;
+    let potential = |model, state| Reference::new(model, state).observe().unwrap().potential_energy;
     let alone = potential(model, state.clone());
     let asked = |state: Value, interactions: &Value| {
         let mut asked = with_state(&text, state);
@@ -472,7 +472,7 @@ fn a_sheared_run_goes_on_from_where_its_boundaries_are() {
     assert!(crossing.count() > 1, "bonds cross the boundary");
     let energy = |scene: &Scene, state: State| {
         let model = mesoscope::families::Model::new(scene);
-        CouplingsReference::new(model, state).observe().unwrap().potential_energy
+        Reference::new(model, state).observe().unwrap().potential_energy
     };
     let expected = energy(&before.scene, before.state.clone());
     let directory = place.path("before").parent().unwrap().to_owned();

@@ -76,6 +76,10 @@ fn cases() -> Vec<(Scene, Vec<[u32; 3]>)> {
             scene(&[SPLITTING, "space.box=[4,4,13]", CHAINS], &[r#"{"type":"dpd","repulsion":25}"#, TETHERS]),
             vec![[1, 1, 2]],
         ),
+        // Steps that are not split: friction along bonds beside pairs and densities, and baths and tethers without pairs.
+        (scene(&[COTTER_REICH, "space.box=[4,4,13]", CHAINS], &[PAIRS, RUBBING]), vec![[1, 1, 3]]),
+        (scene(&[GROOT_WARREN, "space.box=[4,4,13]", CHAINS], &[MANY_BODY, RUBBING]), vec![[1, 1, 2]]),
+        (scene(&[COTTER_REICH, "space.box=[4,4,13]", CHAINS], &[LANGEVIN, TETHERS, RUBBING]), vec![[1, 1, 3]]),
     ]
 }
 
@@ -102,7 +106,7 @@ fn divided(scene: &Scene, parts: [u32; 3], batch: u64) -> (Bytes, u32) {
 }
 
 /// Every integrator, two dimensions, angles, many-body repulsion, walls, shear, friction along bonds and tethers once.
-const OFTEN: [usize; 9] = [1, 4, 5, 6, 8, 9, 10, 11, 15];
+const OFTEN: [usize; 10] = [1, 4, 5, 6, 8, 9, 10, 11, 15, 18];
 
 #[test]
 fn bonds_across_boundaries_give_the_bytes_of_one_rank() {

@@ -214,11 +214,20 @@ fn baths() {
 fn integrators() {
     let split = r#"integrator={"type":"splitting"}"#;
     CHAINS.accepted(&[split, "interactions.1.exclude_repulsion=true"]);
-    let both = "integrator.type: found `splitting`, whose steps are split for baths without memory only, together with";
+    let both = "integrator.type: found `splitting` together with";
     CHAINS.accepted(&[split, "interactions.1.friction=2"]);
+    let memory = r#"interactions.1.bath={"type":"memory","rate":3}"#;
+    CHAINS.accepted(&[split, "interactions.1.friction=2", memory]);
+    CHAINS.accepted(&[split, r#"interactions.2={"type":"coloured-noise","strength":1,"time":0.1}"#]);
+    CHAINS.accepted(&[split, r#"interactions.2={"type":"langevin","friction":1,"bath":{"type":"memory","rate":2}}"#]);
+    let rubbing = r#"interactions.2={"type":"bonds","pairs":[[0,2]],"friction":1}"#;
     CHAINS.refused_with(
-        &[split, "interactions.1.friction=2", r#"interactions.1.bath={"type":"memory","rate":3}"#],
-        &[&format!("{both} a bath on every bond in interactions[1]; accepted: `cotter-reich`")],
+        &[split, "interactions.1.friction=2", memory, rubbing],
+        &[&format!("{both} friction along bonds with and without memory; accepted: `cotter-reich`")],
+    );
+    CHAINS.refused_with(
+        &[split, r#"interactions.0.bath={"type":"memory","rate":10}"#],
+        &[&format!("{both} pairs with memory in interactions[0]; accepted: `cotter-reich`")],
     );
     let star = |arms: u32| {
         let pairs: Vec<[u32; 2]> = (1..=arms).map(|arm| [0, arm]).collect();
@@ -241,19 +250,22 @@ fn integrators() {
     }
     let groot_warren = r#"integrator={"type":"groot-warren"}"#;
     CHAINS.parse(&[groot_warren]).unwrap();
+    CHAINS.parse(&[groot_warren, "interactions.1.friction=1"]).unwrap();
+    let memory = r#"interactions.1.bath={"type":"memory","rate":10}"#;
     CHAINS.refused_with(
-        &[groot_warren, "interactions.1.friction=1"],
+        &[groot_warren, "interactions.1.friction=1", memory],
         &[
-            "integrator.type: found `groot-warren` and a bath on every bond in interactions[1]; accepted: `cotter-reich`",
+            "integrator.type: found `groot-warren` and a bath with memory on every bond in interactions[1]; accepted: `cotter-reich`",
         ],
     );
     CHAINS.refused_with(
         &[groot_warren, r#"interactions.0.bath={"type":"memory","rate":10}"#],
         &["found `groot-warren` and a bath with memory in interactions[0]"],
     );
+    CHAINS.parse(&[groot_warren, r#"interactions.2={"type":"langevin","friction":1}"#]).unwrap();
     CHAINS.refused_with(
-        &[groot_warren, r#"interactions.2={"type":"langevin","friction":1}"#],
-        &["found `groot-warren` and a bath on every particle in interactions[2]"],
+        &[groot_warren, r#"interactions.2={"type":"langevin","friction":1,"bath":{"type":"memory","rate":2}}"#],
+        &["found `groot-warren` and a bath with memory on every particle in interactions[2]"],
     );
 }
 

@@ -69,10 +69,7 @@ fn what_it_does_not_go_with() {
         &["interactions[0].many_body: found together with a bath with memory", "in cells, not in lists"],
     );
     let rubbing = beside(r#"{"type":"bonds","pairs":[[0,1]],"friction":1}"#);
-    LIQUID.refused_with(
-        &[&rubbing, r#"integrator={"type":"cotter-reich"}"#],
-        &["interactions[0].many_body: found together with a bath on every bond", "`splitting`"],
-    );
+    LIQUID.accepted(&[&rubbing, r#"integrator={"type":"cotter-reich"}"#]);
     LIQUID.accepted(&[&rubbing, "particles.1.fixed=true", r#"integrator={"type":"splitting"}"#]);
     for beside in [
         beside(r#"{"type":"coloured-noise","strength":1,"time":0.1}"#),

@@ -67,32 +67,46 @@ fn rates() {
     SHEARED.refused_with(&[r#"space.shear.displacement="far""#], &["space.shear.displacement"]);
 }
 
+/// Baths, lists and random forces follow the boundaries; friction of single particles is of either velocity.
+#[test]
+fn what_takes_shear() {
+    let beside =
+        |interaction: &str| format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},{interaction}]"#);
+    SHEARED.accepted(&[r#"integrator={"type":"cotter-reich"}"#]);
+    SHEARED.accepted(&[r#"interactions.0.bath={"type":"memory","rate":3}"#]);
+    for interaction in [
+        r#"{"type":"langevin","friction":1}"#,
+        r#"{"type":"langevin","friction":1,"velocity":"laboratory"}"#,
+        r#"{"type":"langevin","friction":1,"velocity":"peculiar","bath":{"type":"memory","rate":3}}"#,
+        r#"{"type":"coloured-noise","strength":1,"time":0.05}"#,
+    ] {
+        SHEARED.accepted(&[&beside(interaction)]);
+    }
+    let unknown = beside(r#"{"type":"langevin","friction":1,"velocity":"thermal"}"#);
+    SHEARED.refused_with(&[&unknown], &["interactions[1].velocity", "\"peculiar\"", "\"laboratory\""]);
+    let laboratory = beside(r#"{"type":"langevin","friction":1,"velocity":"laboratory"}"#);
+    SHEARED.refused_with(
+        &[&laboratory, r#"space={"box":[10,10,10]}"#],
+        &["interactions[1].velocity: found in a box without shear", "no `velocity`"],
+    );
+}
+
 /// Whatever is bound to a box at rest is refused with the reason.
 #[test]
 fn what_takes_no_shear() {
-    SHEARED.refused_with(
-        &[r#"interactions.0.bath={"type":"memory","rate":3}"#],
-        &["space.shear: found together with a bath with memory in interactions[0]", "lists of neighbours"],
-    );
     SHEARED
         .refused_with(&["particles.0.fixed=true"], &["space.shear: found together with particles[0], which are fixed"]);
-    for (interaction, what) in [
-        (r#"{"type":"langevin","friction":1}"#, "a bath on every particle in interactions[1]"),
-        (r#"{"type":"tether","stiffness":3}"#, "tethers in interactions[1]"),
-        (r#"{"type":"coloured-noise","strength":1,"time":0.05}"#, "a coloured noise in interactions[1]"),
-    ] {
-        let added = format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},{interaction}]"#);
-        SHEARED.refused_with(&[&added], &[&format!("space.shear: found together with {what}"), "lists of neighbours"]);
-    }
+    let beside =
+        |interaction: &str| format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},{interaction}]"#);
+    SHEARED.refused_with(
+        &[&beside(r#"{"type":"tether","stiffness":3}"#)],
+        &["space.shear: found together with tethers in interactions[1]", "images of the end of a tether"],
+    );
     SHEARED.refused_with(
         &[r#"space.walls={"y":{}}"#],
         &["space.shear: found across an axis with walls", "walls that move also make a shear flow"],
     );
     SHEARED.refused_with(&[r#"space.walls={"z":{}}"#], &["space.shear: found together with `space.walls`"]);
-    SHEARED.refused_with(
-        &[r#"integrator={"type":"cotter-reich"}"#],
-        &["integrator: found `cotter-reich` and `space.shear`", "`splitting` or `groot-warren`"],
-    );
     SHEARED.refused_with(
         &[r#"interactions=[{"type":"dpd","repulsion":25},{"type":"body-force","force":[1,0,0]}]"#],
         &["space.shear: found together with a body force in interactions[1]"],
@@ -109,13 +123,20 @@ fn what_takes_no_shear() {
         &["output.stress.window: found in a scene with shear", "that of the mean stress"],
     );
     SHEARED.accepted(&[r#"output.stress={"every":10}"#, r#"output.profiles={"axis":"y","every":10}"#]);
+    for (name, frameless) in [
+        ("autocorrelations", r#"{"quantity":"velocity","every":2,"window":8}"#),
+        ("histograms", r#"{"quantity":"velocity","every":2,"range":4}"#),
+    ] {
+        SHEARED.accepted(&[&format!("output.{name}=[{frameless}]")]);
+        let framed = frameless.replace('}', r#","frame":"centre-of-mass"}"#);
+        let found = format!("output.{name}[0].frame: found `centre-of-mass` in a scene with shear");
+        SHEARED.refused_with(&[&format!("output.{name}=[{framed}]")], &[&found, "linear profile"]);
+    }
     for analysis in [
         r#"diffusion={"every":2,"window":8}"#,
         r#"radial_distribution={"every":10,"range":2}"#,
         r#"viscosity={"every":2,"window":8}"#,
         r#"chain_sizes={"every":10}"#,
-        r#"autocorrelations=[{"quantity":"velocity","every":2,"window":8}]"#,
-        r#"histograms=[{"quantity":"velocity","every":2,"range":4}]"#,
     ] {
         let name = analysis.split('=').next().unwrap();
         let named = format!("output.{name}: found in a scene with shear");

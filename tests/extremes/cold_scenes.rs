@@ -2,7 +2,7 @@
 //! cold it is, and resolve it.
 
 use mesoscope::families::Model;
-use mesoscope::families::reference::{CouplingsReference, Reference, Unstable};
+use mesoscope::families::reference::{Reference, Unstable};
 use mesoscope::scene::{self, Scene};
 use serde_json::{Value, json};
 
@@ -61,8 +61,8 @@ fn largest(interactions: &Value, temperature: f64) -> (u32, f64) {
     let unit = model.units.momentum;
     let state = mesoscope::families::initial_state(&scene, &model);
     let mut most = largest_of(&state.momenta);
-    if model.particles().are_coupled {
-        let mut run = CouplingsReference::new(model, state);
+    if !model.particles().splits(&model) {
+        let mut run = Reference::new(model, state);
         for _ in 0..80 {
             match run.step() {
                 Ok(()) => {}
@@ -201,7 +201,7 @@ fn springs_start_as_far_from_rest_as_the_scene_says() {
             let model = Model::new(&scene);
             let state = mesoscope::families::initial_state(&scene, &model);
             let unit = model.units.momentum;
-            let mut run = CouplingsReference::new(model, state);
+            let mut run = Reference::new(model, state);
             let mut units = 0;
             for _ in 0..120 {
                 run.step().unwrap();

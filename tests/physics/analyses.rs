@@ -57,6 +57,50 @@ fn displacements_count_every_crossing_between_samples() {
     }
 }
 
+/// Velocities relative to the flow of an ideal gas with `langevin` in shear: ⟨u²⟩ = kT (1 + rate²/2γ²) along the flow, kT across it, and
+/// ⟨u(t) u(0)⟩ decays at the rate γ but for what the velocity across carries through the flow,
+/// ⟨u·u⟩(t) = exp(-γt) (2 kT + ⟨u²⟩ + rate² kT t/2γ).
+#[test]
+fn velocities_in_shear_are_relative_to_the_flow() {
+    let (rate, friction) = (1.5_f64, 2.0_f64);
+    let along = 1.0 + (rate / friction).powi(2) / 2.0;
+    for integrator in [SPLITTING, COTTER_REICH] {
+        let directory = tempfile::tempdir().unwrap();
+        let scene = gas(&[
+            integrator,
+            &format!(r#"space.shear={{"rate":{rate},"gradient":"y"}}"#),
+            &format!(r#"interactions=[{{"type":"langevin","friction":{friction}}}]"#),
+            "particles.0.count=2000",
+            "time.step=0.02",
+            "time.steps=2400",
+            "time.equilibration=300",
+            r#"output.histograms=[{"quantity":"velocity","every":20,"bins":60,"range":6}]"#,
+            r#"output.autocorrelations=[{"quantity":"velocity","every":5,"window":10}]"#,
+            "output.plot.width=640",
+            "output.plot.height=480",
+        ]);
+        let outcome = run(scene, directory.path());
+        let near = |what: &str, found: f64, expected: f64, error: f64| {
+            println!("{integrator} {what}: {found} expected {expected} ± {error}");
+            assert!(
+                (found - expected).abs() < 4.0 * error,
+                "{integrator} {what}: {found}, expected {expected} ± {error}"
+            );
+        };
+        // Of 120 samples, decorrelated by exp(-0.8) from each other, 50 independent ones of 2 000 squares, whose variance is 6 or more.
+        let error = (7.0 / (50.0 * 2000.0_f64)).sqrt();
+        near("mean square", number(&outcome, &["velocity_histogram", "mean_square"]), 2.0 + along, error);
+        let autocorrelation = table(directory.path(), "velocity_autocorrelation.csv");
+        let values = autocorrelation.column("autocorrelation").unwrap();
+        let times = autocorrelation.column("time").unwrap();
+        for (time, value) in times.iter().zip(&values).skip(1) {
+            let expected =
+                (-friction * time).exp() * (2.0 + along + rate * rate * time / (2.0 * friction)) / (2.0 + along);
+            near(&format!("at {time}"), *value, expected, 0.005);
+        }
+    }
+}
+
 /// Two hundred samples of a fluid at kT = 1, some time apart: velocities, speeds, and their autocorrelation.
 #[test]
 fn velocities_of_a_thermal_fluid_are_those_of_maxwell() {

@@ -24,7 +24,6 @@ fn springs_share_the_energy_of_heat() {
             "output.energies.every=20",
         ]);
         let (model, state) = start(&scene);
-        assert!(!model.particles().are_coupled);
         let mut run: Box<dyn Implementation> = if device {
             Box::new(Device::from_state(&scene, &state, Options::default()))
         } else {

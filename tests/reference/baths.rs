@@ -79,6 +79,56 @@ fn reports_of_baths_agree_with_the_reference() {
     }
 }
 
+/// Baths with memory and random forces are kicks of split steps, closing and opening, and advance once a step: with one and two stages of
+/// friction of pairs, with pairs that are visited once, with none, and beside baths in O.
+#[test]
+fn split_steps_beside_memory_and_random_forces_agree_with_the_reference() {
+    let memory = json!({"type": "memory", "rate": 3});
+    let tether = json!({"type": "tether", "stiffness": 7});
+    let slow = json!({"type": "langevin", "friction": 2, "bath": memory});
+    let white = json!({"type": "langevin", "friction": 2});
+    let noise = json!({"type": "coloured-noise", "strength": 20, "time": 0.1});
+    let dpd = json!({"type": "dpd", "repulsion": 25, "friction": 4.5});
+    let repulsive = json!({"type": "dpd", "repulsion": 25});
+    let dense = json!({"type": "dpd", "repulsion": -10, "friction": 4.5, "many_body": {"repulsion": 6}});
+    let spring = json!({"type": "harmonic", "stiffness": 40, "length": 0.5});
+    let ends = json!([[0, 1], [1, 100], [149, 3]]);
+    let remembering = json!({"type": "bonds", "pairs": ends, "potential": spring, "friction": 3, "bath": memory});
+    let rubbing = json!({"type": "bonds", "pairs": ends, "potential": spring, "friction": 3});
+    let one = json!({"type": "splitting", "relaxation": "mean-field"});
+    let two = json!({"type": "splitting", "relaxation": "two-stages"});
+    let cases = [
+        (&one, json!([dpd, slow, tether])),
+        (&two, json!([dpd, slow])),
+        (&one, json!([dpd, noise])),
+        (&two, json!([dpd, noise, remembering])),
+        (&one, json!([dpd, remembering])),
+        (&one, json!([dense, remembering, slow])),
+        (&one, json!([repulsive, white, remembering, noise])),
+        (&one, json!([repulsive, slow, rubbing, tether])),
+        (&one, json!([white, noise, remembering])),
+        (&one, json!([slow, rubbing])),
+    ];
+    for (number, (integrator, interactions)) in cases.into_iter().enumerate() {
+        let edges: &[f64] = if number % 2 == 0 { &[7.0, 6.0] } else { &[4.0, 5.0, 4.5] };
+        let mut document = document(edges, &interactions, number % 3 == 2);
+        document["integrator"] = integrator.clone();
+        document["time"]["step"] = json!(0.01);
+        let scene = scene(&document.to_string());
+        let (model, state) = start(&scene);
+        assert!(model.particles().splits(&model));
+        let mut both = SideBySide::new(scene.clone(), model, &state, Options::default());
+        let what = document.to_string();
+        both.steps(4, units_of_a_step(false), &what, |_, _, _| {});
+        let [found, expected] = both.energies(&what).map(|row| sums(&row));
+        let remembers = interactions.to_string().contains("memory");
+        for (number, (found, expected)) in found.into_iter().zip(expected).enumerate() {
+            assert!((found - expected).abs() < 1e-4 * expected.abs().max(1.0), "{number}: {found}, {expected}\n{what}");
+        }
+        assert_eq!(found[0] != 0.0, remembers, "{what}");
+    }
+}
+
 /// Before the first step baths and momenta are those that are drawn, whatever else has a bath: so is the mean of their products.
 #[test]
 fn products_are_means_over_the_coordinates_of_oscillators() {

@@ -7,7 +7,8 @@ use mesoscope::scene::Scene;
 use serde_json::{Value, json};
 
 use crate::support::{
-    Device, INTEGRATORS, Implementation, SideBySide, reference_of_particles, start, traversals, units_of_a_step,
+    COTTER_REICH, Device, GROOT_WARREN, INTEGRATORS, Implementation, SideBySide, reference_of_particles, start,
+    traversals, units_of_a_step,
 };
 
 const BOXES: [&[f64]; 2] = [&[9.0, 7.0], &[5.0, 4.0, 4.5]];
@@ -79,14 +80,14 @@ fn every_integrator_agrees_with_the_reference() {
     }
 }
 
-/// Without a force of pairs, without friction, with bonds, a body force and walls; on plans of either memory.
+/// Without a force of pairs, without friction, with bonds, a body force and walls; on the plans of the adapter and on those for any.
 #[test]
 fn what_is_beside_it_agrees_with_the_reference() {
     let alone = json!([{"type": "dpd", "many_body": {"repulsion": 25, "cutoff": 0.9}}]);
     let cold = json!([{"type": "dpd", "repulsion": -40, "many_body": {"repulsion": 25}}]);
     for (number, integrator) in INTEGRATORS.iter().enumerate() {
         let edges = BOXES[number % 2];
-        let options = Options { serial_memory: Some(number % 2 == 0), ..Options::default() };
+        let options = Options { serial_memory: (number % 2 == 1).then_some(false), ..Options::default() };
         agree(&liquid(edges, integrator, [&alone, &cold][number % 2], 1), options);
         // Of one species: with several, all of it binds more buffers than every adapter has.
         let mut driven = single();
@@ -101,6 +102,26 @@ fn what_is_beside_it_agrees_with_the_reference() {
             document["space"]["walls"] = json!({"y": {}});
         }
         agree(&document, options);
+    }
+}
+
+/// Friction along bonds with and without memory, gathered beside local densities: where steps are not split, with forces
+/// apart from friction.
+#[test]
+fn baths_of_bonds_beside_it_agree_with_the_reference() {
+    let spring = json!({"type": "harmonic", "stiffness": 40, "length": 0.5});
+    for (number, integrator) in [COTTER_REICH, GROOT_WARREN].into_iter().enumerate() {
+        for bath in [json!({"type": "white"}), json!({"type": "memory", "rate": 3})] {
+            if integrator == GROOT_WARREN && bath["type"] == "memory" {
+                continue;
+            }
+            let mut interactions = single();
+            let bonds = json!({"type": "bonds", "pairs": [[0, 1], [1, 2], [4, 3]], "potential": spring, "friction": 3,
+                "bath": bath});
+            interactions.as_array_mut().unwrap().push(bonds);
+            let options = Options { serial_memory: (number == 1).then_some(false), ..Options::default() };
+            agree(&liquid(BOXES[number], integrator, &interactions, 1), options);
+        }
     }
 }
 

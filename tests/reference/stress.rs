@@ -2,7 +2,7 @@
 
 use mesoscope::engine::Sample;
 use mesoscope::families::Model;
-use mesoscope::families::reference::{CouplingsReference, Reference, Virial};
+use mesoscope::families::reference::{Reference, Virial};
 use mesoscope::measure::observables_of;
 use mesoscope::plan::{Options, Traversal};
 use mesoscope::scene::Scene;
@@ -34,10 +34,10 @@ fn scene(edges: &[f64], integrator: &str, interactions: &Value, chains: bool) ->
 }
 
 fn virials(model: Model, state: State) -> Vec<Virial> {
-    if model.particles().splits(&model) && !model.particles().are_coupled {
+    if model.particles().splits(&model) {
         Reference::new(model, state).virials().unwrap()
     } else {
-        CouplingsReference::new(model, state).virials().unwrap()
+        Reference::new(model, state).virials().unwrap()
     }
 }
 

@@ -20,7 +20,7 @@ use mesoscope::shaders::space::Coefficients;
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
 
-use crate::support::{INTEGRATORS, MIXTURE, MIXTURE_FORCE, SPLITTING, STAGED, cells, fluid, water};
+use crate::support::{COTTER_REICH, INTEGRATORS, MIXTURE, MIXTURE_FORCE, SPLITTING, STAGED, cells, fluid, water};
 
 /// WebGPU's core limits.
 const STORAGE_BUFFERS: usize = 8;
@@ -65,6 +65,8 @@ pub fn plans() -> &'static [(String, Plan)] {
             driven_plans,
             walled_plans,
             sheared_plans,
+            sheared_coupled_plans,
+            kicked_plans,
             water_plans,
             shared_water_plans,
             coupled_plans,
@@ -255,9 +257,7 @@ fn shared_plans() -> Vec<(String, Plan)> {
         let kinds: [&[&str]; 6] =
             [&[], &[MIXTURE, MIXTURE_FORCE], &[dense], &driven, &[walled, MIXTURE, MIXTURE_FORCE], &[sheared]];
         for (number, kind) in kinds.iter().enumerate() {
-            // Boundaries that shear do not go with all integrators.
-            let refused = |integrator: &&&str| number == 5 && integrator.contains("cotter-reich");
-            for (column, integrator) in INTEGRATORS.iter().enumerate().filter(|(_, integrator)| !refused(integrator)) {
+            for (column, integrator) in INTEGRATORS.iter().enumerate() {
                 // Distances of pairs are not counted between walls and through boundaries that shear.
                 let radial = if number >= 4 { "time.steps=1000" } else { radial };
                 let followed = r#"output.trajectory={"every":5}"#;
@@ -311,12 +311,7 @@ fn shared_bond_plans() -> Vec<(String, Plan)> {
         {
             let comma = if pairs.is_empty() { "" } else { "," };
             let interactions = format!("interactions=[{bonds}{comma}{pairs}]");
-            let taken = |integrator: &&&str| match number {
-                3..=5 => integrator.contains("splitting"),
-                7 => !integrator.contains("cotter-reich"),
-                _ => true,
-            };
-            for (column, integrator) in INTEGRATORS.iter().filter(taken).enumerate() {
+            for (column, integrator) in INTEGRATORS.iter().enumerate() {
                 let sizes = if number == 0 { r#"output.chain_sizes={"every":2}"# } else { unchanged };
                 let changes =
                     [space, *integrator, &interactions, particles[(number + column) % 2], more, unchanged, sizes];
@@ -588,7 +583,7 @@ fn sheared_plans() -> Vec<(String, Plan)> {
                 let dense = if others.is_empty() { "" } else { r#","many_body":{"repulsion":9}"# };
                 let pairs = format!(r#"{{"type":"dpd","repulsion":25,"friction":4.5{dense}}}"#);
                 let interactions = format!("interactions=[{pairs}{others}]");
-                for integrator in INTEGRATORS.iter().filter(|integrator| !integrator.contains("cotter-reich")) {
+                for integrator in INTEGRATORS {
                     let alone = fluid(&[particles, "interactions=[]", space, integrator]);
                     plans.extend(plans_of(&format!("alone {space} {integrator}"), &alone, Options::default()));
                     for traversal in [Traversal::Rows, Traversal::Clusters] {
@@ -598,6 +593,146 @@ fn sheared_plans() -> Vec<(String, Plan)> {
                         let name = format!("{} {traversal:?}", changes.join(" "));
                         plans.extend(plans_of(&name, &fluid(&changes), options));
                     }
+                }
+            }
+        }
+    }
+    plans
+}
+
+/// The same beside lists of neighbours, baths and random forces; and baths along bonds beside local densities.
+fn sheared_coupled_plans() -> Vec<(String, Plan)> {
+    let particles = [
+        r#"particles=[{"species":"A","count":200}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+    ];
+    let sheared = [
+        r#"space={"box":[9,7],"shear":{"rate":0.2,"gradient":"y"}}"#,
+        r#"space={"box":[9,7,8],"shear":{"rate":-0.2,"gradient":"z"}}"#,
+    ];
+    let bonds = |more: &str| {
+        format!(r#"{{"type":"bonds","pairs":[[0,1]],"potential":{{"type":"harmonic","stiffness":9}}{more}}}"#)
+    };
+    let rubbing = bonds(r#","friction":1"#);
+    let excluding = bonds(r#","exclude_repulsion":true"#);
+    let remembering = bonds(r#","friction":1,"bath":{"type":"memory","rate":3}"#);
+    let dpd = r#"{"type":"dpd","repulsion":25,"friction":4.5}"#;
+    let memory = r#"{"type":"dpd","repulsion":25,"friction":4.5,"bath":{"type":"memory","rate":3}}"#;
+    let dense = r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}"#;
+    let white = r#"{"type":"langevin","friction":1}"#;
+    let white_in_box = r#"{"type":"langevin","friction":1,"velocity":"laboratory"}"#;
+    let slow = r#"{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3}}"#;
+    let noise = r#"{"type":"coloured-noise","strength":1,"time":0.1}"#;
+    let remembers = [
+        memory.to_owned(),
+        format!("{memory},{excluding}"),
+        format!("{dpd},{slow}"),
+        slow.to_owned(),
+        format!("{dpd},{remembering}"),
+    ];
+    let forgets = [
+        format!("{dpd},{white}"),
+        format!("{dpd},{white_in_box}"),
+        format!("{dpd},{rubbing}"),
+        rubbing.clone(),
+        white.to_owned(),
+    ];
+    let kicked = [format!("{dpd},{noise}"), noise.to_owned(), format!("{dpd},{noise},{excluding}")];
+    let beside_densities = [format!("{dense},{rubbing}"), format!("{dense},{remembering}")];
+    let at_rest = ["space.box=[9,7]", "space.box=[9,7,8]"];
+    let not_split = || INTEGRATORS.iter().filter(|integrator| !integrator.contains("splitting"));
+    let stress = r#"output.stress={"every":2}"#;
+    let mut scenes: Vec<[&str; 4]> = Vec::new();
+    for particles in particles {
+        for space in sheared {
+            scenes.extend(remembers.iter().map(|others| [particles, space, others, COTTER_REICH]));
+            for integrator in INTEGRATORS {
+                scenes.extend(forgets.iter().map(|others| [particles, space, others, integrator]));
+            }
+            for integrator in not_split() {
+                scenes.extend(kicked.iter().map(|others| [particles, space, others, *integrator]));
+            }
+        }
+        for space in at_rest {
+            for integrator in not_split() {
+                let densities = beside_densities
+                    .iter()
+                    .filter(|others| !others.contains("memory") || integrator.contains("cotter-reich"));
+                let all = densities.chain(&forgets[2..]);
+                scenes.extend(all.map(|others| [particles, space, others, *integrator]));
+            }
+        }
+    }
+    let mut plans = Vec::new();
+    for (number, [particles, space, others, integrator]) in scenes.into_iter().enumerate() {
+        let interactions = format!("interactions=[{others}]");
+        // Forces from places in space have no stress.
+        let measured = if others.contains("langevin") || others.contains("noise") { "time.steps=1000" } else { stress };
+        let changes = [particles, &interactions, space, integrator, measured];
+        let traversal = [Traversal::Rows, Traversal::Clusters][number % 2];
+        let options = Options { traversal: Some(traversal), ..Options::default() };
+        plans.extend(plans_of(&format!("{} {traversal:?}", changes.join(" ")), &fluid(&changes), options));
+    }
+    plans
+}
+
+/// Baths with memory and random forces in split steps.
+fn kicked_plans() -> Vec<(String, Plan)> {
+    let bonds = |bath: &str| {
+        format!(
+            r#"{{"type":"bonds","pairs":[[0,1]],"potential":{{"type":"harmonic","stiffness":9}},"friction":1{bath}}}"#
+        )
+    };
+    let remembering = bonds(r#","bath":{"type":"memory","rate":3}"#);
+    let rubbing = bonds("");
+    let slow = r#"{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3}}"#;
+    let cold = r#"{"type":"langevin","friction":1,"bath":{"type":"memory","rate":3,"temperature":0}}"#;
+    let white = r#"{"type":"langevin","friction":1}"#;
+    let noise = r#"{"type":"coloured-noise","strength":1,"time":0.1}"#;
+    let tether = r#"{"type":"tether","stiffness":3}"#;
+    let pairs = [
+        r#"{"type":"dpd","repulsion":25,"friction":4.5}"#,
+        r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}"#,
+    ];
+    let beside = [
+        format!("{slow},{tether}"),
+        cold.to_owned(),
+        noise.to_owned(),
+        remembering.clone(),
+        format!("{noise},{remembering}"),
+        format!("{slow},{noise}"),
+    ];
+    let dpd = r#"{"type":"dpd","repulsion":25}"#;
+    let once = [
+        format!("{dpd},{white},{noise},{remembering}"),
+        format!("{dpd},{slow},{rubbing}"),
+        format!("{white},{noise},{remembering}"),
+        format!("{slow},{rubbing},{tether}"),
+    ];
+    let interactions: Vec<String> = pairs
+        .iter()
+        .flat_map(|pairs| beside.iter().map(move |beside| format!("{pairs},{beside}")))
+        .chain(once)
+        .collect();
+    let particles = [
+        r#"particles=[{"species":"A","count":200}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+    ];
+    let spaces = ["space.box=[9,7]", "space.box=[9,7,8]", r#"space={"box":[9,7,8],"walls":{"z":{}}}"#];
+    let mut plans = Vec::new();
+    for (number, interactions) in interactions.iter().enumerate() {
+        for particles in particles {
+            // Tethers do not go with walls.
+            let spaces = if interactions.contains("tether") { &spaces[..2] } else { &spaces };
+            for (place, space) in spaces.iter().enumerate() {
+                for integrator in [SPLITTING, STAGED] {
+                    let forces = r#"output.histograms=[{"quantity":"acceleration","every":2}]"#;
+                    let measured = if (number + place) % 2 == 0 { forces } else { "time.steps=1000" };
+                    let interactions = format!("interactions=[{interactions}]");
+                    let changes = [particles, &interactions, space, integrator, measured];
+                    let traversal = [Traversal::Rows, Traversal::Clusters][number % 2];
+                    let options = Options { traversal: Some(traversal), ..Options::default() };
+                    plans.extend(plans_of(&format!("{} {traversal:?}", changes.join(" ")), &fluid(&changes), options));
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use mesoscope::engine::Engine;
 use mesoscope::families::Model;
-use mesoscope::families::reference::{CouplingsReference, Reference, ShallowWaterReference, VoronoiReference};
+use mesoscope::families::reference::{Reference, ShallowWaterReference, VoronoiReference};
 use mesoscope::measure::Observables;
 use mesoscope::plan::Options;
 use mesoscope::scene::Scene;
@@ -66,15 +66,15 @@ macro_rules! reference {
     };
 }
 
-reference!(Reference, CouplingsReference, ShallowWaterReference, VoronoiReference);
+reference!(Reference, ShallowWaterReference, VoronoiReference);
 
 /// The reference of particles that suits a model: split steps are those of pairs, with bonds and angles; all others are those of
 /// couplings.
 pub fn reference_of_particles(model: Model, state: State) -> Box<dyn Implementation> {
-    if model.particles().splits(&model) && !model.particles().are_coupled {
+    if model.particles().splits(&model) {
         Box::new(Reference::new(model, state))
     } else {
-        Box::new(CouplingsReference::new(model, state))
+        Box::new(Reference::new(model, state))
     }
 }
 

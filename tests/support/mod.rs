@@ -47,7 +47,7 @@ pub fn adapter() -> AdapterChoice {
 pub fn requirements() -> Requirements {
     static MET: OnceLock<Requirements> = OnceLock::new();
     *MET.get_or_init(|| {
-        let most = Requirements { storage_buffers: 10, ..Requirements::default() };
+        let most = Requirements { storage_buffers: 12, ..Requirements::default() };
         if Gpu::open(&adapter(), most).is_ok() { most } else { Requirements::default() }
     })
 }

@@ -1,7 +1,7 @@
 // A random force on every particle that is constant for random times, independent of the time step: its impulses are integrals
 // over all jumps, wherever within a step they come.
 //
-// Slot baths/jump: `jump_of` gives the next force and how long it lasts, in half steps, from an id and the number of the
+// Slot baths/jump: `jump_after` gives the next force and how long it lasts, in half steps, from an id and the number of the
 // jump. Variants kangaroo, kangaroo_exponential, literal, short; the plan follows the process of the scene. No default.
 override HOLD_IMPULSE: f32; // impulse of half a step per force
 
@@ -32,7 +32,7 @@ fn cross_half_step(id: u32, hold: ptr<function, Hold>) -> Steps {
     for (var jumps = 0u; halves == 0u && fraction < rest && jumps < MOST_JUMPS; jumps += 1u) {
         integral += fraction * force;
         rest -= fraction;
-        let next = jump_of(id, jump);
+        let next = jump_after(id, jump);
         let time = clamp(next.time, 0.0, LONGEST_HOLD);
         force = next.force;
         halves = u32(time);

@@ -3,7 +3,7 @@
 override HOLD_FORCE: f32; // √α
 override HOLD_TIME: f32;  // ε in half steps
 
-fn jump_of(id: u32, jump: u32) -> Jump {
+fn jump_after(id: u32, jump: u32) -> Jump {
     let words = words_of_jump(id, jump, 0u);
     let direction = direction_of(words.y, words_of_jump(id, jump, 1u).y);
     return Jump(HOLD_FORCE * direction, HOLD_TIME / sqrt(uniform_of_jump(words.x)));

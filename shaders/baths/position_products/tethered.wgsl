@@ -3,9 +3,6 @@ override BATH_MOMENTUM: f32;         // bath times momentum, over its quantum
 override BATH_DISPLACEMENT: f32;     // bath times displacement, over its quantum
 override MOMENTUM_DISPLACEMENT: f32; // momentum times displacement, over its quantum
 
-fn reduce_bath_products(group: u32, lane: u32) {
-    reduce_totals(group, lane, SUM_BATH_MOMENTUM, SUM_MOMENTUM_DISPLACEMENT);
-}
 fn note_bath_products(position: vec4<u32>, species: i32, bath: Vector, momentum: Vector) {
     if (position_energy(species) == 0.0) { return; }
     let displacement = separation(position, tethers[position.w]);

@@ -3,7 +3,8 @@ override POSITION_LOSS: f32; // the part of a bath that is lost in a step
 
 fn position_bath(me: Particle, species: i32) -> Vector {
     let id = me.position.w;
-    let drift = Vector(last_way(me.position, me.momentum)) * unit_lengths();
+    let way = last_way(me.position, me.momentum);
+    let drift = Vector(way) * unit_lengths() - flow_of_drift(me, way);
     let before = bath_of(position_baths[id]);
     let response = position_response(species);
     var after = before;
@@ -16,3 +17,4 @@ fn position_bath(me: Particle, species: i32) -> Vector {
 }
 fn position_impulse(bath: Vector) -> Vector { return impulse_per_bath(1.0) * bath; }
 fn keep_position_bath(id: u32, bath: Vector) { position_baths[id] = bath_word(bath); }
+fn kept_position_bath(id: u32) -> Vector { return bath_of(position_baths[id]); }

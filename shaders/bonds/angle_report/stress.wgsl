@@ -1,9 +1,9 @@
 // The stress of angles at a report: of both arms from the vertex, whose traces cancel. The sum of r f over both is symmetric, because an
 // angle does not change when it is turned.
 fn note_angle(stiffness: f32, corner: Corner, first: Steps, last: Steps) {
-    let middle = particle_in(corner.slots.y);
-    let first_arm = separation(particle_in(corner.slots.x).position, middle.position);
-    let last_arm = separation(particle_in(corner.slots.z).position, middle.position);
+    let middle = particle_at(corner.slots.y);
+    let first_arm = separation(particle_at(corner.slots.x).position, middle.position);
+    let last_arm = separation(particle_at(corner.slots.z).position, middle.position);
     let a = padded(first_arm);
     let b = padded(last_arm);
     let f = padded(Vector(first));

@@ -1,5 +1,6 @@
 // A report of excluded pairs: motion and configuration.
 fn note_excluded(pair: Ends, repulsion: Repulsion, contact: Contact) {
+    gather_force_of_excluded(pair, repulsion, contact);
     if (!is_counted(pair)) { return; }
     note_virial_of_excluded(pair, repulsion, contact);
     note_configuration_of_excluded(pair, repulsion, contact);

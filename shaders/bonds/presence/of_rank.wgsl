@@ -6,7 +6,7 @@ fn are_known(slots_of_ends: vec3<u32>) -> bool {
     let known = slots_of_ends != vec3<u32>(NOWHERE);
     if (all(known)) { return true; }
     for (var end = 0u; end < 3u; end++) {
-        if (known[end] && lies_in(bonded_domain(), particle_in(slots_of_ends[end]).position)) { raise(FAILURE_REACH); }
+        if (known[end] && lies_in(bonded_domain(), particle_at(slots_of_ends[end]).position)) { raise(FAILURE_REACH); }
     }
     return false;
 }

@@ -24,7 +24,16 @@ fn own_impulse(bath: Vector) -> Steps {
 fn observe_own_products(me: Particle, momentum: Steps) {
     note_bath_products(me.position, species_of(me), observed_bath, Vector(momentum));
 }
-fn reduce_own(group: u32, lane: u32) {
-    reduce_position_baths(group, lane);
-    reduce_bath_products(group, lane);
+// A report takes what is in `kicks` twice for the impulse of a whole step: it lacks what the closing half step has beyond the opening one.
+fn leave_opening(slot: u32, me: Particle, own: OwnImpulses) {
+    kicks[slot] = momentum_word(steps_of(kicks[slot]) + own.both + own.opening, 0);
+    begin_force();
+    add_reported_force(momentum_word(own.closing - own.opening, 0));
+    store_force(me.position.w);
 }
+fn observe_advanced_own(me: Particle, momentum: Steps) {
+    observed_bath = kept_position_bath(me.position.w);
+    note_position_bath(species_of(me), observed_bath);
+    observe_own_products(me, momentum);
+}
+fn finish_own() { raise(failures_of_particles); }

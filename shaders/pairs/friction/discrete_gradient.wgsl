@@ -7,7 +7,8 @@ fn friction_impulse(c: Coefficients, contact: Contact, root: f32, me: Particle, 
     let first = drift_steps(select(other.momentum, me.momentum, in_order));
     let second = drift_steps(select(me.momentum, other.momentum, in_order));
     let drifted = select(second - first, first - second, in_order);
-    let d = Vector(signed(fraction_of(me.position) - fraction_of(other.position)) - drifted) * unit_lengths();
+    let way = drifted - copy_drift(me.position, other.position);
+    let d = Vector(way_between(me.position, other.position) - way) * unit_lengths();
     let before = coupling(max(1.0 - length(d) * (1.0 / CUTOFF), 0.0));
     return -c.friction * FRICTION_PER_LENGTH * root * (coupling(contact.w) - before);
 }

@@ -13,14 +13,11 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).rate += select(0u, rate_units(friction_rate(c, root) * rate_scale_of(species_of(me))), contact.inside);
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
-    let kick = sums.kick + gathered_kick(index) + external_kick(me);
+    let own = advance_own(me);
+    let kick = sums.kick + gathered_kick(index) + external_kick(me) + own.both + own.closing;
+    leave_opening(index, me, own);
     let momentum = held_momentum(me, steps_of(me.momentum) + clock_closing() * kick);
     let word = momentum_word(momentum, species_of(me) | (min(i32(sums.rate), RATE_LIMIT) << 8u));
-    keep_momentum(index, word);
-    let column = column_of(fraction_of(me.position));
-    if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
-        let copies = cell_at(row * row_width() + select(0u, CELLS_X + 1u, column == 0u));
-        keep_momentum(copies + index - cell_at(cell_index(row, column)), word);
-    }
+    keep_momentum_of_all(row, index, me, word);
 }
-fn pass_finish(group: u32, lane: u32) {}
+fn pass_finish(group: u32, lane: u32) { finish_own(); }

@@ -15,7 +15,9 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     failures_of_particles |= select(FAILURE_IMPULSE, 0u, is_within(sums.strain, STRAIN_LIMIT));
     let kick = sums.kick + gathered_kick(index);
     kicks[index] = momentum_word(kick, 0);
-    let momentum = steps_of(me.momentum) + clock_closing() * (kick + external_kick(me));
+    let own = advance_own(me);
+    leave_opening(index, me, own);
+    let momentum = steps_of(me.momentum) + clock_closing() * (kick + external_kick(me) + own.both + own.closing);
     replace_momentum(index, me, held_momentum(me, momentum));
 }
 fn pass_finish(group: u32, lane: u32) { raise(failures_of_particles); }

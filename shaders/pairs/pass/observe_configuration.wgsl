@@ -1,7 +1,5 @@
 // The configuration at the report of a split step, half a drift after the relaxation: there positions are
 // distributed most accurately, and there the symmetric step begins and ends.
-var<storage, read_write> particles: array<Particle>;
-
 fn pass_begin(me: Particle) -> PairSums { return no_pairs(); }
 fn pass_pair(sums: ptr<function, PairSums>, me: Particle, other_index: u32) {
     let other = particle_at(other_index);
@@ -12,7 +10,7 @@ fn pass_pair(sums: ptr<function, PairSums>, me: Particle, other_index: u32) {
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: PairSums) {
     // All are stored: they go on from here.
-    particles[reported_place(row, index, me.position.w)] = me;
+    report_particle(row, index, me);
     let bonded = take_gathered_kick(index);
     if (is_own(me.position)) { report_configuration(me, sums, bonded); }
 }

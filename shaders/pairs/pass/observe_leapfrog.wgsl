@@ -21,24 +21,22 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).pairs = pairs;
 }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
+    let bonded = take_gathered_kick(index);
+    let conservative = conservative_kick(index, bonded);
     if (!is_own(me.position)) { return; }
-    let bonded = gathered_kick(index);
-    report_configuration(me, sums.pairs, bonded);
+    report_configuration(me, sums.pairs, conservative);
     let own = observe_own(me);
     let kick = sums.kick + bonded + external_kick(me) + own.both + own.closing;
     let momentum = steps_of(me.momentum) + clock_closing() * kick;
     report_motion(me, momentum, sums.pairs.virial);
     add_reported_force(momentum_word(kick, 0));
     store_force(me.position.w);
-    let place = reported_place(row, index, me.position.w);
     let kept = reported_motion(me, momentum);
     observe_own_products(me, kept);
     let word = momentum_word(kept, species_of(me));
-    store_particle(place, advanced_particle(me.position, word, Steps(0)));
+    report_particle(row, index, advanced_particle(me.position, word, Steps(0)));
 }
 fn pass_finish(group: u32, lane: u32) {
-    reduce_motion(group, lane);
-    reduce_configuration(group, lane);
-    reduce_own(group, lane);
+    total_reduce(group, lane);
     reduce_absorbed(group, lane);
 }

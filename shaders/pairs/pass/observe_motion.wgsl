@@ -27,11 +27,14 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     if (!is_own(me.position)) { return; }
     let momentum = steps_of(me.momentum) + sums.impulse;
     report_motion(me, momentum, sums.virial);
-    store_momentum(me.position.w, momentum_word(reported_motion(me, momentum), species_of(me)));
+    let kept = reported_motion(me, momentum);
+    observe_advanced_own(me, kept);
+    store_momentum(me.position.w, momentum_word(kept, species_of(me)));
     add_reported_force(momentum_word(2 * (gathered_kick(index) + external_kick(me)), 0));
     store_force(me.position.w);
 }
 fn pass_finish(group: u32, lane: u32) {
     reduce_motion(group, lane);
+    reduce_baths(group, lane);
     reduce_absorbed(group, lane);
 }

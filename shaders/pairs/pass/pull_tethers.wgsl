@@ -1,5 +1,4 @@
-// The tethers of sorted particles, which the plan of pairs visits alone: the impulse of half a step is added to
-// `kicks`, as that of other couplings. The law is in bonds/tethers.
+// Tethers: the impulse of half a step is added to `kicks`, as that of other couplings. The law is in bonds/tethers.
 fn pass_begin(me: Particle) -> Vector { return separation(me.position, tethers[me.position.w]); }
 fn pass_end(row: u32, index: u32, me: Particle, length: Vector) {
     let impulse = impulse_of_tether(length);

@@ -9,7 +9,7 @@ fn pass_begin(me: Particle) -> Steps {
     let species = species_of(me);
     var noise = Vector(0.0);
     for (var axis = 0u; axis < DIMENSION; axis++) { noise[axis] = position_noise(me.position.w, species, axis); }
-    let lost = position_response(species) * Vector(steps_of(me.momentum));
+    let lost = position_response(species) * (Vector(steps_of(me.momentum)) - flow_of_particle(me));
     return clock_closing() * Steps(round(noise - lost));
 }
 fn pass_end(row: u32, index: u32, me: Particle, impulse: Steps) {

@@ -1,5 +1,5 @@
 // The ids are noted, by which the law finds the densities of the pair.
 fn separation(position: vec4<u32>, other: vec4<u32>) -> Vector {
     pair_ids = vec2<u32>(position.w, other.w);
-    return Vector(signed(fraction_of(position) - fraction_of(other))) * unit_lengths();
+    return Vector(way_between(position, other)) * unit_lengths();
 }

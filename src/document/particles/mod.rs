@@ -10,4 +10,6 @@ pub use body_force::{BodyForceInteraction, ForceProfile};
 pub use chains::{AnglesInteraction, BondPotential, BondsInteraction};
 pub use harmonic_chain::{ChainEquilibrium, ChainOutput, ChainPulse, HarmonicChainInteraction};
 pub use pairs::*;
-pub use single::{ColouredNoiseInteraction, LangevinInteraction, NoiseProcess, SpeciesFriction, TetherInteraction};
+pub use single::{
+    ColouredNoiseInteraction, FrictionVelocity, LangevinInteraction, NoiseProcess, SpeciesFriction, TetherInteraction,
+};

@@ -19,6 +19,19 @@ pub struct LangevinInteraction {
     /// The heat bath of every coordinate.
     #[serde(default, skip_serializing_if = "Bath::is_plain")]
     pub bath: Bath,
+    /// In a sheared box, the velocity that friction acts on: `peculiar` if left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub velocity: Option<FrictionVelocity>,
+}
+
+/// The velocity on which friction of single particles acts where boundaries shear.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrictionVelocity {
+    /// Relative to the linear profile of the flow, which then persists.
+    Peculiar,
+    /// Relative to the box, whose middle is at rest: friction slows the flow.
+    Laboratory,
 }
 
 /// The friction of one species.

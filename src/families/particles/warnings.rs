@@ -27,7 +27,7 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
         }
     }
     warn_of_places(scene, &mut warnings);
-    if particles.are_coupled || particles.are_sprung() || particles.acts_on_particles(model) {
+    if particles.have_more_than_pairs(model) {
         warnings.extend(stability::warn(scene, model));
         warn_of_springs(scene, &mut warnings);
     }

@@ -14,7 +14,7 @@ pub(super) mod bath;
 
 use crate::state::State;
 
-pub use super::particles::reference::{CouplingsReference, Reference, Relaxation, Virial};
+pub use super::particles::reference::{Reference, Relaxation, Virial};
 pub use super::shallow_water::reference::ShallowWaterReference;
 pub use super::voronoi::reference::VoronoiReference;
 

@@ -250,7 +250,7 @@ impl Physics for ShallowWater {
         format!("a velocity is above {}, {reason}", brief(limit * plan.units.momentum))
     }
 
-    fn crowd(&self) -> &'static str {
+    fn crowd(&self, _: &Model) -> &'static str {
         "too many particles are in one cell of the mesh"
     }
 

@@ -177,7 +177,7 @@ impl Physics for Voronoi {
         "a momentum is more than 1024 times its natural scale".to_owned()
     }
 
-    fn crowd(&self) -> &'static str {
+    fn crowd(&self, _: &Model) -> &'static str {
         "a cell has more corners than its capacity"
     }
 

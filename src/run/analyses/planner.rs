@@ -138,7 +138,9 @@ impl<'a> Planner<'a> {
             (false, true) => Sampled::PeculiarVelocity,
             (false, false) => Sampled::Velocity,
         });
-        let natural = if self.model.conserves_momentum() { Frame::Box } else { Frame::CentreOfMass };
+        // In a sheared box velocities are relative to the flow already.
+        let in_box = self.model.conserves_momentum() || self.model.particles().shear.is_some();
+        let natural = if in_box { Frame::Box } else { Frame::CentreOfMass };
         if asked.unwrap_or(natural) == Frame::Box {
             return (velocity, Vec::new());
         }

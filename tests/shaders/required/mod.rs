@@ -48,8 +48,9 @@ fn plan_as_it_is(scene: &Scene, hardware: Hardware, listed: bool) -> Plan {
     run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, hardware, options)
 }
 
-fn is_coupled(plan: &Plan) -> bool {
-    plan.kernels.iter().any(|kernel| kernel.entry == Entry::MoveParticles)
+/// Particles stay as they are stored, but for lists of pairs.
+fn are_stored(plan: &Plan) -> bool {
+    plan.kernels.iter().any(|kernel| kernel.entry == Entry::VisitStored)
 }
 
 /// A word for plans that are made alike.
@@ -57,13 +58,13 @@ fn kind(scene: &Value, plan: &Plan) -> &'static str {
     match () {
         () if interaction(scene, "shallow-water").is_some() => "shallow water",
         () if interaction(scene, "voronoi").is_some() => "Voronoi cells",
-        () if is_coupled(plan) => "couplings",
-        () => "pairs alone",
+        () if are_stored(plan) => "stored particles",
+        () => "particles in cells",
     }
 }
 
-/// Plans with a feature and without it, of all shipped scenes that can have it, with the kind of each pair. Those of pairs alone
-/// are also made as couplings are.
+/// Plans with a feature and without it, of all shipped scenes that can have it, with the kind of each pair. Those whose
+/// particles are in cells are also made with a list.
 fn pairs_of_plans(feature: &Feature) -> Vec<(&'static str, Plan, Plan)> {
     let mut pairs = Vec::new();
     for (number, (_, mut ground)) in shipped().into_iter().enumerate() {
@@ -77,13 +78,13 @@ fn pairs_of_plans(feature: &Feature) -> Vec<(&'static str, Plan, Plan)> {
         for listed in [false, true] {
             let plans = [&on, &off].map(|scene| plan_of(scene, ADAPTERS[number % 2], listed));
             let [Some(with), Some(without)] = plans else { break };
-            // Some features make couplings of pairs alone, which are planned in another way as a whole.
-            if is_coupled(&with) != is_coupled(&without) {
+            // Some features need another order of particles, and with it other kernels as a whole.
+            if are_stored(&with) != are_stored(&without) {
                 continue;
             }
             let kind = kind(&on, &with);
             pairs.push((kind, with, without));
-            if kind != "pairs alone" {
+            if kind != "particles in cells" {
                 break;
             }
         }

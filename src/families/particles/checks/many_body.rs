@@ -1,6 +1,6 @@
 //! Checks of the many-body repulsion that a schema cannot express.
 
-use super::{depends_on_density, is_coupled, reason};
+use super::depends_on_density;
 use crate::document::{DpdInteraction, Interaction, Problem, Problems, Scene};
 
 /// Checks the many-body repulsion of an interaction by itself.
@@ -35,10 +35,12 @@ pub(super) fn check(dpd: &DpdInteraction, species: usize, path: &str, problems: 
 pub(super) fn check_together(scene: &Scene, problems: &mut Problems) {
     let Some(index) = scene.interactions.iter().position(depends_on_density) else { return };
     let path = format!("interactions[{index}].many_body");
-    if is_coupled(scene) {
-        let accepted = "a many-body repulsion of pairs without memory, in two or three dimensions, and beside it friction \
-                        along bonds only where steps are `splitting`: local densities are found in cells, not in lists";
-        problems.push(Problem::new(&path, format!("found together with {}", reason(scene)), accepted));
+    let remembers = matches!(&scene.interactions[index], Interaction::Dpd(dpd) if dpd.remembers());
+    let listed = [(remembers, "a bath with memory"), (scene.space.lengths.len() == 1, "a box of one dimension")];
+    if let Some((_, what)) = listed.into_iter().find(|(there, _)| *there) {
+        let accepted = "a many-body repulsion of pairs without memory, in two or three dimensions: local densities are \
+                        found in cells, not in lists";
+        problems.push(Problem::new(&path, format!("found together with {what}"), accepted));
     }
     let excludes =
         |interaction: &Interaction| matches!(interaction, Interaction::Bonds(bonds) if bonds.exclude_repulsion);

@@ -33,7 +33,13 @@ pub(crate) fn check_interaction(
             let frictions = std::iter::once((format!("{path}.friction"), dpd.friction)).chain(named).collect();
             check_bath(&dpd.bath, frictions, path, problems);
         }
-        Interaction::Langevin(langevin) => check_langevin(names, langevin, path, problems),
+        Interaction::Langevin(langevin) => {
+            if langevin.velocity.is_some() && scene.space.shear.is_none() {
+                let accepted = "no `velocity`: only in a box with `space.shear` are there two that friction may act on";
+                problems.push(Problem::new(format!("{path}.velocity"), "found in a box without shear", accepted));
+            }
+            check_langevin(names, langevin, path, problems);
+        }
         Interaction::Bonds(bonds) => check_bonds(scene, names, bonds, path, problems),
         Interaction::BodyForce(force) => body_force::check(scene, names, force, path, problems),
         Interaction::Angles(angles) => check_angles(scene, names, angles, path, problems),
@@ -292,21 +298,10 @@ fn half_box(scene: &Scene) -> f64 {
 
 fn check_integrator(scene: &Scene, problems: &mut Problems) {
     match scene.integrator {
-        Integrator::Splitting { .. } if is_coupled(scene) => {
-            let found = format!(
-                "found `splitting`, whose steps are split for baths without memory only, together with {}",
-                reason(scene)
-            );
-            let accepted = "`cotter-reich`, which takes all couplings and baths together; or no integrator at all";
-            problems.push(Problem::new("integrator.type", found, accepted));
-        }
+        Integrator::Splitting { .. } => check_splitting(scene, problems),
         Integrator::GrootWarren { .. } => check_groot_warren(scene, problems),
         // The last two are refused with all other scenes that are not of shallow water.
-        Integrator::Splitting { .. }
-        | Integrator::CotterReich {}
-        | Integrator::Gyro {}
-        | Integrator::Rotate {}
-        | Integrator::Euler {} => {}
+        Integrator::CotterReich {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {}
     }
 }
 
@@ -326,44 +321,47 @@ pub(super) fn check_rounds(particles: &Particles, problems: &mut Problems) {
     problems.push(Problem::new("integrator.type", found, accepted));
 }
 
-/// What makes a scene a coupled one, for messages.
-fn reason(scene: &Scene) -> String {
-    first_of_more(scene, |interaction| goes_with_pairs(scene, interaction))
-}
-
-/// What a scene has beyond pairs without memory, bonds and angles without a bath, if anything.
-fn beyond_pairs(scene: &Scene) -> Option<String> {
-    has_more_than(scene, |_| false).then(|| first_of_more(scene, |_| false))
-}
-
-/// The first thing beyond pairs, bonds and angles, and what else is taken.
-fn first_of_more(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> String {
-    for (index, interaction) in acting(scene).filter(|(_, interaction)| !taken(interaction)) {
-        let what = match interaction {
-            Interaction::Dpd(dpd) if dpd.remembers() => "a bath with memory",
-            Interaction::Langevin(_) => "a bath on every particle",
-            Interaction::ColouredNoise(_) => "a coloured noise",
-            Interaction::Tether(_) => "tethers",
-            Interaction::Bonds(bonds) if bonds.has_bath() => "a bath on every bond",
-            Interaction::HarmonicChain(_) => "harmonic chains",
-            _ => continue,
-        };
-        return format!("{what} in interactions[{index}]");
+/// Split steps find pairs in cells; baths with memory and random forces of single particles and bonds are part of their kicks.
+fn check_splitting(scene: &Scene, problems: &mut Problems) {
+    if !scene.interactions.iter().all(Interaction::is_of_particles) {
+        return;
     }
-    "a box of one dimension".to_owned()
+    let listed = acting(scene).find_map(|(index, interaction)| {
+        let what = match interaction {
+            Interaction::Dpd(dpd) if dpd.remembers() => "pairs with memory",
+            Interaction::HarmonicChain(_) => "harmonic chains",
+            _ => return None,
+        };
+        Some(format!("{what} in interactions[{index}]"))
+    });
+    let bonds = |remembers: bool| {
+        acting(scene).any(|(_, interaction)| {
+            matches!(interaction, Interaction::Bonds(bonds) if bonds.has_bath() && bonds.bath.remembers() == remembers)
+        })
+    };
+    let mixed = (bonds(true) && bonds(false)).then(|| "friction along bonds with and without memory".to_owned());
+    let line = (scene.space.lengths.len() == 1).then(|| "a box of one dimension".to_owned());
+    if let Some(what) = listed.or(mixed).or(line) {
+        let found = format!("found `splitting` together with {what}");
+        let accepted = "`cotter-reich`, which takes all couplings and baths together; or no integrator at all";
+        problems.push(Problem::new("integrator.type", found, accepted));
+    }
 }
 
 fn check_groot_warren(scene: &Scene, problems: &mut Problems) {
     for (index, interaction) in acting(scene) {
         let found = match interaction {
             Interaction::Dpd(dpd) if dpd.remembers() => "a bath with memory",
-            Interaction::Langevin(_) => "a bath on every particle",
-            Interaction::Bonds(bonds) if bonds.has_bath() => "a bath on every bond",
+            Interaction::Langevin(langevin) if langevin.bath.remembers() => "a bath with memory on every particle",
+            Interaction::Bonds(bonds) if bonds.has_bath() && bonds.bath.remembers() => {
+                "a bath with memory on every bond"
+            }
             Interaction::HarmonicChain(_) => "chains with baths on their springs",
             _ => continue,
         };
         let found = format!("found `groot-warren` and {found} in interactions[{index}]");
-        let accepted = "`cotter-reich`; `groot-warren` takes friction between pairs without memory only";
+        let accepted =
+            "`cotter-reich`; a bath with memory is coupled to places, and `groot-warren` takes friction of velocities";
         problems.push(Problem::new("integrator.type", found, accepted));
     }
 }

@@ -1,7 +1,7 @@
 //! Checks of shear that a schema cannot express.
 
-use super::{beyond_pairs, is_fixed_in_space};
-use crate::document::{Axis, DpdInteraction, Integrator, Interaction, Output, Problem, Problems, Scene, brief};
+use super::{acts, is_fixed_in_space};
+use crate::document::{Axis, DpdInteraction, Frame, Interaction, Output, Problem, Problems, Scene, brief};
 use crate::families::{Model, ShearedBox};
 
 /// The largest jump of momentum at a boundary, in its units: half of it, the flow at a boundary, leaves room for heat.
@@ -39,13 +39,20 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     } else {
         check_edge(scene, shear.gradient, &mut refuse);
     }
-    let beyond = beyond_pairs(scene);
-    if let Some(more) = &beyond {
+    let tied = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_)) && acts(interaction);
+    if let Some(index) = scene.interactions.iter().position(tied) {
+        let found = format!("found together with tethers in interactions[{index}]");
         refuse(
             at,
-            format!("found together with {more}"),
-            "shear of particles that interact in pairs without memory, and by bonds and angles without a bath, in two or three dimensions: \
-             neither lists of neighbours nor places and velocities of single particles follow the boundaries",
+            found,
+            "particles that are free to move: images of the end of a tether move across a boundary that shears",
+        );
+    }
+    if dimension == 1 {
+        refuse(
+            at,
+            "found in a box of one dimension".to_owned(),
+            "a box of two or three: the flow varies across its direction",
         );
     }
     let fixed = scene.particles.iter().position(is_fixed_in_space);
@@ -63,11 +70,6 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     {
         let found = format!("found together with a body force in interactions[{index}]");
         refuse(at, found, "no body force: its work on what crosses a boundary is not booked");
-    }
-    if scene.integrator == (Integrator::CotterReich {}) && beyond.is_none() && fixed.is_none() {
-        let accepted =
-            "`splitting` or `groot-warren`: its friction sees distances before a drift, in which a boundary has moved";
-        refuse("integrator", "found `cotter-reich` and `space.shear`".to_owned(), accepted);
     }
     check_output(&scene.output, &mut refuse);
 }
@@ -103,12 +105,22 @@ fn check_output(output: &Output, refuse: &mut impl FnMut(&str, String, &str)) {
             output.viscosity.is_some(),
             "is that of waves in a periodic box; `stress` has the viscosity of shear",
         ),
-        ("autocorrelations", !output.autocorrelations.is_empty(), "is that of velocities in a box at rest"),
-        ("histograms", !output.histograms.is_empty(), "is that of velocities in a box at rest"),
     ];
     if output.stress.as_ref().is_some_and(|stress| stress.window.is_some()) {
         let accepted = "no `window`: Green and Kubo's viscosity is that of a fluid at rest; in shear it is that of the mean stress";
         refuse("output.stress.window", "found in a scene with shear".to_owned(), accepted);
+    }
+    let histograms = output.histograms.iter().map(|asked| asked.frame).enumerate();
+    let autocorrelations = output.autocorrelations.iter().map(|asked| asked.frame).enumerate();
+    for (name, index, frame) in histograms
+        .map(|(index, frame)| ("histograms", index, frame))
+        .chain(autocorrelations.map(|(index, frame)| ("autocorrelations", index, frame)))
+    {
+        if frame == Some(Frame::CentreOfMass) {
+            let path = format!("output.{name}[{index}].frame");
+            let accepted = "no `frame`: in shear velocities are relative to the linear profile of the flow";
+            refuse(&path, "found `centre-of-mass` in a scene with shear".to_owned(), accepted);
+        }
     }
     for (name, _, why) in analyses.into_iter().filter(|(_, asked, _)| *asked) {
         let found = format!("found in a scene with shear, and this analysis {why}");

@@ -2,8 +2,7 @@
 
 use super::ManyBodyForce;
 use crate::document::{Bath, DpdInteraction};
-use crate::families::BathStep;
-use crate::families::Species;
+use crate::families::{BathStep, Model, Species};
 use std::f64::consts::PI;
 
 /// Soft repulsion, friction and noise between all pairs of species.
@@ -112,6 +111,16 @@ impl PairForce {
             cutoffs: vec![0.5 * units.shortest_length(); species * species],
             exponents: vec![2.0; species * species],
         }
+    }
+
+    /// How far a particle may go from where it was listed until neighbours are listed again.
+    pub(crate) fn reach_in_list(&self, model: &Model) -> f64 {
+        let units_of_length = model.units.lengths[0] / 4_294_967_296.0;
+        let copies = model
+            .particles()
+            .shear
+            .map_or(0.0, |shear| 3.0 * f64::from(shear.margin(model, self.skin)) * units_of_length);
+        0.5 * (self.skin - copies).max(0.0)
     }
 
     /// Repulsion a between two species.

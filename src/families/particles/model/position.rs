@@ -1,6 +1,6 @@
 //! Friction and noise on every particle by itself: Langevin dynamics and the generalised Langevin equation.
 
-use crate::document::{Bath, LangevinInteraction};
+use crate::document::{FrictionVelocity, LangevinInteraction};
 use crate::families::BathStep;
 use crate::families::Species;
 
@@ -13,6 +13,8 @@ pub struct PositionBath {
     pub steps: Vec<BathStep>,
     /// Whether the bath remembers.
     pub memory: bool,
+    /// Friction is relative to the mean flow of a sheared box, not to the box.
+    pub peculiar: bool,
 }
 
 impl PositionBath {
@@ -21,6 +23,7 @@ impl PositionBath {
         species: &[Species],
         temperature: f64,
         time_step: f64,
+        sheared: bool,
     ) -> Self {
         let friction = |name: &str| {
             let own = interaction.species.iter().find(|entry| entry.name == name);
@@ -34,7 +37,8 @@ impl PositionBath {
         Self {
             temperature: interaction.bath.temperature(temperature),
             steps: species.iter().map(step).collect(),
-            memory: matches!(interaction.bath, Bath::Memory { .. }),
+            memory: interaction.bath.remembers(),
+            peculiar: sheared && interaction.velocity != Some(FrictionVelocity::Laboratory),
         }
     }
 }

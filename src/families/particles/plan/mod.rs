@@ -1,15 +1,14 @@
-//! Plans of particles: of pairs without memory, in one or two traversals a step, and of all couplings one by one.
+//! Plans of particles.
 
 mod bonded;
-pub(crate) mod couplings;
 pub(crate) mod external;
 mod law;
 mod own;
-pub(crate) mod pair;
 mod position_bath;
 pub(crate) mod quanta;
 mod shear;
 mod species;
+pub(crate) mod step;
 mod stress;
 mod tethers;
 pub(crate) mod walls;
@@ -18,8 +17,8 @@ use super::layout::PARTICLE;
 use crate::document::Integrator;
 use crate::families::Model;
 use crate::plan::{
-    Grid, Hardware, Kernel, Measured, Need, Options, Ordered, PhysicsPlan, Plan, Quanta, Reported, Texture, Traversal,
-    deviate, prefix_sum, serial_memory, words,
+    Grid, Hardware, Kernel, Measured, Need, Options, PhysicsPlan, Plan, Quanta, Texture, Traversal, deviate,
+    prefix_sum, serial_memory, words,
 };
 use crate::shaders::{Array, pairs};
 

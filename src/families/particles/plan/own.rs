@@ -33,6 +33,11 @@ pub(super) fn acts(model: &Model) -> bool {
     model.particles().acts_on_particles(model)
 }
 
+/// Baths on coordinates see velocities relative to the mean flow.
+pub(super) fn sees_flow(model: &Model) -> bool {
+    model.particles().position_bath.as_ref().is_some_and(|bath| bath.peculiar)
+}
+
 /// What kernels choose that end a step.
 pub(super) fn choices(model: &Model) -> Choices {
     let mut choices = Choices::new().with_if(acts(model), couplings::Own::Acting);
@@ -59,14 +64,9 @@ pub(super) fn report_choices(model: &Model) -> Choices {
         .with_if(model.particles().oscillates_in_memory(), baths::PositionProducts::Tethered)
 }
 
-/// Buffers that the kernel at the end of a step binds for them; that of a report binds [one more](products) with products.
+/// Buffers that the kernel at the end of a step binds for them.
 pub(super) fn buffers(model: &Model) -> u32 {
     u32::from(remembers(model)) + u32::from(model.particles().coloured_noise.is_some())
-}
-
-/// Whether a report needs the ends of tethers beside baths.
-pub(super) fn products(model: &Model) -> u32 {
-    u32::from(model.particles().oscillates_in_memory())
 }
 
 /// The bath of a species as kernels know it: its response to a drift, its noise of one step, and its energy per square, which

@@ -2,7 +2,7 @@
 
 use crate::families::Model;
 use crate::plan::Plan;
-use crate::shaders::{Choices, Constant, external, pairs, space};
+use crate::shaders::{Choices, Constant, couplings, external, pairs, space};
 
 /// What all kernels choose, if there is shear; `has_table` where species have one.
 pub(super) fn choices(model: &Model, has_table: bool) -> Choices {
@@ -11,7 +11,8 @@ pub(super) fn choices(model: &Model, has_table: bool) -> Choices {
     }
     Choices::new()
         .with(space::Travel::Sheared)
-        .with(pairs::Separation::Sheared)
+        .with(pairs::Apart::Sheared)
+        .with(couplings::Margin::Sheared)
         .with(pairs::Visit::Sheared)
         .with(pairs::ClusterRows::Sheared)
         .with(pairs::ReportedMotion::Peculiar)
@@ -44,6 +45,7 @@ pub(super) fn add_constants(model: &Model, parts: u8, entries_before: Option<usi
         (Constant::ShearStride, f64::from(rows_of_a_layer)),
         (Constant::ShearLow, f64::from(low)),
         (Constant::ShearHigh, f64::from(high)),
+        (Constant::ShearStep, f64::from(((high << 1) | (low >> 31)).cast_signed())),
         (Constant::ShearFirst, f64::from(shear.first_shift())),
         moment(0),
         (Constant::ShearPart, 2.0 / f64::from(parts)),

@@ -23,54 +23,36 @@
 //! over the last drift, in place of its derivative along the velocities, √ω e·(vᵢ - vⱼ). The drift is computed again
 //! from the momenta that made it; at step 0 it is taken to have been made by the initial momenta.
 
-use super::body_force;
 use super::densities::Densities;
 use super::motion::Motion;
 use super::pairs::{self, Forces, Pair};
 use super::stress::Virials;
-use super::{Reference, Report};
-use crate::families::reference::{add, bath, widen};
+use super::terms::pairs::excluded_pairs;
+use crate::families::reference::bath;
 use crate::families::{Model, PairForce};
 use crate::noise::{self, stream};
 use crate::state::State;
 
-/// Half kicks by all pairs at the report point.
-pub(super) fn report(reference: &Reference, found: &[Pair]) -> Report {
-    let (model, state) = (&reference.model, &reference.state);
-    let motion = Motion::of(model, state, &reference.masses);
-    let mut kick = vec![[0; 3]; state.len()];
-    let mut virials = Virials::new(model, state);
-    if let Some(force) = model.particles().pair_force.as_ref() {
-        half_kicks((model, force), state, &motion, found, &[], &mut kick, &mut virials);
-    }
-    body_force::kick(model, state, &mut kick);
-    let mut momenta = widen(&state.momenta);
-    // The momenta of step 0 are those of the report point already.
-    if model.clock(state.step) > 0 {
-        add(&mut momenta, &kick);
-    }
-    Report { momenta, kick, virials }
-}
-
-/// Adds half kicks by pairs, of which some, in order, are spared their repulsion, and their virials.
+/// Adds half kicks by pairs without memory and their virials: without friction, where steps relax it by itself.
 pub(super) fn half_kicks(
     (model, force): (&Model, &PairForce),
     state: &State,
     motion: &Motion,
     found: &[Pair],
-    spared: &[[u32; 2]],
     kick: &mut [[i64; 3]],
     virials: &mut Virials,
 ) {
     let key = noise::step_key(model.seed, stream::PAIR, model.clock(state.step));
     let densities = Densities::of(model, state.len(), found);
+    let excluded = excluded_pairs(model);
+    let relaxes = model.particles().relaxes_pairs(model);
     for pair in found {
         let forces = Forces::between(model, &state.species, pair);
-        let is_spared = spared.binary_search(&[pair.first as u32, pair.second as u32]).is_ok();
+        let is_excluded = excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok();
         let many_body = densities.as_ref().map_or(0.0, |densities| densities.force(pair));
-        let repulsion = if is_spared { 0.0 } else { forces.potential.force() + many_body };
+        let repulsion = if is_excluded { 0.0 } else { forces.potential.force() + many_body };
         let mut friction = 0.0;
-        if forces.friction > 0.0 {
+        if forces.friction > 0.0 && !relaxes {
             let species = [pair.first, pair.second].map(|end| state.species[end] as usize);
             let step = force.bath_step(species[0], species[1], model.time_step);
             let change = motion.approach(pair).map_or_else(

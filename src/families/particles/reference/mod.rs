@@ -1,8 +1,23 @@
-//! Pairs without memory, with bonds, angles and baths of particles where steps are split, and all couplings and baths,
-//! in float64.
+//! Particles with everything that acts on them, in float64.
+//!
+//! Every term forms its half kick, -dt/2 (∇V + ∇h s), once; it is applied twice, closing and opening: the scheme (14)-(17) of
+//! Cotter and Reich, doi:10.1209/epl/i2003-00621-8, and its limit without memory (18)-(21).
+//!
+//! ```text
+//! p(n+½) = p(n) - dt/2 [∇V + Σ ∇h s(n)]                                               (14)
+//! r(n+1) = r(n) + dt p(n+½) / m                                                       (15)
+//! s(n+1) = e s(n) + λₑ(1+e)/2 [h(r(n+1)) - h(r(n))] + √(kTλₑ(1-e²)) ξ                 (16)
+//! p(n+1) = p(n+½) - dt/2 [∇V + Σ ∇h s(n+1)]                                           (17)
+//! ```
+//! Without memory e = 0 and λₑ = 2γ/dt. The state keeps r(n) and p(n-½), so that (16), (17), (14) and (15) make a step, in
+//! this order. In a split step baths without memory relax momenta at p(n) instead: see [`splitting`]. Impulses between particles
+//! are rounded once and handed to all ends, so that nothing depends on their order.
+//!
+//! At step 0 the momenta are those of the report point, and baths with memory are as they are in the state: nothing is
+//! closed. Baths without memory take the initial momenta for those that brought the particles there.
 
 mod body_force;
-mod couplings;
+mod configuration;
 mod densities;
 mod end_of_step;
 mod held;
@@ -15,33 +30,40 @@ mod relaxation;
 mod shear;
 mod splitting;
 mod stress;
+mod terms;
 mod walls;
 
-pub use couplings::CouplingsReference;
 pub use splitting::Relaxation;
 pub use stress::Virial;
 
-use crate::document::Integrator;
 use crate::families::Model;
 use crate::families::Observables;
-use crate::families::reference::{Unstable, add, narrow};
+use crate::families::reference::bath::BathSums;
+use crate::families::reference::{Unstable, add, narrow, widen};
 use crate::state::{Reported, State};
+use motion::Motion;
 use pairs::Pair;
 use shear::Images;
 use stress::Virials;
 
-/// What an integrator finds at the report point of a step.
+/// What a step finds at its report point.
 struct Report {
     /// p(n), in integer units.
     momenta: Vec<[i64; 3]>,
     /// The opening kick that follows.
-    kick: Vec<[i64; 3]>,
+    opening: Vec<[i64; 3]>,
+    /// What the baths are at n, with a list renewed if it had to be; positions and momenta are left empty.
+    baths: State,
+    /// Of the baths with memory.
+    bath_sums: BathSums,
     /// Those of all forces of the step between particles.
     virials: Virials,
 }
 
-/// A model of pairs and its state, stepped on the CPU. Bonds and angles are part of its split steps; of other steps with them
-/// [`CouplingsReference`] is the reference.
+/// A model of particles and its state, stepped on the CPU.
+///
+/// With the integrator `groot-warren` baths without memory see velocities; with `cotter-reich` they see the discrete gradient over the
+/// last drift; with `splitting` they relax momenta by themselves. Baths with memory are the same in all.
 ///
 /// ```
 /// use mesoscope::{families::Model, families::reference::Reference, scene};
@@ -55,6 +77,15 @@ struct Report {
 /// assert_eq!(reference.state().step, 20);
 /// assert_eq!(reference.state().total_momentum(), start.total_momentum());
 /// assert!(reference.observe()?.pressure() > 15.0);
+///
+/// // Oscillators in baths with memory, which exchange momentum with what is outside.
+/// let scene = scene::load("gle-oscillator", &["particles.0.count=20".to_owned()])?;
+/// let model = Model::new(&scene);
+/// assert!(model.has_memory() && !model.conserves_momentum());
+/// let start = mesoscope::families::initial_state(&scene, &model);
+/// let mut reference = Reference::new(model, start.clone());
+/// reference.run(10)?;
+/// assert_ne!(reference.state().total_momentum(), start.total_momentum());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -82,7 +113,8 @@ impl Reference {
         Self { model, state, masses, relaxation }
     }
 
-    /// The state between steps: r(n) and p(n-½), as the GPU keeps it.
+    /// The state between steps: r(n) and p(n-½), as the GPU keeps it. Bath variables are those of the step before, s(n-1),
+    /// but at step 0, where they are s(0).
     #[must_use]
     pub fn state(&self) -> &State {
         &self.state
@@ -94,11 +126,16 @@ impl Reference {
     /// [`Unstable`] when a momentum or a drift does not fit the integer state or a bond is too long, and the state is then
     /// left as it was.
     pub fn step(&mut self) -> Result<(), Unstable> {
-        let Report { momenta, kick, .. } = self.report(&self.pairs())?;
-        let parts = self.parts_of_drift();
+        let Report { momenta, opening, baths, .. } = self.report()?;
+        let parts = if self.splits() { 2 } else { 1 };
         let account = body_force::account(&self.model, &self.state, &self.masses);
-        end_of_step::end(&self.model, &self.masses, &mut self.state, momenta, &kick, parts)?;
+        end_of_step::end(&self.model, &self.masses, &mut self.state, momenta, &opening, parts)?;
         self.state.account = account;
+        self.state.pair_baths = baths.pair_baths;
+        self.state.anchors = baths.anchors;
+        self.state.position_baths = baths.position_baths;
+        self.state.bond_baths = baths.bond_baths;
+        self.state.holds = baths.holds;
         Ok(())
     }
 
@@ -108,9 +145,9 @@ impl Reference {
     /// # Errors
     /// [`Unstable`] as [`Self::step`].
     pub fn observe(&self) -> Result<Observables, Unstable> {
-        let report = self.report(&self.pairs())?;
-        Ok(if self.model.particles().splits(&self.model) {
-            observables::observe(self, &self.state_between_forces()?, 1, &report)
+        let report = self.report()?;
+        Ok(if self.splits() {
+            observables::observe(self, &self.state_between(&report)?, 1, &report)
         } else {
             observables::observe(self, &self.state, 0, &report)
         })
@@ -122,7 +159,7 @@ impl Reference {
     /// # Errors
     /// [`Unstable`] when a momentum does not fit the integer state or a bond is too long.
     pub fn reported_state(&self) -> Result<Reported, Unstable> {
-        let mut momenta = self.report(&self.pairs())?.momenta;
+        let mut momenta = self.report()?.momenta;
         held::hold(&self.model, &self.state, &mut momenta);
         let momenta = narrow(&momenta, self.state.step)?;
         Ok(Reported { momenta, ..self.state.clone().into() })
@@ -131,9 +168,9 @@ impl Reference {
     /// The share of each particle of the virials at the report point, for the stress.
     ///
     /// # Errors
-    /// [`Unstable`] when a bond is too long.
+    /// [`Unstable::Bond`] for a bond that is too long.
     pub fn virials(&self) -> Result<Vec<Virial>, Unstable> {
-        Ok(self.report(&self.pairs())?.virials.each)
+        Ok(self.report()?.virials.each)
     }
 
     /// The state half a drift after the report point of the current step: r(n) + dt/2 p(n+½)/m and p(n+½).
@@ -145,8 +182,12 @@ impl Reference {
     /// # Errors
     /// As [`Self::step`].
     pub fn state_between_forces(&self) -> Result<State, Unstable> {
-        let Report { mut momenta, kick, .. } = self.report(&self.pairs())?;
-        add(&mut momenta, &kick);
+        self.state_between(&self.report()?)
+    }
+
+    fn state_between(&self, report: &Report) -> Result<State, Unstable> {
+        let mut momenta = report.momenta.clone();
+        add(&mut momenta, &report.opening);
         held::hold(&self.model, &self.state, &mut momenta);
         let momenta = narrow(&momenta, self.state.step)?;
         let mut state = State { predicted: Vec::new(), ..self.state.clone() };
@@ -173,23 +214,70 @@ impl Reference {
         observables::radial_distribution(self, range, bins)
     }
 
+    /// Whether steps are split: they drift in two equal halves, between which a report may fall.
+    fn splits(&self) -> bool {
+        self.model.particles().splits(&self.model)
+    }
+
     fn pairs(&self) -> Vec<Pair> {
         let Some(force) = self.model.particles().pair_force.as_ref() else { return Vec::new() };
         pairs::find_pairs(&Images::of_step(&self.model, self.state.step), &self.state.positions, force.cutoff)
     }
 
-    fn report(&self, found: &[Pair]) -> Result<Report, Unstable> {
-        match self.model.integrator {
-            Integrator::GrootWarren { .. } | Integrator::CotterReich {} => Ok(leapfrog::report(self, found)),
-            Integrator::Splitting { .. } | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
-                splitting::report(self, found)
+    /// Everything at the report point of the current step.
+    fn report(&self) -> Result<Report, Unstable> {
+        let (model, state) = (&self.model, &self.state);
+        let particles = model.particles();
+        let motion = Motion::of(model, state, &self.masses);
+        let mut kick = vec![[0; 3]; state.len()];
+        let mut bath_sums = BathSums::default();
+        let mut baths = State::default();
+        let mut virials = Virials::new(model, state);
+        let remembers = particles.pair_force.as_ref().is_some_and(|force| force.remembers());
+        let found = if remembers { Vec::new() } else { self.pairs() };
+
+        if let Some(force) = particles.pair_force.as_ref() {
+            if remembers {
+                (baths.pair_baths, baths.anchors) = terms::pair_list::renew(model, force, state);
+                let listed = &mut baths.pair_baths;
+                terms::pairs::kick((model, force), state, listed, &mut kick, &mut bath_sums, &mut virials);
+            } else {
+                leapfrog::half_kicks((model, force), state, &motion, &found, &mut kick, &mut virials);
             }
         }
-    }
+        if let Some(bonds) = particles.bonds.as_ref() {
+            baths.bond_baths =
+                terms::bonds::kick(model, bonds, state, &motion, &mut kick, &mut bath_sums, &mut virials)?;
+        }
+        if let Some(angles) = particles.angles.as_ref() {
+            terms::angles::kick(model, angles, state, &mut kick, &mut virials);
+        }
+        if let Some(bath) = particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles(model)) {
+            baths.position_baths = terms::position_baths::kick(model, bath, state, &motion, &mut kick, &mut bath_sums);
+        }
+        if let Some(stiffness) = particles.tether {
+            terms::tethers::kick(model, stiffness, state, &mut kick);
+        }
+        body_force::kick(model, state, &mut kick);
 
-    /// A split step drifts in two equal halves, between which a report may fall.
-    fn parts_of_drift(&self) -> i64 {
-        if self.model.particles().splits(&self.model) { 2 } else { 1 }
+        let mut momenta = widen(&state.momenta);
+        let mut opening = kick.clone();
+        let closes = model.clock(state.step) > 0;
+        if closes {
+            add(&mut momenta, &kick);
+        }
+        if let Some(noise) = particles.coloured_noise.as_ref() {
+            let mut impulses = terms::coloured_noise::advance(model, noise, state);
+            held::exclude(model, state, &mut impulses.closing);
+            held::exclude(model, state, &mut impulses.opening);
+            add(&mut momenta, &impulses.closing);
+            add(&mut opening, &impulses.opening);
+            baths.holds = impulses.holds;
+        }
+        if closes && self.splits() {
+            splitting::relax(self, &found, &mut momenta, &mut virials);
+        }
+        Ok(Report { momenta, opening, baths, bath_sums, virials })
     }
 
     /// vᵢ - vⱼ of a pair, of j's image.

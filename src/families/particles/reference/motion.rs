@@ -41,6 +41,11 @@ impl Motion {
         }
     }
 
+    /// The last drift of a particle.
+    pub fn drift(&self, particle: usize) -> [f64; 3] {
+        self.drifts[particle]
+    }
+
     /// The way of a particle in the last step, which a bath with memory sees.
     pub fn way(&self, particle: usize) -> [f64; 3] {
         self.ways.as_ref().unwrap_or(&self.drifts)[particle]
@@ -54,26 +59,28 @@ impl Motion {
         }
     }
 
-    /// The separation of a pair before its ends have moved.
-    fn separation_before(pair: &Pair, moved: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
+    /// The separation of a pair before its ends have moved, and with it the image of the second across a boundary.
+    fn separation_before(&self, pair: &Pair, moved: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
         let (first, second) = (moved(pair.first), moved(pair.second));
-        std::array::from_fn(|axis| pair.separation[axis] - (first[axis] - second[axis]))
+        let mut before: [f64; 3] = std::array::from_fn(|axis| pair.separation[axis] - (first[axis] - second[axis]));
+        before[0] += pair.boxes_up as f64 * self.jump * self.time_step;
+        before
     }
 
     /// The distance of a pair before the last drift.
     pub fn distance_before(&self, pair: &Pair) -> f64 {
-        let before = Self::separation_before(pair, |particle| self.drifts[particle]);
+        let before = self.separation_before(pair, |particle| self.drifts[particle]);
         dot(before, before).sqrt()
     }
 
     /// By how much the distance of a pair has changed over the last drift, as a bath without memory sees it.
     pub fn drift_of_distance(&self, pair: &Pair) -> f64 {
-        Self::change(pair, Self::separation_before(pair, |particle| self.drifts[particle]))
+        Self::change(pair, self.separation_before(pair, |particle| self.drifts[particle]))
     }
 
     /// By how much the distance of a pair has changed in the last step, as a bath with memory sees it.
     pub fn change_of_distance(&self, pair: &Pair) -> f64 {
-        Self::change(pair, Self::separation_before(pair, |particle| self.way(particle)))
+        Self::change(pair, self.separation_before(pair, |particle| self.way(particle)))
     }
 
     /// By how much the distance of a pair has changed since a separation: (d² - d'²)/(d + d'), without cancellation.

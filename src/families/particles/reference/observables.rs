@@ -1,13 +1,14 @@
 //! Sums over particles and pairs at the report point.
 
 use super::body_force;
-use super::couplings::observables::of_configuration;
+use super::configuration::of_configuration;
 use super::held;
 use super::pairs::find_pairs;
 use super::shear::{self, Images};
+use super::terms::tethers;
 use super::walls;
 use super::{Reference, Report};
-use crate::families::{Model, Observables};
+use crate::families::{BathProducts, Model, Observables};
 use crate::state::State;
 
 /// What is observed of the motion: momenta p(n) of particles of some masses. The configuration is left at zero.
@@ -40,7 +41,43 @@ pub(super) fn observe(reference: &Reference, configuration: &State, halves: u64,
     let (model, state) = (&reference.model, &reference.state);
     let motion = of_motion(model, state, &reference.masses, &report.momenta);
     let images = Images::after(model, model.clock(state.step).wrapping_mul(2).wrapping_add(halves));
-    of_configuration(model, configuration, &images, &Observables { total_virial: report.virials.total, ..motion })
+    let baths = report.bath_sums;
+    let motion = Observables {
+        total_virial: report.virials.total,
+        bath_energy: baths.energy,
+        bath_square: if baths.count == 0 { 0.0 } else { baths.squares / baths.count as f64 },
+        bath_products: products(reference, report),
+        ..motion
+    };
+    of_configuration(model, configuration, &images, &motion)
+}
+
+/// Mean products of oscillators with their baths.
+fn products(reference: &Reference, report: &Report) -> BathProducts {
+    let (model, state) = (&reference.model, &reference.state);
+    let bath = model.particles().position_bath.as_ref().filter(|_| model.particles().oscillates_in_memory());
+    let Some(bath) = bath else { return BathProducts::default() };
+    let (mut sums, mut count) = (BathProducts::default(), 0_u64);
+    for particle in (0..state.len()).filter(|particle| !held::is_held(model, state, *particle)) {
+        if bath.steps[state.species[particle] as usize].continuous_coupling == 0.0 {
+            continue;
+        }
+        let displacement = tethers::displacement(model, state, particle);
+        for axis in 0..model.units.dimension {
+            let value = f64::from(f32::from_bits(report.baths.position_baths[particle][axis]));
+            let momentum = report.momenta[particle][axis] as f64 * model.units.momentum;
+            sums.momentum += value * momentum;
+            sums.displacement += value * displacement[axis];
+            sums.momentum_displacement += momentum * displacement[axis];
+            count += 1;
+        }
+    }
+    let mean = |sum: f64| sum / count.max(1) as f64;
+    BathProducts {
+        momentum: mean(sums.momentum),
+        displacement: mean(sums.displacement),
+        momentum_displacement: mean(sums.momentum_displacement),
+    }
 }
 
 /// Counts of unordered pairs in `bins` equal bins of distance up to `range`.

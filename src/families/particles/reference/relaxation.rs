@@ -1,11 +1,11 @@
 //! The part of O that is exact, whatever the friction and the step: the relaxation of single particles, and of bonds
 //! one after the other, on momenta that are rounded to whole units once.
 
-use super::couplings::bonds::span;
 use super::held;
 use super::pairs::{self, dot};
-use super::shear::Images;
+use super::shear::{self, Images};
 use super::stress::Virials;
+use super::terms::bonds::span;
 use crate::families::Model;
 use crate::noise::{self, stream};
 use crate::state::State;
@@ -20,9 +20,12 @@ pub(super) fn of_particles(model: &Model, state: &State, masses: &[f64], momenta
         let friction = 0.5 * model.time_step * bath.steps[state.species[particle] as usize].coupling;
         let kept = (-friction * model.time_step / mass).exp();
         let deviation = (mass * bath.temperature * (1.0 - kept * kept)).sqrt() / model.units.momentum;
+        let flow = if bath.peculiar { shear::flow(model, state, particle) } else { 0.0 };
         for (axis, component) in momentum.iter_mut().enumerate().take(model.units.dimension) {
             let gaussian = noise::gaussian(noise::words(model.generator, key, [particle as u32, axis as u32]));
-            *component = (kept * *component as f64 + deviation * gaussian).round_ties_even() as i64;
+            let at_rest = if axis == 0 { flow } else { 0.0 };
+            *component =
+                (at_rest + kept * (*component as f64 - at_rest) + deviation * gaussian).round_ties_even() as i64;
         }
     }
 }
@@ -42,7 +45,9 @@ pub(super) fn of_bonds(model: &Model, state: &State, masses: &[f64], momenta: &m
         let pair = span(&images, &bond, &state.positions);
         let [first, second] = [pair.first, pair.second]
             .map(|end| momenta[end].map(|units| units as f64 * model.units.momentum / masses[end]));
-        let velocity = dot(pair.direction(), std::array::from_fn(|axis| first[axis] - second[axis]));
+        let mut relative: [f64; 3] = std::array::from_fn(|axis| first[axis] - second[axis]);
+        relative[0] -= pair.boxes_up as f64 * model.particles().shear.as_ref().map_or(0.0, |shear| shear.velocity);
+        let velocity = dot(pair.direction(), relative);
         let inverse_mass = |end: usize| if held::is_held(model, state, end) { 0.0 } else { 1.0 / masses[end] };
         let reduced_mass = 1.0 / (inverse_mass(pair.first) + inverse_mass(pair.second));
         // Two held ends have no motion to relax.

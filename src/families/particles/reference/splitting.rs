@@ -14,17 +14,13 @@
 //! ```
 //! The initial momenta are those of the report point of step 0, so that closing kick and O are left out there.
 
-use super::body_force;
-use super::couplings::bonded_kicks;
-use super::couplings::pairs::excluded_pairs;
-use super::densities::Densities;
+use super::Reference;
 use super::held;
 use super::pairs::{self, Forces, Pair, dot};
 use super::relaxation;
 use super::stress::Virials;
-use super::{Reference, Report};
 use crate::families::Model;
-use crate::families::reference::{Unstable, add, widen};
+use crate::families::reference::add;
 use crate::noise::{self, stream};
 
 /// The rule by which O relaxes the velocities of pairs that share particles.
@@ -58,40 +54,22 @@ pub enum Relaxation {
     },
 }
 
-/// Momenta after O and the kick that follows.
-pub(super) fn report(reference: &Reference, found: &[Pair]) -> Result<Report, Unstable> {
+/// O: momenta relax, first those of particles, then along bonds, then of pairs, whose virials over the time of a step are added.
+pub(super) fn relax(reference: &Reference, found: &[Pair], momenta: &mut Vec<[i64; 3]>, virials: &mut Virials) {
     let (model, state) = (&reference.model, &reference.state);
-    let mut kick = vec![[0; 3]; state.len()];
-    let mut virials = Virials::new(model, state);
-    bonded_kicks(model, state, &reference.masses, &mut kick, &mut virials)?;
-    let excluded = excluded_pairs(model);
-    let densities = Densities::of(model, state.len(), found);
-    for pair in found {
-        if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
-            continue;
-        }
-        let force = Forces::between(model, &state.species, pair).potential.force()
-            + densities.as_ref().map_or(0.0, |densities| densities.force(pair));
-        pairs::push_apart(model, pair, force, &mut kick);
-        virials.add(pair, force, 0.0);
-    }
-    body_force::kick(model, state, &mut kick);
-    let mut momenta = widen(&state.momenta);
-    if model.clock(state.step) > 0 {
-        add(&mut momenta, &kick);
-        relaxation::of_particles(model, state, &reference.masses, &mut momenta);
-        relaxation::of_bonds(model, state, &reference.masses, &mut momenta, &mut virials);
+    relaxation::of_particles(model, state, &reference.masses, momenta);
+    relaxation::of_bonds(model, state, &reference.masses, momenta, virials);
+    if model.particles().relaxes_pairs(model) {
         // Friction sees held particles with the velocity that they keep, whatever a wall is to absorb.
         let mut seen = momenta.clone();
         held::hold(model, state, &mut seen);
-        let impulses = relax(reference, found, &seen, &mut virials);
-        add(&mut momenta, &impulses);
+        let impulses = relax_pairs(reference, found, &seen, virials);
+        add(momenta, &impulses);
     }
-    Ok(Report { momenta, kick, virials })
 }
 
 /// The sums of the impulses of O, whose virials over the time of a step are added.
-fn relax(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]], virials: &mut Virials) -> Vec<[i64; 3]> {
+fn relax_pairs(reference: &Reference, found: &[Pair], momenta: &[[i64; 3]], virials: &mut Virials) -> Vec<[i64; 3]> {
     let (model, state) = (&reference.model, &reference.state);
     let key = noise::step_key(model.seed, stream::PAIR, model.clock(state.step));
     let couplings: Vec<_> = found

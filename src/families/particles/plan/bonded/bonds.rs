@@ -11,10 +11,16 @@ pub(super) fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
     let (species, kinds) = (scales.model.species.len(), bonds.kinds.len());
     let key = noise::seed_key(scales.model.seed, stream::BOND);
     let relaxes = scales.model.particles().relaxes_bonds(scales.model);
-    let forces = if relaxes { Choices::new().with_any(potential(bonds)) } else { choices(scales.model, bonds) };
+    let conservative = Choices::new().with_any(potential(bonds));
+    let forces = if relaxes { conservative.clone() } else { choices(scales.model, bonds) };
     let report = |part, scales| {
         let choices = forces.clone().with(part).with_if(bonds.have_memory(), baths::BondReport::Observed);
         Observed { choices, scales }
+    };
+    // Half a drift later no bath is advanced.
+    let between = Observed {
+        choices: conservative.with(bonds::BondReport::Configuration),
+        scales: &[Constant::PairVirial, Constant::Laplacian],
     };
     // The motion of a split step has felt friction, its configuration has none.
     let of_motion = |part, scales| {
@@ -29,7 +35,7 @@ pub(super) fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
         choices: forces.clone(),
         observed: report(bonds::BondReport::Observed, &[Constant::PairVirial, Constant::Laplacian]),
         motion: Some(of_motion(bonds::BondReport::Motion, &[Constant::PairVirial])),
-        configuration: report(bonds::BondReport::Configuration, &[Constant::PairVirial, Constant::Laplacian]),
+        configuration: between,
         stress: ("stress_of_bonds", of_motion(bonds::BondReport::Stress, &[]).choices),
         constants: vec![
             (Constant::Bonds, bonds.count() as f64),

@@ -1,0 +1,41 @@
+//! Baths without memory along bonds, in the O of a split step: a kernel for each round of bonds that share no particle.
+
+use super::{Builder, Masks};
+use crate::families::particles::plan::bonded;
+use crate::plan::{Need, Traversal, words};
+use crate::shaders::{Array, Choices, Constant, Entry, pairs};
+
+impl Builder<'_> {
+    /// The kernels that relax the velocities along bonds with friction, if there are any. They add their part of the
+    /// forces to what baths on particles have left, where an analysis needs them.
+    pub(super) fn relax_bonds(&mut self) -> Vec<usize> {
+        let particles = self.model.particles();
+        let Some(bonds) = particles.bonds.as_ref().filter(|_| particles.relaxes_bonds(self.model)) else {
+            return Vec::new();
+        };
+        let mut kernels = Vec::new();
+        let needs_forces = self.measured.needs(Need::Forces);
+        if needs_forces && !self.relaxes_particles() && !self.reports_own_forces() {
+            let pass = Choices::new().with(pairs::Pass::ForgetForces).with(pairs::ReportedForce::Kept);
+            kernels.push(self.traversal("forget_forces", Traversal::Alone, Masks::Unkept, &pass));
+        }
+        let choices = self
+            .choices()
+            .and(&bonded::noise_of_bonds(bonds))
+            .with(words(self.model.generator))
+            .with_if(needs_forces, pairs::ReportedForce::Added);
+        let longest = self.longest_bond();
+        let mut first = bonded::first_relaxed(self.model, bonds);
+        for round in bonds.rounds() {
+            let count = round.len() as u64;
+            let kernel = self.kernel("relax_bonds", Entry::RelaxBonds, choices.clone(), count);
+            let own = [(Constant::FirstRelaxed, first as f64), (Constant::Relaxed, count as f64)];
+            self.plan.kernels[kernel].constants.extend(own.into_iter().chain(longest));
+            kernels.push(kernel);
+            first += count;
+            self.plan.operations_per_particle += 120.0 * count as f64 / self.particles.max(1) as f64;
+        }
+        self.plan.add_buffer(Array::BondImpulses, 4 * bonds.count());
+        kernels
+    }
+}

@@ -1,0 +1,156 @@
+//! The list of neighbours: who is within the cutoff and a margin, listed again when a particle has come too far.
+
+use super::{Builder, Order};
+use crate::families::particles::layout::PARTICLE;
+use crate::families::particles::plan::shear;
+use crate::families::{Model, PairForce};
+use crate::noise::{self, stream};
+use crate::plan::prefix_sum::PrefixSum;
+use crate::plan::{Options, folded};
+use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, couplings, grid};
+use std::f64::consts::PI;
+
+/// Room in the list for the pairs that one particle owns: half again as many as there are on average and twelve, and twice
+/// that for every time it has turned out to be too little.
+pub(super) fn capacity(model: &Model, force: &PairForce, options: Options) -> u64 {
+    let particles = model.particle_count();
+    let range = force.cutoff + force.skin;
+    let ball = match model.units.dimension {
+        1 => 2.0 * range,
+        2 => PI * range * range,
+        _ => 4.0 / 3.0 * PI * range.powi(3),
+    };
+    let owned = 0.5 * ball * model.density_around();
+    let room = (1.5 * owned + 12.0).ceil() * f64::from(options.list_growth.min(31)).exp2();
+    (room as u64).min(particles.saturating_sub(1)).max(1)
+}
+
+impl Builder<'_> {
+    /// Begins steps in which neighbours are listed when they are demanded, and makes the kernels that list them.
+    pub(super) fn order_with_list(&mut self) {
+        self.list_constants();
+        let noted = Choices::new().with(grid::Next::Anchors);
+        self.plan.prepare = vec![self.take_stock(&noted)];
+        let begin = self.kernel("begin", Entry::BeginListedStep, self.choices(), 1);
+        let rebuild = self.rebuild();
+        let sizes: Vec<u32> = rebuild
+            .iter()
+            .flat_map(|kernel| {
+                let [width, height] = folded(self.plan.kernels[*kernel].workgroups);
+                [width, height, 1]
+            })
+            .collect();
+        for (index, kernel) in rebuild.iter().enumerate() {
+            self.plan.kernels[*kernel].demand = Some((rebuild.len() + index) as u32);
+        }
+        self.plan.kernels[begin].constants.push((Constant::Conditional, rebuild.len() as f64));
+        let bytes: Vec<u8> = bytemuck::cast_slice(&[&sizes[..], &vec![0; sizes.len()]].concat()).to_vec();
+        self.plan.add_table(Array::Demands, bytes);
+        self.plan.sort = [&[begin][..], &rebuild].concat();
+        self.list_buffers();
+    }
+
+    fn list_constants(&mut self) {
+        let range = self.force.cutoff + self.force.skin;
+        let span = |axis: usize| {
+            let cells = if axis < self.grid.dimension { self.grid.cells[axis] } else { 1 };
+            f64::from(if cells >= 3 { 3 } else { 1 })
+        };
+        let outdated = self.model.particles().shear.map(|shear| f64::from(shear.margin(self.model, self.force.skin)));
+        self.plan.constants.extend(outdated.map(|margin| (Constant::ShearMargin, margin)));
+        self.plan.constants.extend([
+            (Constant::SpanX, span(0)),
+            (Constant::SpanY, span(1)),
+            (Constant::SpanZ, span(2)),
+            (Constant::SquaredRange, range * range),
+            (Constant::SquaredReach, self.force.reach_in_list(self.model).powi(2)),
+            (Constant::ListCapacity, self.list_capacity() as f64),
+        ]);
+    }
+
+    fn list_capacity(&self) -> u64 {
+        capacity(self.model, self.force, self.options)
+    }
+
+    /// What kernels choose that order particles in an array beside the one in which they are stored.
+    pub(super) fn sorted_beside(&self) -> Choices {
+        self.choices().with(arrays::Sorted::Buffer)
+    }
+
+    /// The kernels that count the particles into cells and find where each cell begins.
+    fn binning(&mut self) -> Vec<usize> {
+        let choices = self.sorted_beside().with(core::Step::Same);
+        let sum = PrefixSum { choices: &choices, rows: self.grid.rows(), cells: self.grid.count() };
+        let mut kernels = vec![self.kernel("bin", Entry::BinParticles, self.sorted_beside(), self.particles)];
+        kernels.extend(sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)));
+        kernels
+    }
+
+    /// The kernels that order the particles and list their neighbours.
+    fn rebuild(&mut self) -> Vec<usize> {
+        let mut kernels = self.binning();
+        let sorted = self.sorted_beside();
+        let arrange = sorted
+            .clone()
+            .with(couplings::Anchors::Kept)
+            .with_if(self.force.remembers(), couplings::Origins::Kept)
+            .with_if(self.is_bonded(), couplings::Slots::Kept);
+        kernels.push(self.arrangement("arrange", arrange));
+        let exclusions = self.exclusions();
+        let choices = sorted.clone().with_any(exclusions).and(&shear::of_visits(self.model));
+        let list = self.kernel("list", Entry::ListNeighbours, choices, self.particles);
+        kernels.push(list);
+        if self.force.remembers() {
+            let carry = self.kernel("carry", Entry::CarryMemories, sorted.clone(), self.particles);
+            let key = noise::seed_key(self.model.seed, stream::PAIR_START);
+            self.plan.kernels[carry].constants =
+                vec![(Constant::StartStreamX, f64::from(key[0])), (Constant::StartStreamY, f64::from(key[1]))];
+            kernels.push(carry);
+            kernels.push(self.kernel("settle_list", Entry::SettleList, sorted.clone(), self.particles));
+        } else {
+            self.plan.kernels[list].renamed = vec![(Array::NeighboursNext, Array::Neighbours)];
+        }
+        kernels.push(self.kernel("settle", Entry::SettleParticles, sorted, self.particles));
+        kernels
+    }
+
+    /// The kernel that puts particles into their cells.
+    fn arrangement(&mut self, name: &'static str, choices: Choices) -> usize {
+        self.kernel(name, Entry::ArrangeParticles, choices, self.particles.max(self.grid.count()))
+    }
+
+    /// Kernels that order particles by cell on the side, for an analysis: the list and what it has noted stay as they are.
+    pub(super) fn order_aside(&mut self) -> Vec<usize> {
+        let mut kernels = self.binning();
+        let choices = self.sorted_beside();
+        kernels.push(self.arrangement("arrange_by_cell", choices));
+        if self.order == Order::Never {
+            self.ordering_buffers();
+        }
+        kernels
+    }
+
+    /// Buffers of particles in order of cells.
+    fn ordering_buffers(&mut self) {
+        let (particles, cells, rows) = (self.particles, self.grid.count(), self.grid.rows());
+        self.plan.add_buffer(Array::Sorted, PARTICLE * particles);
+        self.plan.add_buffer(Array::Cells, 4 * (cells + 1 + rows));
+        self.plan.add_buffer(Array::Counts, 4 * cells);
+        self.plan.add_buffer(Array::Ranks, 4 * particles);
+        self.plan.add_row_sums(rows, cells, self.options);
+    }
+
+    fn list_buffers(&mut self) {
+        self.ordering_buffers();
+        let particles = self.particles;
+        self.plan.add_buffer(Array::Anchors, 16 * particles);
+        let pairs = self.list_capacity() * particles;
+        self.plan.add_buffer(Array::Neighbours, 4 * (pairs + particles));
+        if self.force.remembers() {
+            self.plan.add_buffer(Array::CameFrom, 4 * particles);
+            self.plan.add_buffer(Array::NeighboursNext, 4 * (pairs + particles));
+            self.plan.add_buffer(Array::Memories, 8 * pairs);
+            self.plan.add_buffer(Array::MemoriesNext, 8 * pairs);
+        }
+    }
+}

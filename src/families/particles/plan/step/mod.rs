@@ -1,0 +1,648 @@
+//! The plan of a scene of particles: how they are ordered, what adds impulses to them, and what ends a step.
+
+mod bond_baths;
+mod density;
+mod excluded;
+mod gathered;
+mod list;
+mod listed_pairs;
+mod part;
+mod particle_bath;
+mod reported;
+mod scheme;
+mod stress;
+mod tethers;
+
+use super::bonded::Scales;
+use super::external;
+use super::law::{law, ranges};
+use super::own;
+use super::prefix_sum::{PrefixSum, needs_levels};
+use super::quanta::quanta;
+use super::serial_memory::TURNS;
+use super::shear;
+use super::species::Species;
+use super::walls;
+use super::{
+    Grid, Hardware, Kernel, Measured, Need, Options, PARTICLE, PhysicsPlan, Plan, Quanta, Texture, Traversal, deviate,
+    predicted, texture_candidates, words,
+};
+use crate::document::Integrator;
+use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
+use crate::families::{Bonds, Model, PairForce};
+use crate::noise;
+use crate::plan::{Cells, Layout};
+use crate::shaders::{Array, Choices, Constant, Entry, arrays, baths, couplings, grid, pairs, space};
+
+/// Cells up to which a step ends with the prefix sum for the next one, where lanes are taken one after the other. With 1 000 cells
+/// (3 000 particles) this saves a tenth of a step; with 3 000 it saves nothing any more.
+const SCAN_AT_END_CELLS: u64 = 1 << 11;
+
+/// How particles are ordered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Order {
+    /// By cell at every step: pairs are found in cells.
+    EveryStep,
+    /// By cell whenever neighbours are listed: pairs persist from step to step.
+    WithList,
+    /// Not at all: there are no pairs.
+    Never,
+}
+
+impl Order {
+    fn new(model: &Model, options: Options) -> Self {
+        let particles = model.particles();
+        let pairs = particles.pair_force.as_ref().is_some_and(PairForce::acts);
+        // Pairs without memory may be listed too, where a step visits them once.
+        let may_be_listed = particles.shear.is_none() && !particles.have_local_densities() && !particles.splits(model);
+        if particles.list_pairs(model) || (options.listed && pairs && may_be_listed) {
+            Self::WithList
+        } else if pairs || options.part.is_some() {
+            Self::EveryStep
+        } else {
+            Self::Never
+        }
+    }
+}
+
+/// Makes the plan of a model.
+pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
+    let particles = model.particle_count();
+    let free = PairForce::none(&model.units, model.species.len());
+    let force = model.particles().pair_force.as_ref().unwrap_or(&free);
+    let order = Order::new(model, options);
+    let mut least = [1; 3];
+    if let Some(shear) = &model.particles().shear {
+        // Between boundaries that shear there are rows that are next to one of them only.
+        least[shear.gradient] = 3;
+    }
+    let range = if order == Order::EveryStep { force.cutoff } else { force.cutoff + force.skin };
+    let grid = Grid::with_least(&model.units, range, particles, least);
+    let traversal = match (order, force.acts(), options.traversal) {
+        (Order::WithList | Order::Never, ..) | (_, false, _) => Traversal::Alone,
+        (_, true, Some(traversal)) => traversal,
+        (_, true, None) if hardware.takes_eights() => Traversal::Clusters,
+        (_, true, None) => Traversal::Rows,
+    };
+    let mut builder = Builder {
+        model,
+        measured,
+        force,
+        grid,
+        particles,
+        slots: particles,
+        order,
+        traversal,
+        options,
+        species: Species::of(model),
+        texels: false,
+        scans_at_end: traversal == Traversal::Clusters
+            && options.suits_serial_memory(hardware)
+            && grid.count() <= SCAN_AT_END_CELLS
+            && !needs_levels(grid.count(), options)
+            && options.part.is_none(),
+        scan: Vec::new(),
+        passed_on: Vec::new(),
+        inner: None,
+        passed_on_early: Vec::new(),
+        plan: empty_plan(model, &grid, order, options),
+    };
+    // What ends a step that visits pairs once is no traversal.
+    builder.scans_at_end &= !builder.visits_once();
+    builder.plan_part();
+    builder.texels = order == Order::EveryStep
+        && options.suits_serial_memory(hardware)
+        && Texture::holds(builder.slots + builder.frame_capacity(), 4);
+    builder.constants();
+    builder.ordering();
+    builder.integration();
+    builder.buffers();
+    let groups = builder.slots.div_ceil(builder.workgroup_size());
+    PhysicsPlan {
+        reported: Some(builder.reported()),
+        ordered: builder.ordered(),
+        texture_candidates: texture_candidates(&builder.plan),
+        followers: vec![Kernel::new("follow", Entry::FollowParticles, builder.choices(), groups)],
+        stride: model.physics().reach(model) / model.units.shortest_length(),
+        plan: builder.plan,
+    }
+}
+
+fn empty_plan(model: &Model, grid: &Grid, order: Order, options: Options) -> Plan {
+    let particles = ParticleLayout {
+        dimension: model.units.dimension,
+        predicted: predicted(model),
+        account: external::rows(model, options.workgroup()) as usize,
+        walls: walls::count(model),
+    };
+    let force = model.particles().pair_force.as_ref().filter(|_| order == Order::WithList);
+    let bonds = model.particles().bonds.as_ref().filter(|bonds| bonds.have_memory());
+    let layout = CoupledLayout {
+        particles,
+        list: force.map(|force| ListLayout {
+            capacity: list::capacity(model, force, options) as usize,
+            memory: force.remembers(),
+        }),
+        position_baths: own::remembers(model),
+        bond_baths: bonds.map_or(0, Bonds::count) as usize,
+        holds: model.particles().coloured_noise.is_some(),
+        tethers: model.particles().tether.is_some(),
+    };
+    let plan = model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR);
+    if order == Order::EveryStep {
+        return plan;
+    }
+    // What is reported has no predicted momentum.
+    let reported = Layout::new(ParticleLayout { predicted: false, account: 0, walls: 0, ..particles });
+    Plan { reported: Some((Array::Reported, reported)), ..plan }
+}
+
+/// What a traversal does with the hits of the prefilter.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Masks {
+    /// Finds and forgets them.
+    Unkept,
+    /// Finds and keeps them.
+    Keep,
+    /// Visits those that were kept.
+    Kept,
+}
+
+struct Builder<'a> {
+    model: &'a Model,
+    measured: &'a Measured,
+    force: &'a PairForce,
+    grid: Grid,
+    particles: u64,
+    /// Places for particles as they are stored.
+    slots: u64,
+    order: Order,
+    /// How passes over particles visit their pairs.
+    traversal: Traversal,
+    options: Options,
+    species: Species,
+    /// Whether sorted particles are texels.
+    texels: bool,
+    /// Whether a step ends with the prefix sum over cells for the next one.
+    scans_at_end: bool,
+    /// The kernels of that sum on their own.
+    scan: Vec<usize>,
+    /// The kernels of one of several ranks that exchange particles where others follow them.
+    passed_on: Vec<usize>,
+    /// Of one of several ranks: cells of which no other has to know, if the device goes on with them during an exchange.
+    inner: Option<Cells>,
+    /// The kernels that exchange particles then.
+    passed_on_early: Vec<usize>,
+    plan: Plan,
+}
+
+/// Units of a rate of relaxation, and the mean of the fluid up to which their sums fit.
+const RATE_UNIT: f64 = 65536.0;
+const EVEN_RELAXATION: f64 = 20.0;
+
+impl<'a> Builder<'a> {
+    fn constants(&mut self) {
+        let units = self.model.units;
+        let half = 0.5 * self.model.time_step;
+        let cutoff = self.force.cutoff;
+        let Quanta { energy, pair_energy, force_squared, curvature, .. } = self.plan.quanta;
+        let to_force = units.momentum / half;
+        let exponent = self.force.common_weight_exponent().unwrap_or(0.0);
+        let capacity = self.frame_capacity();
+        let mut constants = self.grid.constants(&units).to_vec();
+        constants.extend([
+            (Constant::WindowX, f64::from(self.grid.windows[0])),
+            (Constant::WindowY, f64::from(self.grid.windows[1])),
+            (Constant::WindowZ, f64::from(self.grid.windows[2])),
+            (Constant::ProbeY, self.grid.ratios[1]),
+            (Constant::ProbeZ, self.grid.ratios[2]),
+            (Constant::ProbeReach, self.grid.reach_squared),
+            (Constant::Particles, self.slots as f64),
+            (Constant::Workgroup, self.workgroup_size() as f64),
+            (Constant::Capacity, (self.slots + capacity) as f64),
+            (Constant::Cutoff, cutoff),
+            (Constant::WeightRootExponent, 0.5 * exponent),
+            (Constant::Species, self.model.species.len() as f64),
+            (Constant::DisplacementLimit, self.model.physics().reach(self.model)),
+            (Constant::PairEnergy, to_force * cutoff / (4.0 * pair_energy)),
+            (Constant::PairVirial, to_force / (2.0 * pair_energy)),
+            (Constant::Gradient, to_force * to_force / force_squared),
+            (Constant::Laplacian, to_force / curvature),
+        ]);
+        if self.splits() {
+            constants.push((Constant::RateUnit, self.rate_unit()));
+        }
+        if self.model.has_memory() {
+            constants.push((Constant::BathSquare, own::inverse(self.plan.quanta.bath_squared)));
+        }
+        if let Integrator::GrootWarren { lambda } = self.model.integrator {
+            constants.push((Constant::Prediction, 2.0 * lambda - 1.0));
+        }
+        let mass = self.species.mass();
+        constants.extend([
+            (Constant::Drift, self.model.time_step * units.momentum / mass),
+            (Constant::Kinetic, units.momentum * units.momentum / (2.0 * mass * energy)),
+            (Constant::InverseMass, 1.0 / mass),
+            (Constant::FrictionPerLength, mass / (self.model.time_step * units.momentum)),
+        ]);
+        if !self.species.have_table() {
+            let [repulsion, friction, noise] = self.impulses(0, 0);
+            constants.extend([
+                (Constant::Repulsion, repulsion),
+                (Constant::Friction, friction),
+                (Constant::Noise, noise),
+            ]);
+        }
+        self.plan.constants = constants;
+        self.particle_constants();
+        own::add(&self.scales(), &mut self.plan);
+        walls::add_constants(self.model, &mut self.plan);
+        self.density_constants();
+    }
+
+    /// Integer units of the rates at which pairs relax, whose sums have 24 bits. One stage hardly tells one large rate from another; two
+    /// need to know all of them.
+    fn rate_unit(&self) -> f64 {
+        let (rate, _) = self.model.largest_friction_rate(self.force);
+        let excess = rate * self.model.time_step / EVEN_RELAXATION;
+        if self.relaxes_in_two_stages() && excess > 1.0 { RATE_UNIT / excess.log2().ceil().exp2() } else { RATE_UNIT }
+    }
+
+    fn scales(&self) -> Scales<'a> {
+        Scales { model: self.model, species: self.species, quanta: self.plan.quanta }
+    }
+
+    /// Of half a step in momentum units: repulsion at contact, and without memory friction per unit velocity (where all have
+    /// one mass, momentum) and noise, with memory the response of the bath to its coupling function and its deviation at
+    /// rest.
+    fn impulses(&self, a: usize, b: usize) -> [f64; 3] {
+        if self.model.species.is_empty() {
+            return [0.0; 3];
+        }
+        let half = 0.5 * self.model.time_step;
+        let unit = self.model.units.momentum;
+        if self.force.remembers() {
+            let step = self.force.bath_step(a, b, self.model.time_step);
+            let repulsion = self.force.repulsion(a, b) * half / unit;
+            return [repulsion, step.response(), step.deviation(self.force.temperature)];
+        }
+        let (repulsion, friction) = (self.force.repulsion(a, b), self.force.friction(a, b));
+        let amplitude = (2.0 * friction * self.force.temperature / self.model.time_step).sqrt();
+        [repulsion * half / unit, friction * half / self.species.mass(), amplitude * half / unit]
+    }
+
+    /// A kernel with a lane for each of some things.
+    fn kernel(&mut self, name: &'static str, entry: Entry, choices: Choices, things: u64) -> usize {
+        self.plan.add_kernel(Kernel::new(name, entry, choices, things.div_ceil(self.workgroup_size())))
+    }
+
+    /// What is chosen for every kernel: the space, the species, where particles are and how they are ordered.
+    fn choices(&self) -> Choices {
+        self.space()
+            .and(&self.species.choices())
+            .with(words(self.model.generator))
+            .with_if(self.splits(), space::Drift::Halves)
+            .with_if(self.texels, arrays::Sorted::Apart)
+            .with_if(self.texels, grid::Sorted::Apart)
+            .with_if(self.keeps_probes(), grid::Probes::Kept)
+            .with_if(self.gathers(), couplings::Gathered::Kept)
+            .with_any(self.conservative())
+            .with_if(matches!(self.model.integrator, Integrator::GrootWarren { .. }), baths::Seen::Velocity)
+            .with_if(own::sees_flow(self.model), baths::Flow::Peculiar)
+            .with_if(self.is_bonded() && self.order == Order::EveryStep, couplings::Slots::Kept)
+            .with_any(external::profile(self.model))
+            .and(&walls::choices(self.model))
+            .and(&shear::choices(self.model, self.species.have_table()))
+            .and(&self.of_order())
+            .and(&self.of_rank())
+    }
+
+    /// The vector space, the grid in it and the stored particle.
+    fn space(&self) -> Choices {
+        let choices = match self.model.units.dimension {
+            3 => Choices::new()
+                .with(space::Dimension::Three)
+                .with(grid::Dimension::Volume)
+                .with(pairs::Prefilter::Volume),
+            dimension => Choices::new()
+                .with(if dimension == 1 { space::Dimension::One } else { space::Dimension::Two })
+                .with(grid::Dimension::Plane)
+                .with(pairs::Prefilter::Plane),
+        };
+        let predicted = predicted(self.model);
+        choices.with(if predicted { space::Particle::Predicted } else { space::Particle::Plain })
+    }
+
+    /// What kernels choose by the order of particles.
+    fn of_order(&self) -> Choices {
+        let choices = Choices::new();
+        if self.order == Order::EveryStep {
+            return choices.with(grid::Rows::Framed).with(grid::Next::Cells);
+        }
+        choices
+            .with(grid::Rows::Plain)
+            .with(arrays::Sorted::Stored)
+            .with(pairs::Reporting::Aside)
+            .with_if(self.order == Order::WithList, grid::Next::Anchors)
+    }
+
+    fn ordering(&mut self) {
+        match self.order {
+            Order::EveryStep => self.order_every_step(),
+            Order::WithList => self.order_with_list(),
+            Order::Never => {
+                self.plan.sort = vec![self.kernel("tick", Entry::BeginPlainStep, self.choices(), 1)];
+                if self.is_bonded() {
+                    self.plan.prepare = vec![self.take_stock(&Choices::new())];
+                }
+            }
+        }
+    }
+
+    fn order_every_step(&mut self) {
+        let bin = self.kernel("bin", Entry::BinParticles, self.choices(), self.slots);
+        self.plan.prepare.push(bin);
+        self.plan.sort = self.sorting(&self.choices());
+        self.exchange(bin);
+        if self.scans_at_end {
+            // Every step is begun by the one before, but for the first.
+            let scatter = self.plan.sort.split_off(self.plan.sort.len() - 1);
+            self.scan = std::mem::replace(&mut self.plan.sort, scatter);
+            self.plan.prepare.extend(&self.scan);
+        }
+    }
+
+    /// What ends a step.
+    fn end_of_step(&self) -> Choices {
+        if self.scans_at_end {
+            Choices::new()
+                .with(grid::EndOfStep::LastWorkgroup)
+                .with(grid::ScanWidth::Narrow)
+                .with(grid::ScanLanes::Eight)
+        } else {
+            Choices::new()
+        }
+    }
+
+    /// Counting sort by cell.
+    fn sorting(&mut self, choices: &Choices) -> Vec<usize> {
+        let sum = PrefixSum { choices, rows: self.grid.rows(), cells: self.grid.count() };
+        let mut kernels: Vec<usize> =
+            sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)).collect();
+        // The first pass of a split step keeps its hits in the buffer of the particles.
+        let whole = self.texels && !self.splits();
+        let copied = self.choices().with(if whole { grid::Copied::Particles } else { grid::Copied::Fours });
+        kernels.push(self.kernel("scatter", Entry::ScatterParticles, copied, self.slots.max(self.grid.count())));
+        kernels
+    }
+
+    /// Whether steps are split: friction needs a second pass over the pairs.
+    fn splits(&self) -> bool {
+        self.model.particles().splits(self.model)
+    }
+
+    /// Buffers of the kernel that ends a step beyond those of all: impulses that were gathered, what walls absorb, and of several ranks the
+    /// domain in which they do, a table of species, and local densities.
+    fn more_buffers(&self) -> u32 {
+        let (walled, dense) = (walls::count(self.model) > 0, self.model.particles().have_local_densities());
+        let booked = self.options.part.is_some() && (walled || self.is_sheared());
+        let there = [self.gathers(), walled, booked, self.species.have_table(), dense];
+        there.into_iter().map(u32::from).sum::<u32>() + own::buffers(self.model)
+    }
+
+    /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
+    /// more it would be one buffer too many, nor beside one where several ranks tell what is stored.
+    fn keeps_probes(&self) -> bool {
+        let beside = self.more_buffers() + u32::from(self.options.part.is_some());
+        self.traversal != Traversal::Alone && !self.texels && beside < 2 && !self.is_sheared()
+    }
+
+    /// Whether boundaries shear.
+    fn is_sheared(&self) -> bool {
+        self.model.particles().shear.is_some()
+    }
+
+    /// Whether steps relax the momentum of every particle by itself.
+    fn relaxes_particles(&self) -> bool {
+        self.model.particles().relaxes_particles(self.model)
+    }
+
+    /// Whether a split step visits its pairs once: without friction there is nothing to do in a second visit but to
+    /// repeat the kick, which only an analysis of forces looks at.
+    fn visits_once(&self) -> bool {
+        self.force.acts() && self.splits() && !self.relaxes_pairs() && !self.measured.needs(Need::Forces)
+    }
+
+    fn relaxes_pairs(&self) -> bool {
+        self.model.particles().relaxes_pairs(self.model)
+    }
+
+    /// Whether friction has two stages.
+    fn relaxes_in_two_stages(&self) -> bool {
+        self.model.particles().relaxes_in_two_stages(self.model)
+    }
+
+    /// The pair force.
+    fn law(&self) -> Choices {
+        let force = self.force;
+        let frictional = force.largest_friction() > 0.0;
+        let choices = law(force)
+            .with_if(force.many_body.is_some(), pairs::Separation::Noted)
+            .with(if self.is_sheared() {
+                pairs::PrefilterSource::Sheared
+            } else if self.keeps_probes() {
+                pairs::PrefilterSource::Words
+            } else {
+                pairs::PrefilterSource::Positions
+            })
+            .with_any(frictional.then_some(match self.model.integrator {
+                Integrator::Splitting { .. } if self.relaxes_in_two_stages() => pairs::Friction::Stages,
+                Integrator::Splitting { .. } | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
+                    pairs::Friction::Relaxation
+                }
+                Integrator::CotterReich {} => pairs::Friction::DiscreteGradient,
+                Integrator::GrootWarren { .. } => pairs::Friction::Velocity,
+            }));
+        if frictional && force.temperature > 0.0 {
+            choices.with(pairs::Random::Thermal).with(deviate(self.model.distribution))
+        } else {
+            choices
+        }
+    }
+
+    /// A kernel that visits all pairs.
+    fn traversal(&mut self, name: &'static str, traversal: Traversal, masks: Masks, pass: &Choices) -> usize {
+        let visits = self.law().and(&shear::of_visits(self.model));
+        let choices = self.choices().and(&visits).and(pass).with_any(match masks {
+            Masks::Unkept => self.is_sheared().then_some(pairs::Hits::Sheared),
+            Masks::Keep => Some(pairs::Hits::Keep),
+            Masks::Kept => Some(pairs::Hits::Kept),
+        });
+        if self.order != Order::EveryStep {
+            let groups = self.particles.div_ceil(self.workgroup_size()).max(1);
+            return self.plan.add_kernel(Kernel::new(name, Entry::VisitStored, choices, groups));
+        }
+        let entry = match traversal {
+            Traversal::Alone => Entry::VisitAlone,
+            Traversal::Rows => Entry::VisitRows,
+            Traversal::Clusters => Entry::VisitClusters,
+        };
+        let rows = self.grid.rows();
+        let clusters = traversal == Traversal::Clusters;
+        let segments = self.segments(traversal, rows);
+        let mut constants = vec![(Constant::Segments, segments as f64)];
+        let mut groups = rows * segments;
+        if clusters {
+            let wanted = (self.particles / 256).clamp(32, 1024).max(self.least_groups(8));
+            groups = groups.min(wanted.next_multiple_of(32));
+            constants.push((Constant::Shares, groups as f64));
+        }
+        self.plan.add_kernel(Kernel::new(name, entry, choices, groups).with(constants))
+    }
+
+    /// Workgroups that share a row, where so many rows are visited: enough of them to fill the adapter, none with less than one round of
+    /// work on average. Subgroups of eight are those of processors, whose few cores are filled by a few workgroups, and to which a workgroup
+    /// is dear: some hundred particles each, and as many of them for every core.
+    fn segments(&self, traversal: Traversal, rows: u64) -> u64 {
+        let (lanes, enough) = match traversal {
+            Traversal::Clusters => (8, 64),
+            Traversal::Alone | Traversal::Rows => (self.workgroup_size(), 8192),
+        };
+        let rounds = (self.particles / self.grid.rows()).div_ceil(lanes).max(1);
+        let chosen = self.options.segments.filter(|segments| *segments > 0).map(u64::from);
+        chosen.unwrap_or_else(|| rounds.min((enough.max(self.least_groups(lanes)) / rows).max(1)))
+    }
+
+    /// The fewest workgroups whose invocations make no more turns of loops than software adapters allow: of a cluster about half of
+    /// its candidates, and once more as many pairs.
+    fn least_groups(&self, lanes: u64) -> u64 {
+        let crowd = (self.particles / self.grid.count()).max(1);
+        let turns = (self.particles / lanes * 3_u64.pow(self.grid.dimension as u32)).saturating_mul(crowd);
+        turns.div_ceil(TURNS)
+    }
+
+    /// How often a step visits all pairs, but for local densities.
+    fn visits(&self) -> f64 {
+        match (self.splits() && !self.visits_once(), self.relaxes_in_two_stages()) {
+            (false, _) => 1.0,
+            (true, false) => 2.0,
+            (true, true) => 3.0,
+        }
+    }
+
+    /// Arithmetic of a particle and step: the prefilter of the candidates of up to 27 (9) cells, then the pairs inside the cutoff, as
+    /// often as they are visited, with the forces that there are.
+    fn operations(&self) -> f64 {
+        const MOTION: f64 = 60.0;
+        if self.traversal == Traversal::Alone {
+            return MOTION;
+        }
+        let (density, cutoff) = (self.model.density_around(), self.force.cutoff);
+        let ball =
+            if self.grid.dimension == 3 { 4.18879 * cutoff.powi(3) } else { std::f64::consts::PI * cutoff.powi(2) };
+        // Where few particles are in a large box, cells are wider than the cutoff, and a crowd may be in one of them.
+        let searched = self.grid.cells.iter().map(|cells| f64::from(*cells).recip() * f64::from((*cells).min(3)));
+        let searched = searched.product::<f64>() * self.model.units.lengths.iter().product::<f64>();
+        let (candidates, pairs) = ((density * searched).min(self.particles as f64), density * ball);
+        let relaxations = if self.relaxes_in_two_stages() { 2.0 } else { 1.0 };
+        let visits = self.visits();
+        let cost = |there: bool, operations: f64| if there { operations } else { 0.0 };
+        let frictional = self.force.largest_friction() > 0.0;
+        let dense = self.force.many_body.is_some();
+        let pair = visits * (22.0 + cost(self.force.is_conservative(), 8.0) + cost(dense, 8.0))
+            + cost(dense, 22.0)
+            + cost(frictional, 15.0 * visits)
+            + cost(frictional && self.force.temperature > 0.0, if self.splits() { 40.0 * relaxations } else { 25.0 });
+        12.0 * candidates + pair * pairs + MOTION
+    }
+
+    fn buffers(&mut self) {
+        self.plan.add_buffer(Array::Control, 64);
+        self.plan.add_buffer(Array::Particles, PARTICLE * self.slots);
+        if self.order == Order::EveryStep {
+            self.buffers_of_order();
+        } else {
+            self.plan.add_buffer(Array::Reported, PARTICLE * self.particles);
+        }
+        self.coefficients();
+    }
+
+    /// Buffers of particles that are ordered at every step.
+    fn buffers_of_order(&mut self) {
+        let (rows, cells) = (self.grid.rows(), self.grid.count());
+        let width = u64::from(self.grid.cells[0]) + if self.grid.framed() { 2 } else { 0 };
+        let count = self.slots + self.frame_capacity();
+        if self.texels {
+            self.plan.add_texture(Array::SortedPositions, count);
+            self.plan.add_texture(Array::SortedMomenta, count);
+            if self.relaxes_in_two_stages() {
+                self.plan.add_texture(Array::StagedMomenta, count);
+            }
+        } else {
+            self.plan.add_buffer(Array::Sorted, PARTICLE * count);
+            if self.relaxes_in_two_stages() {
+                self.plan.add_buffer(Array::Staged, PARTICLE * count);
+            }
+            if self.keeps_probes() {
+                self.plan.add_buffer(Array::Probes, 4 * count);
+            }
+        }
+        self.plan.add_buffer(Array::Cells, 4 * (rows * width + 1 + rows));
+        self.plan.add_buffer(Array::Counts, 4 * cells);
+        self.plan.add_buffer(Array::Ranks, 4 * self.slots);
+        self.plan.add_row_sums(rows, cells, self.options);
+        if self.scans_at_end {
+            self.plan.add_buffer(Array::WorkgroupsDone, 4);
+        }
+    }
+
+    /// The coefficients of pairs and species: constants, or a table.
+    fn coefficients(&mut self) {
+        let parts = if self.splits() { 2 } else { 1 };
+        if self.species.have_table() {
+            let count = self.model.species.len();
+            let mut table: Vec<f32> = Vec::with_capacity(4 * count * count);
+            for a in 0..count {
+                for b in 0..count {
+                    table.extend(self.impulses(a, b).map(|value| value as f32));
+                    table.push(Species::inverse_mass(&self.model.species[b]) as f32);
+                }
+            }
+            let ranges = ranges(self.force, count);
+            if self.relaxes_particles() {
+                table.extend(self.particle_entries());
+            } else if own::bathes(self.model) {
+                for species in 0..count {
+                    table.extend(own::coefficients(&self.scales(), species).map(|value| value as f32));
+                    table.push(0.0);
+                }
+            } else if !ranges.is_empty() {
+                // In the place of the baths of particles.
+                table.resize(4 * count * (count + 1), 0.0);
+            }
+            table.extend(ranges);
+            external::add_constants(self.model, Some(table.len() / 4), &mut self.plan);
+            table.extend(external::entries(self.model));
+            shear::add_constants(self.model, parts, Some(table.len() / 4), &mut self.plan);
+            table.extend(shear::entries(self.model));
+            let bytes = bytemuck::cast_slice(&table).to_vec();
+            self.plan.add_table(Array::Coefficients, bytes);
+        } else {
+            external::add_constants(self.model, None, &mut self.plan);
+            shear::add_constants(self.model, parts, None, &mut self.plan);
+        }
+    }
+
+    fn workgroup_size(&self) -> u64 {
+        self.options.workgroup()
+    }
+
+    /// Room for the copies in the frames: a quarter more than the share of the end cells, and never more than all particles.
+    fn frame_capacity(&self) -> u64 {
+        if self.order == Order::EveryStep && self.grid.framed() {
+            self.options.copies.unwrap_or(5 * self.slots / (2 * u64::from(self.grid.cells[0])) + 512).min(self.slots)
+        } else {
+            0
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! What a report leaves for analyses and trajectories.
+
+use super::{Builder, Order};
+use crate::families::particles::plan::shear;
+use crate::plan::{Need, Ordered, Reported};
+use crate::shaders::{Array, pairs, space};
+
+impl Builder<'_> {
+    /// The particles of a report.
+    pub(super) fn reported(&self) -> Reported {
+        let aside = self.order != Order::EveryStep;
+        Reported {
+            choices: self
+                .space()
+                // What is reported aside has no predicted momentum.
+                .with_if(aside, space::Particle::Plain)
+                .and(&self.species.choices())
+                .and(&shear::of_species(self.model, self.species.have_table())),
+            particles: if aside || self.options.part.is_some() { Array::Reported } else { Array::Particles },
+            // The particles of a split step's report are half a drift later, and have been kicked for it.
+            momenta: self.splits().then_some(Array::ReportedMomenta),
+            forces: Array::ReportedForces,
+        }
+    }
+
+    /// The particles by cell, as every step orders them, or as an analysis needs them.
+    pub(super) fn ordered(&mut self) -> Option<Ordered> {
+        let aside = self.order != Order::EveryStep;
+        if aside && !self.measured.needs(Need::Order) {
+            return None;
+        }
+        let kernels = if aside { self.order_aside() } else { Vec::new() };
+        let choices = if aside { self.sorted_beside() } else { self.choices() };
+        // Where a report moves the particles on, distances are counted there too.
+        Some(Ordered { choices, kernels, grid: self.grid, needs_report: self.splits() })
+    }
+
+    /// Keeps the momenta of a split step's report, where an analysis or a trajectory needs them: analyses of a sheared box without those of
+    /// the flow.
+    pub(super) fn momenta(&mut self) -> Option<pairs::ReportedMomentum> {
+        let analysed = self.measured.needs(Need::Momenta);
+        if !analysed && !self.measured.frames {
+            return None;
+        }
+        self.plan.add_buffer(Array::ReportedMomenta, 16 * self.particles);
+        let peculiar = analysed && self.is_sheared();
+        Some(if peculiar { pairs::ReportedMomentum::Peculiar } else { pairs::ReportedMomentum::Kept })
+    }
+
+    /// Keeps the forces of a report, where an analysis needs them.
+    pub(super) fn forces(&mut self) -> Option<pairs::ReportedForce> {
+        if !self.measured.needs(Need::Forces) {
+            return None;
+        }
+        // Impulses of half a step where one kick is taken twice, of a whole one where friction relaxes between two kicks.
+        let time = if self.splits() { 1.0 } else { 0.5 } * self.model.time_step;
+        self.plan.force_unit = self.model.units.momentum / time;
+        self.plan.add_buffer(Array::ReportedForces, 16 * self.particles);
+        Some(pairs::ReportedForce::Kept)
+    }
+}
