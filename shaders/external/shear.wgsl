@@ -16,8 +16,8 @@ fn shift_at(halves: Sum64) -> u32 {
     return SHEAR_FIRST + high_of_product(halves.x, SHEAR_LOW) + halves.x * SHEAR_HIGH + halves.y * SHEAR_LOW;
 }
 
-// Slot external/shift: the shift where a kernel sees the particles. Variant kept; the plan of pairs chooses it for kernels that visit all
-// pairs. Default: from the clock.
+// Slot external/shift: the shift where a kernel sees the particles. Variant kept; the plan of particles chooses it for kernels that
+// visit particles one by one. Default: from the clock.
 fn shift_here() -> u32 { return shift_after(SHEAR_MOMENT); }
 
 // Slot external/jump: by how many units the momentum of a particle is larger above a boundary than below. Variant by_species; the plan

@@ -5,11 +5,11 @@
 // - grid/dimension: rows of cells along x, and the rows around a row. Variants plane, volume; plans follow the box of the scene.
 // - grid/rows: where a cell of a row is in `cells`. Variants framed (copies of the end cells at both ends of each row; pairs),
 //   plain (neighbour lists and Voronoi cells), mesh and mesh_in_pairs (shallow water).
-// - grid/copied: the particle as it is copied into the sorted array. Variants particles, fours; chosen by the plan of pairs.
+// - grid/copied: the particle as it is copied into the sorted array. Variants particles, fours; chosen by the plan of particles.
 
 override CELLS: u32;
 
-// Slot grid/stored: which particles are stored and sorted, and which of them are told of. Default: all. The plan of pairs chooses `of_rank` for one of several ranks, which
+// Slot grid/stored: which particles are stored and sorted, and which of them are told of. Default: all. The plan of particles chooses `of_rank` for one of several ranks, which
 // forgets particles and gets others.
 fn stored_count() -> u32 { return PARTICLES; }
 fn sorted_count() -> u32 { return PARTICLES; }

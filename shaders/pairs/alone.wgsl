@@ -1,4 +1,4 @@
-// Visits every particle and no pair: for scenes without a pair force.
+// Visits every sorted particle and no pair.
 
 // Visits every particle. One invocation a particle at a time; SEGMENTS workgroups share a row of cells. The pass decides what
 // is read and written: slot pairs/pass, see pairs/rows.

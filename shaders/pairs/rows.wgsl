@@ -7,7 +7,7 @@
 // and observe_leapfrog; find, relax, observe_motion and observe_configuration of split steps; leapfrog_stress, split_stress and
 // first_stage_stress for an analysis of the stress. Of split steps also kick, which stands for find where pairs have no friction,
 // and those of particles without their pairs: relax_particles, pull_tethers, forget_forces; sum_densities and observe_densities
-// before the others, if forces depend on local densities. The plan of pairs chooses; no default.
+// before the others, if forces depend on local densities. The plan of particles chooses; no default.
 
 // Visits one particle and its pairs.
 fn visit_particle_of_row(row: u32, index: u32) {

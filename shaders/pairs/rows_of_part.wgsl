@@ -31,7 +31,7 @@ fn inner_of_row(row: u32) -> vec2<u32> {
 // Particles of a row that are visited: some of the sorted ones, without others between them.
 struct Visited { begin: u32, end: u32, left_out: vec2<u32> }
 
-// Slot pairs/visited: which they are. The plan of pairs chooses `edges` for the first turn.
+// Slot pairs/visited: which they are. The plan of particles chooses `edges` for the first turn.
 // Default: the inner ones.
 fn visited_of_row(row: u32) -> Visited {
     let inner = inner_of_row(row);

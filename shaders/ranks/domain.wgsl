@@ -27,7 +27,7 @@ fn lies_in(domain: u32, position: vec4<u32>) -> bool {
     return all(((position - domains[domain].low) < width) | (width == vec4<u32>(0u)));
 }
 
-// Slot ranks/inner: whether particles that no other rank has to know of are told apart, by the mark of a sorted particle. The plan of pairs
+// Slot ranks/inner: whether particles that no other rank has to know of are told apart, by the mark of a sorted particle. The plan of particles
 // chooses `marked` where the device goes on with these while the others are on their way.
 // Default: they are not.
 fn mark_of(row: u32, index: u32, own: bool) -> u32 { return select(0u, 1u, own); }

@@ -16,7 +16,7 @@ struct Path {
 }
 
 // Slot space/followed: which particles are followed, and how. `position` has zeros in the words that are no coordinates.
-// Default: all that are stored. The plan of pairs chooses `of_rank` for one of several ranks.
+// Default: all that are stored. The plan of particles chooses `of_rank` for one of several ranks.
 fn followed_count() -> u32 { return PARTICLES; }
 fn follow(id: u32, position: vec4<u32>) {
     paths[id] = Path(position, paths[id].images + crossings(paths[id].last, position));

@@ -2,7 +2,7 @@
 // at its end.
 override SPECIES: u32;
 
-// Slot space/coefficients: the coefficients of a pair, `coefficients_of`, and what species have of their own. The plan of pairs chooses
+// Slot space/coefficients: the coefficients of a pair, `coefficients_of`, and what species have of their own. The plan of particles chooses
 // `single`, `table` or `ranges`. Default: species have it from the table.
 
 // The species of a sorted particle, without the rest of it.

@@ -85,7 +85,7 @@ pub(crate) fn complete(scene: &mut Scene, integrator: bool, colour: bool) {
     let cells = of_type(|interaction| matches!(interaction, Interaction::Voronoi(_)));
     if integrator && water {
         scene.integrator = Integrator::Gyro {};
-    } else if integrator && particles::checks::is_coupled_by_default(scene) {
+    } else if integrator && particles::checks::defaults_to_cotter_reich(scene) {
         scene.integrator = Integrator::CotterReich {};
     }
     if colour && cells {

@@ -247,7 +247,8 @@ fn an_interrupt_before_the_first_step_leaves_nothing() {
 #[test]
 #[ignore = "a large system, which takes seconds to set up"]
 fn a_second_interrupt_ends_a_run_at_once() {
-    let place = place().with("/space/box", json!([90, 90, 90]));
+    // Four million particles: a step takes longer than both interrupts.
+    let place = place().with("/space/box", json!([110, 110, 110]));
     for (signal, pause) in [("-INT", Duration::from_millis(50)), ("-TERM", Duration::from_millis(1100))] {
         let (out, scene) = (place.argument(signal), place.scene());
         let mut child = command(&["run", &scene, "--out", &out]);

@@ -74,10 +74,12 @@ fn everything_that_hinders_is_told() {
     place.scene["integrator"] = json!({"type": "cotter-reich"});
     place.scene["interactions"][1]["friction"] = json!(3);
     place.scene["interactions"][1]["bath"] = json!({"type": "memory", "rate": 2});
+    let noise = json!({"type": "coloured-noise", "strength": 1, "time": 0.1});
+    place.scene["interactions"].as_array_mut().unwrap().push(noise);
     place.scene["output"]["profiles"] = json!({"axis": "y", "bins": 3, "every": 2});
     let reasons = [
         "baths with memory: on one rank only",
-        "friction along bonds where steps are not split, and tethers and Langevin baths there without pairs: on one rank only",
+        "coloured noise: on one rank only",
         "`output.profiles` is measured on one device",
     ];
     fails(&["run", &place.scene(), "--out", &place.argument("out"), "--ranks", "2"], 2, &reasons);

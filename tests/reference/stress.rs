@@ -34,11 +34,7 @@ fn scene(edges: &[f64], integrator: &str, interactions: &Value, chains: bool) ->
 }
 
 fn virials(model: Model, state: State) -> Vec<Virial> {
-    if model.particles().splits(&model) {
-        Reference::new(model, state).virials().unwrap()
-    } else {
-        Reference::new(model, state).virials().unwrap()
-    }
+    Reference::new(model, state).virials().unwrap()
 }
 
 /// Compares what a report leaves at the start and after some steps.

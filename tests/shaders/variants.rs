@@ -649,8 +649,11 @@ fn sheared_coupled_plans() -> Vec<(String, Plan)> {
             for integrator in INTEGRATORS {
                 scenes.extend(forgets.iter().map(|others| [particles, space, others, integrator]));
             }
-            for integrator in not_split() {
-                scenes.extend(kicked.iter().map(|others| [particles, space, others, *integrator]));
+            for integrator in INTEGRATORS {
+                scenes.extend(kicked.iter().map(|others| [particles, space, others, integrator]));
+            }
+            for integrator in [SPLITTING, STAGED] {
+                scenes.extend(remembers[2..].iter().map(|others| [particles, space, others, integrator]));
             }
         }
         for space in at_rest {

@@ -68,14 +68,9 @@ macro_rules! reference {
 
 reference!(Reference, ShallowWaterReference, VoronoiReference);
 
-/// The reference of particles that suits a model: split steps are those of pairs, with bonds and angles; all others are those of
-/// couplings.
+/// The reference of particles.
 pub fn reference_of_particles(model: Model, state: State) -> Box<dyn Implementation> {
-    if model.particles().splits(&model) {
-        Box::new(Reference::new(model, state))
-    } else {
-        Box::new(Reference::new(model, state))
-    }
+    Box::new(Reference::new(model, state))
 }
 
 /// What the device and the reference observe of a scene of particles at the start and after some steps, by their names.

@@ -28,7 +28,7 @@ fn observe_own_products(me: Particle, momentum: Steps) {
 fn leave_opening(slot: u32, me: Particle, own: OwnImpulses) {
     kicks[slot] = momentum_word(steps_of(kicks[slot]) + own.both + own.opening, 0);
     begin_force();
-    add_reported_force(momentum_word(own.closing - own.opening, 0));
+    add_reported_force(momentum_word(clock_closing() * (own.closing - own.opening), 0));
     store_force(me.position.w);
 }
 fn observe_advanced_own(me: Particle, momentum: Steps) {

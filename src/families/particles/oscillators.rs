@@ -9,6 +9,7 @@
 //! join are such oscillators, too: their normal modes.
 
 use super::{conservation, normal_modes};
+use crate::document::Integrator;
 use crate::families::{BathStep, ExactMean, Model, Particles, Species};
 
 /// Means of columns of the table of energies that are known.
@@ -31,10 +32,14 @@ fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
     let is_alone = particles.pair_force.is_none()
         && particles.angles.is_none()
         && particles.coloured_noise.is_none()
-        && particles.body_forces.is_none();
+        && particles.body_forces.is_none()
+        && particles.walls.is_empty()
+        && particles.shear.is_none();
+    // Friction that sees a predicted velocity leaves another temperature.
+    let predicts = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     // A bath that never forgets has no noise either.
     let couples = bath.steps.iter().all(|step| step.coupling > 0.0 && (!bath.memory || step.persistence.abs() < 1.0));
-    if !is_alone || !couples || bath.temperature <= 0.0 || model.mobile_particles() == 0 {
+    if !is_alone || predicts || !couples || bath.temperature <= 0.0 || model.mobile_particles() == 0 {
         return None;
     }
     let coordinates = coordinates(model, particles)?;

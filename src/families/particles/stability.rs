@@ -37,6 +37,15 @@ const MOST_BONDS: usize = 10_000;
 /// Rounds of the power iteration for the largest eigenvalue, which comes from below.
 const ROUNDS: usize = 40;
 
+/// The strain of a white bath for each B: friction that sees a velocity predicted by λ is stable for 2λB + W < 4, and for λ below a quarter
+/// for (1 - 2λ)B < 4.
+fn strain_of_bath(model: &Model) -> f64 {
+    match model.integrator {
+        Integrator::GrootWarren { lambda } => (2.0 * lambda).max(1.0 - 2.0 * lambda),
+        _ => 1.0,
+    }
+}
+
 /// What puts the most strain on a time step.
 #[derive(Debug, Clone)]
 struct Strain {
@@ -302,6 +311,7 @@ fn of_particles(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
         let relaxes = model.particles().relaxes_particles(model);
         let bath = langevin.filter(|_| !relaxes);
         let bath = bath.map_or(0.0, |langevin| BathStep::of(&langevin.bath, friction, step).coupling);
+        let bath = bath * strain_of_bath(model);
         let spring = model.particles().tether.unwrap_or(0.0);
         let scale = step * step * inverse_mass(model, index);
         let what = format!("every `{}` of mass {}", species.name, species.mass);
@@ -349,7 +359,7 @@ fn stiffnesses(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<[f
         let bath = match asked.get(index) {
             // What relaxes exactly puts no strain on the step.
             _ if model.particles().relaxes_bonds(model) => 0.0,
-            Some(bonds) => BathStep::of(&bonds.bath, bonds.friction, step).coupling,
+            Some(bonds) => BathStep::of(&bonds.bath, bonds.friction, step).coupling * strain_of_bath(model),
             // The baths of harmonic chains are white: 2γ/dt.
             None => kind.bath.map_or(0.0, |bath| bath.coupling * model.time_step / step),
         };

@@ -123,55 +123,28 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
     }
 }
 
-/// A scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and what
-/// [goes with pairs](goes_with_pairs); a scene of another family has not.
-pub(crate) fn is_coupled(scene: &Scene) -> bool {
-    has_more_than(scene, |interaction| goes_with_pairs(scene, interaction))
-}
-
-/// Steps of pairs take an interaction: split steps baths without memory on particles and bonds, and tethers; other steps
-/// baths on particles, tethers, and a coloured noise beside local densities, which are found in cells. Elsewhere a list of
-/// neighbours serves many of the short steps of coloured noise (its scene is 7 % faster so on lavapipe, 2026-11-27).
-/// Without pairs particles need no order in steps that are not split.
-fn goes_with_pairs(scene: &Scene, interaction: &Interaction) -> bool {
-    let splits = matches!(scene.integrator, Integrator::Splitting { .. });
-    let paired = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Dpd(_)));
-    match interaction {
-        Interaction::Langevin(langevin) if splits => matches!(langevin.bath, Bath::White { .. }),
-        Interaction::Bonds(bonds) => splits && matches!(bonds.bath, Bath::White { .. }),
-        Interaction::Tether(_) => splits || paired,
-        Interaction::Langevin(_) => !splits && paired,
-        Interaction::ColouredNoise(_) => !splits && scene.interactions.iter().any(depends_on_density),
-        _ => false,
-    }
-}
-
 /// Forces of an interaction depend on local densities.
 fn depends_on_density(interaction: &Interaction) -> bool {
     matches!(interaction, Interaction::Dpd(dpd) if dpd.acting_many_body().is_some())
 }
 
-/// Whether a scene that names no integrator, and has the default of all, is one of couplings: where it cannot be split,
-/// where there is more than bonds and angles but no pair force, for particles without pairs need no order; and where
-/// particles are fixed, so that scenes keep the step that was the only one for them.
-pub(crate) fn is_coupled_by_default(scene: &Scene) -> bool {
-    let pairs = |interaction: &Interaction| matches!(interaction, Interaction::Dpd(_));
-    let fixed =
-        scene.interactions.iter().all(Interaction::is_of_particles) && scene.particles.iter().any(is_fixed_in_space);
-    is_coupled(scene) || fixed || (has_more_than(scene, |_| false) && !scene.interactions.iter().any(pairs))
-}
-
-/// Whether a scene has more than pairs without memory, bonds and angles without a bath, in two or three dimensions, and
-/// what else is taken.
-fn has_more_than(scene: &Scene, taken: impl Fn(&Interaction) -> bool) -> bool {
-    let coupled = |interaction: &Interaction| match interaction {
+/// The default of a scene that names no integrator is `cotter-reich`: where there is memory, a coloured noise or a line; where
+/// particles without pairs have baths or tethers, for a step without a split costs a third there; and where particles are
+/// fixed, so that scenes keep the step that was the only one for them.
+pub(crate) fn defaults_to_cotter_reich(scene: &Scene) -> bool {
+    let paired = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Dpd(_)));
+    let unsplit = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => dpd.remembers(),
-        Interaction::Bonds(bonds) => bonds.has_bath() && !taken(interaction),
-        Interaction::Angles(_) | Interaction::BodyForce(_) => false,
-        other => acts(other) && !taken(other),
+        Interaction::Bonds(bonds) => bonds.has_bath() && (bonds.bath.remembers() || !paired),
+        Interaction::Langevin(langevin) => acts(interaction) && (langevin.bath.remembers() || !paired),
+        Interaction::Tether(_) => acts(interaction) && !paired,
+        Interaction::ColouredNoise(_) | Interaction::HarmonicChain(_) => acts(interaction),
+        _ => false,
     };
     scene.interactions.iter().all(Interaction::is_of_particles)
-        && (scene.space.lengths.len() == 1 || scene.interactions.iter().any(coupled))
+        && (scene.space.lengths.len() == 1
+            || scene.particles.iter().any(is_fixed_in_space)
+            || scene.interactions.iter().any(unsplit))
 }
 
 /// Whether particles are held where they start, not behind walls.

@@ -1,4 +1,4 @@
-//! How particles lie in buffers: of pairs alone, and of all couplings.
+//! How particles lie in buffers, alone and with what baths, lists and tethers remember.
 
 mod coupled;
 mod list;

@@ -1,5 +1,6 @@
 //! Shear: what kernels choose and know of boundaries that move.
 
+use crate::document::Integrator;
 use crate::families::Model;
 use crate::plan::Plan;
 use crate::shaders::{Choices, Constant, couplings, external, pairs, space};
@@ -38,6 +39,7 @@ pub(super) fn moment(halves: u8) -> (Constant, f64) {
 pub(super) fn add_constants(model: &Model, parts: u8, entries_before: Option<usize>, plan: &mut Plan) {
     let Some(shear) = model.particles().shear.as_ref() else { return };
     let [low, high] = shear.increment();
+    plan.constants.extend(flow_share(model));
     let rows_of_a_layer = if shear.gradient == 2 { plan.cells[1] } else { 1 };
     plan.constants.extend([
         (Constant::ShearAxis, shear.gradient as f64),
@@ -55,6 +57,16 @@ pub(super) fn add_constants(model: &Model, parts: u8, entries_before: Option<usi
             None => (Constant::ShearJump, f64::from(shear.jump(0, model))),
         },
     ]);
+}
+
+/// The part of the last drift since particles had the velocities that baths on them see: half of it, and with a prediction of λ 1 - λ.
+fn flow_share(model: &Model) -> Option<(Constant, f64)> {
+    let share = match model.integrator {
+        Integrator::GrootWarren { lambda } => 1.0 - lambda,
+        _ => 0.5,
+    };
+    let sees_flow = model.particles().position_bath.as_ref().is_some_and(|bath| bath.peculiar);
+    sees_flow.then_some((Constant::FlowShare, share))
 }
 
 /// The entries of a table of species: one for each, of halves that single precision holds.

@@ -1,6 +1,7 @@
 //! Langevin dynamics: a bath coupled to every coordinate of every particle by itself, h = x.
 
 use super::push;
+use crate::document::Integrator;
 use crate::families::particles::reference::motion::Motion;
 use crate::families::reference::bath::{self, BathSums};
 use crate::families::{Model, PositionBath};
@@ -22,9 +23,13 @@ pub(in crate::families::particles::reference) fn kick(
         let step = &bath.steps[state.species[particle] as usize];
         let mut drift = if bath.memory { motion.way(particle) } else { motion.drift_seen(particle) };
         if let Some(shear) = model.particles().shear.as_ref().filter(|_| bath.peculiar) {
-            // Of the mean flow where the particle was half a step ago.
+            // The mean flow is that where the particle had the velocity that friction sees.
+            let share = match model.integrator {
+                Integrator::GrootWarren { lambda } => 1.0 - lambda,
+                _ => 0.5,
+            };
             let height = f64::from(state.positions[particle][shear.gradient]) / 4_294_967_296.0 - 0.5;
-            let middle = height - 0.5 * motion.drift(particle)[shear.gradient] / model.units.lengths[shear.gradient];
+            let middle = height - share * motion.drift(particle)[shear.gradient] / model.units.lengths[shear.gradient];
             drift[0] -= middle * shear.velocity * model.time_step;
         }
         let mut impulse = [0.0; 3];
