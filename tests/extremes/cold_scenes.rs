@@ -61,22 +61,14 @@ fn largest(interactions: &Value, temperature: f64) -> (u32, f64) {
     let unit = model.units.momentum;
     let state = mesoscope::families::initial_state(&scene, &model);
     let mut most = largest_of(&state.momenta);
-    if !model.particles().splits(&model) {
-        let mut run = Reference::new(model, state);
-        for _ in 0..80 {
-            match run.step() {
-                Ok(()) => {}
-                Err(Unstable::Bond { .. }) if temperature >= 1.0 => break,
-                Err(problem) => panic!("{interactions}, kT = {temperature}: {problem:?}"),
-            }
-            most = most.max(largest_of(&run.state().momenta));
+    let mut run = Reference::new(model, state);
+    for _ in 0..80 {
+        match run.step() {
+            Ok(()) => {}
+            Err(Unstable::Bond { .. }) if temperature >= 1.0 => break,
+            Err(problem) => panic!("{interactions}, kT = {temperature}: {problem:?}"),
         }
-    } else {
-        let mut run = Reference::new(model, state);
-        for _ in 0..80 {
-            run.step().unwrap();
-            most = most.max(largest_of(&run.state().momenta));
-        }
+        most = most.max(largest_of(&run.state().momenta));
     }
     (most, unit)
 }

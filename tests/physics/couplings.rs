@@ -33,7 +33,8 @@ fn runs(scene: &Scene, state: &State) -> Vec<Box<dyn Implementation>> {
 }
 
 /// An ideal gas whose friction γ is relative to the flow of a sheared box keeps the linear profile. From the Langevin equation of
-/// the peculiar velocity, du/dt = -γu - rate v_y + noise, follow ⟨u v_y⟩ = -rate kT/2γ and ⟨u²⟩ = kT (1 + rate²/2γ²).
+/// the peculiar velocity, du/dt = -γu - rate w + noise with the velocity w across the flow, follow ⟨uw⟩ = -rate kT/2γ and
+/// ⟨u²⟩ = kT (1 + rate²/2γ²).
 #[test]
 fn friction_relative_to_the_flow_has_the_stress_of_a_langevin_gas() {
     let (rate, friction) = (1.5_f64, 2.0_f64);
@@ -63,7 +64,7 @@ fn friction_relative_to_the_flow_has_the_stress_of_a_langevin_gas() {
         }
         let kinetic = Measured::of(&temperatures);
         kinetic.assert(integrator, 1.0 + (rate / friction).powi(2) / 6.0, 0.005, 0.005);
-        // The places of a split step's report are half a drift later, where the flow is faster by rate v_y dt/2.
+        // The places of a split step's report are half a drift later, where the flow is faster by rate w dt/2.
         let late = if integrator == "splitting" { 0.5 * 0.02 } else { 0.0 };
         let stress = Measured::of(&stresses);
         stress.assert(&format!("{integrator}: stress"), -rate * (0.5 / friction + late), 0.005, 0.005);

@@ -151,7 +151,7 @@ fn lists_that_last_across_boundaries_agree_with_the_reference() {
         let (mut lists, mut anchors) = (0, [Vec::new(), Vec::new()]);
         both.steps(60, units_of_a_step(false), &document.to_string(), |step, found, expected| {
             // Both list anew in the same steps; places differ by some units.
-            let renewed = [&found.anchors != &anchors[0], &expected.anchors != &anchors[1]];
+            let renewed = [found.anchors != anchors[0], expected.anchors != anchors[1]];
             assert_eq!(renewed[0], renewed[1], "step {step}");
             lists += u32::from(renewed[0]);
             anchors = [found.anchors.clone(), expected.anchors.clone()];

@@ -113,13 +113,20 @@ impl PairForce {
         }
     }
 
+    /// The part of the displacement of boundaries that shear after which a list of neighbours is made again, in 2⁻³² of the box.
+    ///
+    /// What is listed across a boundary goes on by that much without its particles. A quarter of the margin is kept for it,
+    /// in three parts: pairs move with their copies, and either particle is followed from a copy of where it was.
+    pub(crate) fn margin_of_copies(&self, model: &Model) -> u32 {
+        let part = self.skin / (4.0 * 3.0) / model.units.lengths[0];
+        ((part * 4_294_967_296.0) as u32).max(1)
+    }
+
     /// How far a particle may go from where it was listed until neighbours are listed again.
     pub(crate) fn reach_in_list(&self, model: &Model) -> f64 {
         let units_of_length = model.units.lengths[0] / 4_294_967_296.0;
-        let copies = model
-            .particles()
-            .shear
-            .map_or(0.0, |shear| 3.0 * f64::from(shear.margin(model, self.skin)) * units_of_length);
+        let moved = 3.0 * f64::from(self.margin_of_copies(model)) * units_of_length;
+        let copies = if model.particles().shear.is_some() { moved } else { 0.0 };
         0.5 * (self.skin - copies).max(0.0)
     }
 

@@ -68,15 +68,6 @@ impl ShearedBox {
         [self.increment as u32, (self.increment >> 32) as u32]
     }
 
-    /// The part of the displacement after which a list of neighbours is made again, in 2⁻³² of the box.
-    ///
-    /// What is listed across a boundary goes on by that much without its particles. A quarter of the margin is kept for it,
-    /// in three parts: pairs move with their copies, and either particle is followed from a copy of where it was.
-    pub(crate) fn margin(&self, model: &Model, skin: f64) -> u32 {
-        let part = skin / (4.0 * 3.0) / model.units.lengths[0];
-        ((part * 4_294_967_296.0) as u32).max(1)
-    }
-
     /// The shear rate: velocity per length along the gradient.
     #[must_use]
     pub fn rate(&self, model: &Model) -> f64 {

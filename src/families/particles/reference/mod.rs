@@ -36,10 +36,9 @@ mod walls;
 pub use splitting::Relaxation;
 pub use stress::Virial;
 
-use crate::families::Model;
-use crate::families::Observables;
 use crate::families::reference::bath::BathSums;
 use crate::families::reference::{Unstable, add, narrow, widen};
+use crate::families::{Model, Observables, PairForce};
 use crate::state::{Reported, State};
 use motion::Motion;
 use pairs::Pair;
@@ -233,7 +232,7 @@ impl Reference {
         let mut bath_sums = BathSums::default();
         let mut baths = State::default();
         let mut virials = Virials::new(model, state);
-        let remembers = particles.pair_force.as_ref().is_some_and(|force| force.remembers());
+        let remembers = particles.pair_force.as_ref().is_some_and(PairForce::remembers);
         let found = if remembers { Vec::new() } else { self.pairs() };
 
         if let Some(force) = particles.pair_force.as_ref() {

@@ -55,13 +55,13 @@ pub enum Relaxation {
 }
 
 /// O: momenta relax, first those of particles, then along bonds, then of pairs, whose virials over the time of a step are added.
-pub(super) fn relax(reference: &Reference, found: &[Pair], momenta: &mut Vec<[i64; 3]>, virials: &mut Virials) {
+pub(super) fn relax(reference: &Reference, found: &[Pair], momenta: &mut [[i64; 3]], virials: &mut Virials) {
     let (model, state) = (&reference.model, &reference.state);
     relaxation::of_particles(model, state, &reference.masses, momenta);
     relaxation::of_bonds(model, state, &reference.masses, momenta, virials);
     if model.particles().relaxes_pairs(model) {
         // Friction sees held particles with the velocity that they keep, whatever a wall is to absorb.
-        let mut seen = momenta.clone();
+        let mut seen = momenta.to_vec();
         held::hold(model, state, &mut seen);
         let impulses = relax_pairs(reference, found, &seen, virials);
         add(momenta, &impulses);

@@ -56,8 +56,10 @@ impl Builder<'_> {
             let cells = if axis < self.grid.dimension { self.grid.cells[axis] } else { 1 };
             f64::from(if cells >= 3 { 3 } else { 1 })
         };
-        let outdated = self.model.particles().shear.map(|shear| f64::from(shear.margin(self.model, self.force.skin)));
-        self.plan.constants.extend(outdated.map(|margin| (Constant::ShearMargin, margin)));
+        if self.is_sheared() {
+            let margin = self.force.margin_of_copies(self.model);
+            self.plan.constants.push((Constant::ShearMargin, f64::from(margin)));
+        }
         self.plan.constants.extend([
             (Constant::SpanX, span(0)),
             (Constant::SpanY, span(1)),

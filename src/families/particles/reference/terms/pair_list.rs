@@ -26,7 +26,7 @@ pub(in crate::families::particles::reference) fn renew(
     let outdated = model.particles().shear.is_some_and(|shear| {
         let halves = model.clock(state.step).wrapping_mul(2);
         let [now, before] = [halves, halves.wrapping_sub(2)].map(|halves| shear.shift(halves));
-        now / shear.margin(model, force.skin) != before / shear.margin(model, force.skin)
+        now / force.margin_of_copies(model) != before / force.margin_of_copies(model)
     });
     let listed = state.anchors.len() == state.len();
     if listed && !outdated && !state.positions.iter().zip(&state.anchors).any(is_far) {
