@@ -10,7 +10,7 @@
 //! p(n+1) = p(n+½) - dt/2 [∇V + Σ ∇h s(n+1)]                                           (17)
 //! ```
 //! Without memory e = 0 and λₑ = 2γ/dt. The state keeps r(n) and p(n-½), so that (16), (17), (14) and (15) make a step, in
-//! this order. In a split step baths without memory relax momenta at p(n) instead: see [`splitting`]. Impulses between particles
+//! this order. In a split step baths without memory relax momenta at p(n) instead: see `splitting.rs`. Impulses between particles
 //! are rounded once and handed to all ends, so that nothing depends on their order.
 //!
 //! At step 0 the momenta are those of the report point, and baths with memory are as they are in the state: nothing is
