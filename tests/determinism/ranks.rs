@@ -191,15 +191,7 @@ fn exchanges_during_a_step_give_the_bytes_of_one_rank_in_other_scenes() {
     assert!(compare_overlapping(&overlapping()[5..]) >= 5);
 }
 
-/// Copies gather impulses of tethers, which a pass over pairs takes from them too, particle by particle.
-#[test]
-fn tethers_of_copies_give_the_bytes_of_one_rank() {
-    let scene = scene(&[COTTER_REICH, "space.box=[4,4,20]", BATHED, "temperature=9"]);
-    let alone = bytes::run(&scene, Options::default(), STEPS, 8);
-    assert!(same(&alone, &divided(&scene, [1, 1, 2], 8, by_particles())));
-}
-
-/// All else is exchanged between two kernels: of narrow parts, with bonds, and where eight particles are visited together. Alone a rank
+/// All else is exchanged between two kernels: of narrow parts, with bonds, with tethers, whose impulses copies gather too, and where eight particles are visited together. Alone a rank
 /// has nobody to wait for.
 #[test]
 fn exchanges_overlap_where_there_is_something_to_do() {
