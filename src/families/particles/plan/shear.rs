@@ -1,6 +1,5 @@
 //! Shear: what kernels choose and know of boundaries that move.
 
-use crate::document::Integrator;
 use crate::families::Model;
 use crate::plan::Plan;
 use crate::shaders::{Choices, Constant, couplings, external, pairs, space};
@@ -59,14 +58,11 @@ pub(super) fn add_constants(model: &Model, parts: u8, entries_before: Option<usi
     ]);
 }
 
-/// The part of the last drift since particles had the velocities that baths on them see: half of it, and with a prediction of λ 1 - λ.
+/// The part of the last drift that baths on particles go back for the flow that they take for rest: none. With a part s, the shear stress of
+/// a Langevin gas at a report is 1 + s γdt/m times that of the exact motion.
 fn flow_share(model: &Model) -> Option<(Constant, f64)> {
-    let share = match model.integrator {
-        Integrator::GrootWarren { lambda } => 1.0 - lambda,
-        _ => 0.5,
-    };
     let sees_flow = model.particles().position_bath.as_ref().is_some_and(|bath| bath.peculiar);
-    sees_flow.then_some((Constant::FlowShare, share))
+    sees_flow.then_some((Constant::FlowShare, 0.0))
 }
 
 /// The entries of a table of species: one for each, of halves that single precision holds.

@@ -41,11 +41,6 @@ impl Motion {
         }
     }
 
-    /// The last drift of a particle.
-    pub fn drift(&self, particle: usize) -> [f64; 3] {
-        self.drifts[particle]
-    }
-
     /// The way of a particle in the last step, which a bath with memory sees.
     pub fn way(&self, particle: usize) -> [f64; 3] {
         self.ways.as_ref().unwrap_or(&self.drifts)[particle]

@@ -1,7 +1,6 @@
 //! Langevin dynamics: a bath coupled to every coordinate of every particle by itself, h = x.
 
 use super::push;
-use crate::document::Integrator;
 use crate::families::particles::reference::motion::Motion;
 use crate::families::reference::bath::{self, BathSums};
 use crate::families::{Model, PositionBath};
@@ -23,14 +22,8 @@ pub(in crate::families::particles::reference) fn kick(
         let step = &bath.steps[state.species[particle] as usize];
         let mut drift = if bath.memory { motion.way(particle) } else { motion.drift_seen(particle) };
         if let Some(shear) = model.particles().shear.as_ref().filter(|_| bath.peculiar) {
-            // The mean flow is that where the particle had the velocity that friction sees.
-            let share = match model.integrator {
-                Integrator::GrootWarren { lambda } => 1.0 - lambda,
-                _ => 0.5,
-            };
             let height = f64::from(state.positions[particle][shear.gradient]) / 4_294_967_296.0 - 0.5;
-            let middle = height - share * motion.drift(particle)[shear.gradient] / model.units.lengths[shear.gradient];
-            drift[0] -= middle * shear.velocity * model.time_step;
+            drift[0] -= height * shear.velocity * model.time_step;
         }
         let mut impulse = [0.0; 3];
         for axis in 0..model.units.dimension {
