@@ -6,3 +6,8 @@
 fn replace_momentum(index: u32, me: Particle, momentum: Steps) {
     keep_momentum_of_all(row_of(fraction_of(me.position)), index, me, momentum_word(momentum, me.momentum.w));
 }
+fn keep_momentum_of_all(row: u32, index: u32, me: Particle, word: vec4<i32>) {
+    keep_momentum(index, word);
+    let copy = copy_in_frame(row, index, me);
+    if (copy != index) { keep_momentum(copy, word); }
+}

@@ -60,7 +60,7 @@ fn reduce_totals(group: u32, lane: u32, first: u32, last: u32) {
 fn reduce_motion(group: u32, lane: u32) { reduce_totals(group, lane, SUM_KINETIC_ENERGY, SUM_MOMENTUM + 2u); }
 fn reduce_configuration(group: u32, lane: u32) { reduce_totals(group, lane, SUM_POTENTIAL_ENERGY, SUM_CURVATURE); }
 
-// Slot core/bath_totals: the same of baths that remember, for the motion at the report of a split step. The plan of particles
-// chooses `apart` if there are any.
+// Slot core/bath_totals: the same of baths that remember, for the motion at the report of a split step. The plan of
+// particles chooses `apart` if there are any.
 // Default: there are none.
 fn reduce_baths(group: u32, lane: u32) {}

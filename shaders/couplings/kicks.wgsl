@@ -7,8 +7,8 @@ fn add_kick(slot: u32, kick: Steps) {}
 
 // Slot couplings/gathered: the impulses of half a step that couplings have added to a sorted particle, for the passes over
 // particles; `take_gathered_kick` also clears them for the next step.
-// Default: off, no coupling but pairs found in cells. The plan of particles chooses `kept` if the scene has listed pairs, bonds,
-// angles or tethers, or if a split step visits its pairs once.
+// Default: off, no coupling but pairs found in cells. The plan of particles chooses `kept` if the scene has listed
+// pairs, bonds, angles or tethers, or if a split step visits its pairs once.
 fn gathered_kick(slot: u32) -> Steps { return Steps(0); }
 fn take_gathered_kick(slot: u32) -> Steps { return Steps(0); }
 
@@ -20,8 +20,9 @@ fn external_kick(me: Particle) -> Steps { return Steps(0); }
 // Two particles of a pair or a bond, and their slots.
 struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
 
-// Slot couplings/conservative: the conservative part of the impulse that couplings have added to a sorted particle before a
-// report, which is cleared. The plan of particles chooses `apart` if any of them has friction, and `none` if they have nothing else.
+// Slot couplings/conservative: the conservative part of the impulse that couplings have added to a sorted particle
+// before a report, which is cleared. The plan of particles chooses `apart` if any of them has friction, and `none` if
+// they have nothing else.
 // Default: all of it.
 fn conservative_kick(slot: u32, all: Steps) -> Steps { return all; }
 

@@ -15,8 +15,8 @@ fn owns(id: u32, other: u32) -> bool { return (id < other) == (((id + other) & 1
 // (couplings/pairs) reads it. Default: off. The plan chooses `listed` if bonds exclude pairs.
 fn excluded(id: u32, other: u32) -> u32 { return 0u; }
 
-// Slot couplings/margin: how far a particle is from where it was when neighbours were listed, and whether a list is outdated
-// when a step begins, however little particles have moved. The plan chooses `sheared` if the scene has shear.
+// Slot couplings/margin: how far a particle is from where it was when neighbours were listed, and whether a list is
+// outdated when a step begins, however little particles have moved. The plan chooses `sheared` if the scene has shear.
 // Default: only particles move.
 fn way_from_anchor(place: Fraction, anchor: Fraction) -> Steps { return signed(place - anchor); }
 fn is_outdated(step: vec2<u32>) -> bool { return false; }

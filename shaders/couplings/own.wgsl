@@ -6,10 +6,10 @@ struct OwnImpulses {
 }
 
 // Slot couplings/own: `advance_own` takes baths and forces of a particle by itself to this step; `observe_own` finds
-// their impulses for a report, and leaves them as they are; `observe_own_products` gets the momentum that follows. The plan
-// chooses `acting` if steps that are not split have baths on coordinates or a random force.
-// In a first pass of a split step `leave_opening` leaves the impulses of the half step that begins here, and those of both, in
-// `kicks`, `finish_own` ends the pass, and a report observes what the pass has made of the baths by `observe_advanced_own`.
+// their impulses for a report, and leaves them as they are; `observe_own_products` gets the momentum that follows. The
+// plan chooses `acting` if kicks have baths on coordinates or a random force. In a first pass of a split step
+// `leave_opening` leaves the impulses of the half step that begins here, and those of both, in `kicks`, `finish_own`
+// ends the pass, and a report observes what the pass has made of the baths by `observe_advanced_own`.
 // Default: off, nothing acts on single particles but body forces.
 fn advance_own(me: Particle) -> OwnImpulses { return OwnImpulses(Steps(0), Steps(0), Steps(0)); }
 fn observe_own(me: Particle) -> OwnImpulses { return OwnImpulses(Steps(0), Steps(0), Steps(0)); }
@@ -24,23 +24,23 @@ struct NoiseImpulses { closing: Steps, opening: Steps }
 fn advance_hold(id: u32) -> NoiseImpulses { return NoiseImpulses(Steps(0), Steps(0)); }
 fn closing_of_hold(id: u32) -> Steps { return Steps(0); }
 
-// Slot baths/positions: a bath on every coordinate, from what the last step has made of it; `position_impulse` is its impulse
-// of half a step, `keep_position_bath` stores it for `kept_position_bath`. Default: off. The plan chooses `memory` or `white`.
+// Slot baths/positions: a bath on every coordinate, from what the last step has made of it; `position_impulse` is its
+// impulse of half a step, `keep_position_bath` stores it for `kept_position_bath`. Default: off. The plan chooses
+// `memory` or `white`.
 fn position_bath(me: Particle, species: i32) -> Vector { return Vector(0.0); }
 fn position_impulse(bath: Vector) -> Vector { return bath; }
 fn keep_position_bath(id: u32, bath: Vector) {}
 fn kept_position_bath(id: u32) -> Vector { return Vector(0.0); }
 
-// Slot baths/seen: the drift that friction without memory sees of a particle, and the change of length that it sees of a bond
-// (bonds/bonds). The plan chooses `velocity` for the integrator `groot-warren`.
+// Slot baths/seen: the drift that friction without memory sees of a particle, and the change of length that it sees of
+// a bond (bonds/bonds). The plan chooses `velocity` for the integrator `groot-warren`.
 // Default: the drift of the last step.
 fn drift_seen(me: Particle) -> Vector { return Vector(drift_steps(me.momentum)) * unit_lengths(); }
 
-// Slot baths/flow: what baths on particles take for rest: the drift of the mean flow where the last step has taken a particle,
-// and its momentum where the particle is. The plan chooses `peculiar` in a sheared box, unless friction is that of the
-// laboratory.
+// Slot baths/flow: what baths on particles take for rest: the drift of the mean flow in a step, and its momentum. The
+// plan chooses `peculiar` in a sheared box, unless friction is that of the laboratory.
 // Default: what is at rest in the box.
-fn flow_of_drift(me: Particle, way: Steps) -> Vector { return Vector(0.0); }
+fn flow_of_drift(me: Particle) -> Vector { return Vector(0.0); }
 fn flow_of_particle(me: Particle) -> Vector { return Vector(0.0); }
 
 // Slot baths/position_noise: noise of the position bath of a coordinate, in its unit.

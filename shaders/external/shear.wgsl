@@ -16,8 +16,8 @@ fn shift_at(halves: Sum64) -> u32 {
     return SHEAR_FIRST + high_of_product(halves.x, SHEAR_LOW) + halves.x * SHEAR_HIGH + halves.y * SHEAR_LOW;
 }
 
-// Slot external/shift: the shift where a kernel sees the particles. Variant kept; the plan of particles chooses it for kernels that
-// visit particles one by one. Default: from the clock.
+// Slot external/shift: the shift where a kernel sees the particles. Variant kept; the plan of particles chooses it for
+// kernels that visit particles one by one. Default: from the clock.
 fn shift_here() -> u32 { return shift_after(SHEAR_MOMENT); }
 
 // Slot external/jump: by how many units the momentum of a particle is larger above a boundary than below. Variant by_species; the plan
@@ -35,10 +35,9 @@ fn boxes_up(mine: Fraction, other: Fraction) -> i32 {
 }
 
 // The momentum along x with which a particle at a place would flow, in the linear profile that rests in the middle of the box.
-fn flow_at(fraction: Fraction, species: i32) -> f32 { return flow_from_middle(species, from_middle(fraction)); }
-fn from_middle(fraction: Fraction) -> f32 { return f32(bitcast<i32>(fraction[SHEAR_AXIS] ^ 0x80000000u)); }
-fn flow_from_middle(species: i32, height: f32) -> f32 {
-    return f32(jump_of(species)) * (height * 2.3283064e-10); // 2^-32
+fn flow_at(fraction: Fraction, species: i32) -> f32 {
+    let place = bitcast<i32>(fraction[SHEAR_AXIS] ^ 0x80000000u);
+    return f32(jump_of(species)) * (f32(place) * 2.3283064e-10); // 2^-32
 }
 
 // A particle that drifts through boundaries.

@@ -5,12 +5,13 @@
 // - grid/dimension: rows of cells along x, and the rows around a row. Variants plane, volume; plans follow the box of the scene.
 // - grid/rows: where a cell of a row is in `cells`. Variants framed (copies of the end cells at both ends of each row; pairs),
 //   plain (neighbour lists and Voronoi cells), mesh and mesh_in_pairs (shallow water).
-// - grid/copied: the particle as it is copied into the sorted array. Variants particles, fours; chosen by the plan of particles.
+// - grid/copied: the particle as it is copied into the sorted array. Variants particles, fours; chosen by the plan of
+//   particles.
 
 override CELLS: u32;
 
-// Slot grid/stored: which particles are stored and sorted, and which of them are told of. Default: all. The plan of particles chooses `of_rank` for one of several ranks, which
-// forgets particles and gets others.
+// Slot grid/stored: which particles are stored and sorted, and which of them are reported. Default: all. The plan of
+// particles chooses `of_rank` for one of several ranks, which forgets particles and gets others.
 fn stored_count() -> u32 { return PARTICLES; }
 fn sorted_count() -> u32 { return PARTICLES; }
 fn is_own(position: vec4<u32>) -> bool { return true; }
@@ -81,8 +82,8 @@ fn arrange_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
     note_slot(position.w, slot);
 }
 
-// Slot couplings/anchors: keeps where a particle was when neighbours were listed. Default: off, no neighbours are listed. The plan
-// chooses `kept` for lists.
+// Slot couplings/anchors: keeps where a particle was when neighbours were listed. Default: off, no neighbours are
+// listed. The plan chooses `kept` for lists.
 fn note_anchor(slot: u32, position: vec4<u32>) {}
 
 // Slot couplings/origins: keeps where a particle was stored before the sort. Default: off. The plan chooses `kept` for pairs

@@ -38,7 +38,8 @@ const SCAN_LANES: u32 = 256u;
 var<workgroup> scan_lanes: array<vec2<u32>, SCAN_LANES>;
 
 // Slot grid/scan_lanes: an exclusive prefix sum over the lanes of a workgroup, of two sums at once. All lanes call it.
-// Default: through workgroup memory. The plan of particles chooses `eight` where the workgroup is a subgroup of eight lanes.
+// Default: through workgroup memory. The plan of particles chooses `eight` where the workgroup is a subgroup of eight
+// lanes.
 fn scan_of_lanes(lane: u32, value: vec2<u32>) -> vec2<u32> {
     scan_lanes[lane] = value;
     workgroupBarrier();
@@ -113,6 +114,6 @@ fn scan_rows(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocat
 }
 
 // Slot grid/end_of_step: what the workgroups of the last kernel of a step do when they are done.
-// Default: off, a kernel of its own begins the next step. The plan of particles chooses `last_workgroup` on software adapters whose
-// subgroups have eight lanes.
+// Default: off, a kernel of its own begins the next step. The plan of particles chooses `last_workgroup` on software
+// adapters whose subgroups have eight lanes.
 fn end_step(lane: u32) {}

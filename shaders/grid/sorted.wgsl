@@ -1,7 +1,8 @@
 // Puts a particle among the sorted ones: where rows of cells have frames, copies too.
 var<storage, read_write> sorted: array<Copied>;
 
-// Slot grid/sorted: `put_sorted`. Variant apart; chosen by the plan of particles where sorted particles are in textures.
+// Slot grid/sorted: `put_sorted`. Variant apart; chosen by the plan of particles where sorted particles are in
+// textures.
 // Default: in a buffer.
 fn put_sorted(index: u32, particle: Copied) {
     sorted[index] = particle;

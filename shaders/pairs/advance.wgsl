@@ -25,14 +25,15 @@ fn store_advanced(row: u32, index: u32, me: Particle, momentum: Steps, kick: Ste
     note_place(slot, end.place);
 }
 
-// The second half of a drift that a report has interrupted. One invocation a stored particle; updates it, and `wall_impulses`
-// where momenta change; notes its place.
+// The second half of a drift that a report has interrupted. One invocation a stored particle; updates it, and
+// `wall_impulses` where momenta change; notes its place.
 @compute @workgroup_size(WORKGROUP)
 fn drift_rest(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index >= sorted_count()) { return; }
     let me = stored_particle(index);
     let end = travel_rest(me.position, steps_of(me.momentum), species_of(me));
-    store_particle(index, Particle(position_word(end.place, me.position.w), momentum_word(end.momentum, me.momentum.w)));
+    let momentum = momentum_word(end.momentum, me.momentum.w);
+    store_particle(index, Particle(position_word(end.place, me.position.w), momentum));
     note_place(index, end.place);
 }

@@ -9,10 +9,12 @@ struct Contact {
     inside: bool,      // closer than the cutoff
 }
 
-// Slot pairs/apart: from the nearest copy of the other particle to this one, in 2^-32 of the box, and how far the last step
-// has moved the copy without its particle: odd under exchange. The plan chooses `sheared` if the scene has shear.
+// Slot pairs/apart: from the nearest copy of the other particle to this one, in 2^-32 of the box, and how far the last
+// step has moved the copy without its particle: odd under exchange. The plan chooses `sheared` if the scene has shear.
 // Default: round the periodic box.
-fn way_between(position: vec4<u32>, other: vec4<u32>) -> Steps { return signed(fraction_of(position) - fraction_of(other)); }
+fn way_between(position: vec4<u32>, other: vec4<u32>) -> Steps {
+    return signed(fraction_of(position) - fraction_of(other));
+}
 fn copy_drift(position: vec4<u32>, other: vec4<u32>) -> Steps { return Steps(0); }
 
 // Slot pairs/separation: the same as a length. The plan chooses `noted` if forces depend on local densities.

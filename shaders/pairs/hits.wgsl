@@ -1,9 +1,10 @@
 // Hits: the candidates that may be within the cutoff of a particle, one bit each.
 //
 // Slot pairs/hits: which candidates are visited. `prepare_row_hits` and `prepare_cluster_hits` begin with a particle;
-// `hits_of_row` and `hits_of_cluster` give a word of hits for up to 32 candidates, without the particle itself; `keep_mask`
-// gets every word found. Variants: keep (stores the words for a later pass), kept (reads them), sheared (notes the place of
-// the particle). Default: the prefilter finds them and nothing is stored. The plan of particles chooses for the two passes of a split step.
+// `hits_of_row` and `hits_of_cluster` give a word of hits for up to 32 candidates, without the particle itself;
+// `keep_mask` gets every word found. Variants: keep (stores the words for a later pass), kept (reads them), sheared
+// (notes the place of the particle). Default: the prefilter finds them and nothing is stored. The plan of particles
+// chooses for the two passes of a split step.
 //
 // Slot pairs/prefilter: a word of a few bits an axis that never misses a neighbour. Variants plane, volume; the plan follows
 // the box.

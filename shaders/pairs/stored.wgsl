@@ -1,7 +1,7 @@
 // Visits every particle as it is stored, and no pair: where particles are not ordered by cell at every step.
 
-// Visits every particle. One invocation a stored particle. The pass decides what is read and written: slot pairs/pass, see
-// pairs/rows.
+// Visits every particle. One invocation a stored particle. The pass decides what is read and written: slot pairs/pass,
+// see pairs/rows.
 @compute @workgroup_size(WORKGROUP)
 fn visit_stored(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);

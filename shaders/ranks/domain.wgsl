@@ -27,9 +27,9 @@ fn lies_in(domain: u32, position: vec4<u32>) -> bool {
     return all(((position - domains[domain].low) < width) | (width == vec4<u32>(0u)));
 }
 
-// Slot ranks/inner: whether particles that no other rank has to know of are told apart, by the mark of a sorted particle. The plan of particles
+// Slot ranks/inner: the mark of a sorted particle that no other rank has to know of. The plan of particles
 // chooses `marked` where the device goes on with these while the others are on their way.
-// Default: they are not.
+// Default: no particle is marked as inner.
 fn mark_of(row: u32, index: u32, own: bool) -> u32 { return select(0u, 1u, own); }
 fn is_inner(slot: u32) -> bool { return false; }
 

@@ -2,8 +2,8 @@
 // at its end.
 override SPECIES: u32;
 
-// Slot space/coefficients: the coefficients of a pair, `coefficients_of`, and what species have of their own. The plan of particles chooses
-// `single`, `table` or `ranges`. Default: species have it from the table.
+// Slot space/coefficients: the coefficients of a pair, `coefficients_of`, and what species have of their own. The plan
+// of particles chooses `single`, `table` or `ranges`. Default: species have it from the table.
 
 // The species of a sorted particle, without the rest of it.
 fn other_species(index: u32) -> i32 { return species_in(momentum_at(index)); }

@@ -56,7 +56,7 @@ impl Bath {
         }
     }
 
-    /// Whether it has memory.
+    /// The bath has memory.
     #[must_use]
     pub fn remembers(&self) -> bool {
         matches!(self, Self::Memory { .. })

@@ -59,8 +59,8 @@ pub fn linked_text(entry: Entry, choices: &Choices) -> Result<LinkedText, Unlink
     library()?.link(entry.name(), &choices.with_arrays_in_buffers().paths().collect::<Vec<_>>())
 }
 
-/// The number of buffers that a kernel binds, if all arrays of which its choices say nothing are in buffers; none of a kernel that
-/// does not link.
+/// The number of buffers that a kernel binds, if all arrays of which its choices say nothing are in buffers; none of a
+/// kernel that does not link.
 ///
 /// ```
 /// use mesoscope::shaders::{Choices, Entry, mesh, storage_buffers, water};

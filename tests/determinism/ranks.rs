@@ -191,8 +191,8 @@ fn exchanges_during_a_step_give_the_bytes_of_one_rank_in_other_scenes() {
     assert!(compare_overlapping(&overlapping()[5..]) >= 5);
 }
 
-/// All else is exchanged between two kernels: of narrow parts, with bonds, with tethers, whose impulses copies gather too, and where eight
-/// particles are visited together. Alone a rank has nobody to wait for.
+/// All else is exchanged between two kernels: of narrow parts, with bonds, with tethers, whose impulses copies gather
+/// too, and where eight particles are visited together. Alone a rank has nobody to wait for.
 #[test]
 fn exchanges_overlap_where_there_is_something_to_do() {
     const WIDE: &str = "space.box=[4,4,20]";

@@ -76,7 +76,8 @@ fn cases() -> Vec<(Scene, Vec<[u32; 3]>)> {
             scene(&[SPLITTING, "space.box=[4,4,13]", CHAINS], &[r#"{"type":"dpd","repulsion":25}"#, TETHERS]),
             vec![[1, 1, 2]],
         ),
-        // Steps that are not split: friction along bonds beside pairs and densities, and baths and tethers without pairs.
+        // Steps that are not split: friction along bonds beside pairs and densities, and baths and tethers without
+        // pairs.
         (scene(&[COTTER_REICH, "space.box=[4,4,13]", CHAINS], &[PAIRS, RUBBING]), vec![[1, 1, 3]]),
         (scene(&[GROOT_WARREN, "space.box=[4,4,13]", CHAINS], &[MANY_BODY, RUBBING]), vec![[1, 1, 2]]),
         (scene(&[COTTER_REICH, "space.box=[4,4,13]", CHAINS], &[LANGEVIN, TETHERS, RUBBING]), vec![[1, 1, 3]]),

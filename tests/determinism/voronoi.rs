@@ -53,8 +53,8 @@ fn storage_order_gives_the_same_bytes() {
     }
 }
 
-/// The number of sums in a row that do not depend on the last upload, which come first: exchanges are counted since then, and the
-/// solver remembered.
+/// The number of sums in a row that do not depend on the last upload, which come first: exchanges are counted since
+/// then, and the solver remembered.
 fn lasting_sums(scene: &Scene) -> usize {
     let plan = run::plan(&start(scene).0, 0, &scene.output, hardware(), Options::default());
     let counted = plan.constants.iter().find(|(name, _)| *name == Constant::SumLimitedExchanges);

@@ -262,7 +262,12 @@ fn integrators() {
         &[groot_warren, r#"interactions.0.bath={"type":"memory","rate":10}"#],
         &["found `groot-warren` and a bath with memory in interactions[0]"],
     );
-    CHAINS.parse(&[groot_warren, r#"interactions.2={"type":"langevin","friction":1}"#]).unwrap();
+    let langevin = r#"interactions.2={"type":"langevin","friction":4}"#;
+    let warnings = |integrator: &str| CHAINS.warnings(&[integrator, langevin, "time.step=0.01"]).join(" ");
+    assert!(!warnings(groot_warren).contains("predicted"));
+    let predicts = warnings(r#"integrator={"type":"groot-warren","lambda":0.9}"#);
+    assert!(predicts.contains("integrator.lambda: friction of particles or bonds sees predicted"), "{predicts}");
+    assert!(predicts.contains("% too low"), "{predicts}");
     CHAINS.refused_with(
         &[groot_warren, r#"interactions.2={"type":"langevin","friction":1,"bath":{"type":"memory","rate":2}}"#],
         &["found `groot-warren` and a bath with memory on every particle in interactions[2]"],

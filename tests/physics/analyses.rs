@@ -57,8 +57,8 @@ fn displacements_count_every_crossing_between_samples() {
     }
 }
 
-/// Velocities relative to the flow of an ideal gas with `langevin` in shear: ⟨u²⟩ = kT (1 + rate²/2γ²) along the flow, kT across it, and
-/// ⟨u(t) u(0)⟩ decays at the rate γ but for what the velocity across carries through the flow,
+/// Velocities relative to the flow of an ideal gas with `langevin` in shear: ⟨u²⟩ = kT (1 + rate²/2γ²) along the flow,
+/// kT across it, and ⟨u(t) u(0)⟩ decays at the rate γ but for what the velocity across carries through the flow,
 /// ⟨u·u⟩(t) = exp(-γt) (2 kT + ⟨u²⟩ + rate² kT t/2γ).
 #[test]
 fn velocities_in_shear_are_relative_to_the_flow() {
@@ -87,7 +87,8 @@ fn velocities_in_shear_are_relative_to_the_flow() {
                 "{integrator} {what}: {found}, expected {expected} ± {error}"
             );
         };
-        // Of 120 samples, decorrelated by exp(-0.8) from each other, 50 independent ones of 2 000 squares, whose variance is 6 or more.
+        // Of 120 samples, decorrelated by exp(-0.8) from each other, 50 independent ones of 2 000 squares, whose
+        // variance is 6 or more.
         let error = (7.0 / (50.0 * 2000.0_f64)).sqrt();
         near("mean square", number(&outcome, &["velocity_histogram", "mean_square"]), 2.0 + along, error);
         let autocorrelation = table(directory.path(), "velocity_autocorrelation.csv");

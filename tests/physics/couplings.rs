@@ -32,9 +32,9 @@ fn runs(scene: &Scene, state: &State) -> Vec<Box<dyn Implementation>> {
     runs
 }
 
-/// An ideal gas whose friction γ is relative to the flow of a sheared box keeps the linear profile. From the Langevin equation of
-/// the peculiar velocity, du/dt = -γu - rate w + noise with the velocity w across the flow, follow ⟨uw⟩ = -rate kT/2γ and
-/// ⟨u²⟩ = kT (1 + rate²/2γ²).
+/// An ideal gas whose friction γ is relative to the flow of a sheared box keeps the linear profile. From the Langevin
+/// equation of the peculiar velocity, du/dt = -γu - rate w + noise with the velocity w across the flow, follow ⟨uw⟩ =
+/// -rate kT/2γ and ⟨u²⟩ = kT (1 + rate²/2γ²).
 #[test]
 fn friction_relative_to_the_flow_has_the_stress_of_a_langevin_gas() {
     let (rate, friction) = (1.5_f64, 2.0_f64);
@@ -69,8 +69,27 @@ fn friction_relative_to_the_flow_has_the_stress_of_a_langevin_gas() {
     }
 }
 
-/// Kicks of a bath with memory in split steps keep the linear law, for O relaxes momenta where they are independent of places and
-/// baths: ⟨p²⟩ = m kT and ⟨s²⟩ = kTλₑ(4-W)/(4-B-W), beside any friction of pairs.
+/// Friction of single particles that sees velocities predicted by λ leaves ⟨v²⟩ = (kT/m) 2/(2 + (2λ - 1) γdt/m).
+#[test]
+fn predicted_friction_of_particles_has_its_temperature() {
+    for lambda in [0.3_f64, 0.65] {
+        let scene = fluid(&[
+            &format!(r#"integrator={{"type":"groot-warren","lambda":{lambda}}}"#),
+            r#"interactions=[{"type":"langevin","friction":4}]"#,
+            r#"particles=[{"species":"A","count":3000}]"#,
+            "time.step=0.1",
+            "output.energies.every=5",
+        ]);
+        let mut device = Device::new(&scene);
+        device.step(60);
+        let column: Vec<f64> = device.series(5, 600).iter().map(Observables::kinetic_temperature).collect();
+        let expected = 2.0 / (2.0 + (2.0 * lambda - 1.0) * 0.4);
+        Measured::of(&column).assert(&format!("lambda {lambda}"), expected, 0.002, 0.003);
+    }
+}
+
+/// Kicks of a bath with memory in split steps keep the linear law, for O relaxes momenta where they are independent of
+/// places and baths: ⟨p²⟩ = m kT and ⟨s²⟩ = kTλₑ(4-W)/(4-B-W), beside any friction of pairs.
 #[test]
 fn split_steps_keep_the_law_of_oscillators_with_memory() {
     let (time_step, rate, friction, stiffness) = (0.15_f64, 4.0, 5.0, 20.0);

@@ -79,8 +79,8 @@ fn reports_of_baths_agree_with_the_reference() {
     }
 }
 
-/// Baths with memory and random forces are kicks of split steps, closing and opening, and advance once a step: with one and two stages of
-/// friction of pairs, with pairs that are visited once, with none, and beside baths in O.
+/// Baths with memory and random forces are kicks of split steps, closing and opening, and advance once a step: with one
+/// and two stages of friction of pairs, with pairs that are visited once, with none, and beside baths in O.
 #[test]
 fn split_steps_beside_memory_and_random_forces_agree_with_the_reference() {
     let memory = json!({"type": "memory", "rate": 3});

@@ -80,7 +80,8 @@ fn every_integrator_agrees_with_the_reference() {
     }
 }
 
-/// Without a force of pairs, without friction, with bonds, a body force and walls; on the plans of the adapter and on those for any.
+/// Without a force of pairs, without friction, with bonds, a body force and walls; on the plans of the adapter and on
+/// those for any.
 #[test]
 fn what_is_beside_it_agrees_with_the_reference() {
     let alone = json!([{"type": "dpd", "many_body": {"repulsion": 25, "cutoff": 0.9}}]);
@@ -105,8 +106,8 @@ fn what_is_beside_it_agrees_with_the_reference() {
     }
 }
 
-/// Friction along bonds with and without memory, gathered beside local densities: where steps are not split, with forces
-/// apart from friction.
+/// Friction along bonds with and without memory, gathered beside local densities: where steps are not split, with
+/// forces apart from friction.
 #[test]
 fn baths_of_bonds_beside_it_agree_with_the_reference() {
     let spring = json!({"type": "harmonic", "stiffness": 40, "length": 0.5});

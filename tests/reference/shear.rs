@@ -125,8 +125,8 @@ fn chains_across_boundaries_agree_with_the_reference() {
     }
 }
 
-/// Lists that last for some steps while boundaries move on, slowly and displaced: pairs beside a coloured noise, of which the reference
-/// searches all in every step, and pairs with memory, whose anchors say when a list was made.
+/// Lists that last for some steps while boundaries move on, slowly and displaced: pairs beside a coloured noise, of
+/// which the reference searches all in every step, and pairs with memory, whose anchors say when a list was made.
 #[test]
 fn lists_that_last_across_boundaries_agree_with_the_reference() {
     for remembers in [false, true] {
@@ -172,7 +172,8 @@ fn lists_across_boundaries_agree_with_the_reference() {
     }
 }
 
-/// Baths and forces on single particles, and baths along bonds, which see the flow or the box, and copies across boundaries.
+/// Baths and forces on single particles, and baths along bonds, which see the flow or the box, and copies across
+/// boundaries.
 #[test]
 fn baths_across_boundaries_agree_with_the_reference() {
     let white = json!({"type": "white"});

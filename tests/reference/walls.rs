@@ -257,8 +257,8 @@ fn frozen_layers_beside_others_agree_with_the_reference() {
     }
 }
 
-/// Beside layers the walls absorb the impulses of pairs on frozen particles, and nothing acts on these alone: neither the
-/// baths on every particle nor a random force.
+/// Beside layers the walls absorb the impulses of pairs on frozen particles, and nothing acts on these alone: neither
+/// the baths on every particle nor a random force.
 #[test]
 fn couplings_beside_layers_agree_with_the_reference() {
     for (number, coupling) in couplings().iter().enumerate() {

@@ -54,6 +54,13 @@ fn plans_of(name: &str, scene: &Scene, options: Options) -> [(String, Plan); 2] 
     })
 }
 
+/// Plans of a scene of particles by one traversal or the other, in turns.
+fn plans_in_turn(number: usize, changes: &[&str]) -> [(String, Plan); 2] {
+    let traversal = [Traversal::Rows, Traversal::Clusters][number % 2];
+    let options = Options { traversal: Some(traversal), ..Options::default() };
+    plans_of(&format!("{} {traversal:?}", changes.join(" ")), &fluid(changes), options)
+}
+
 /// Plans of everything that chooses a module.
 pub fn plans() -> &'static [(String, Plan)] {
     static PLANS: OnceLock<Vec<(String, Plan)>> = OnceLock::new();
@@ -215,9 +222,7 @@ fn many_body_plans() -> Vec<(String, Plan)> {
                 } else if number % 4 < 2 {
                     changes.extend(SAMPLERS);
                 }
-                let traversal = [Traversal::Rows, Traversal::Clusters][turn % 2];
-                let options = Options { traversal: Some(traversal), ..Options::default() };
-                plans.extend(plans_of(&format!("{} {traversal:?}", changes.join(" ")), &fluid(&changes), options));
+                plans.extend(plans_in_turn(turn, &changes));
             }
         }
     }
@@ -514,9 +519,7 @@ fn porous_plans() -> Vec<(String, Plan)> {
                 for others in ["", excluding, bathed, bonds].into_iter().filter(|others| splits || *others != bonds) {
                     let interactions = format!("interactions=[{pairs}{others}]");
                     let changes = [particles, &interactions, space, integrator, "time.steps=1000", profiles];
-                    let traversal = [Traversal::Rows, Traversal::Clusters][(row + column + number) % 2];
-                    let options = Options { traversal: Some(traversal), ..Options::default() };
-                    plans.extend(plans_of(&format!("{} {traversal:?}", changes.join(" ")), &fluid(&changes), options));
+                    plans.extend(plans_in_turn(row + column + number, &changes));
                 }
             }
         }
@@ -672,9 +675,7 @@ fn sheared_coupled_plans() -> Vec<(String, Plan)> {
         // Forces from places in space have no stress.
         let measured = if others.contains("langevin") || others.contains("noise") { "time.steps=1000" } else { stress };
         let changes = [particles, &interactions, space, integrator, measured];
-        let traversal = [Traversal::Rows, Traversal::Clusters][number % 2];
-        let options = Options { traversal: Some(traversal), ..Options::default() };
-        plans.extend(plans_of(&format!("{} {traversal:?}", changes.join(" ")), &fluid(&changes), options));
+        plans.extend(plans_in_turn(number, &changes));
     }
     plans
 }
@@ -733,9 +734,7 @@ fn kicked_plans() -> Vec<(String, Plan)> {
                     let measured = if (number + place) % 2 == 0 { forces } else { "time.steps=1000" };
                     let interactions = format!("interactions=[{interactions}]");
                     let changes = [particles, &interactions, space, integrator, measured];
-                    let traversal = [Traversal::Rows, Traversal::Clusters][number % 2];
-                    let options = Options { traversal: Some(traversal), ..Options::default() };
-                    plans.extend(plans_of(&format!("{} {traversal:?}", changes.join(" ")), &fluid(&changes), options));
+                    plans.extend(plans_in_turn(number, &changes));
                 }
             }
         }

@@ -3,8 +3,7 @@ override POSITION_LOSS: f32; // the part of a bath that is lost in a step
 
 fn position_bath(me: Particle, species: i32) -> Vector {
     let id = me.position.w;
-    let way = last_way(me.position, me.momentum);
-    let drift = Vector(way) * unit_lengths() - flow_of_drift(me, way);
+    let drift = Vector(last_way(me.position, me.momentum)) * unit_lengths() - flow_of_drift(me);
     let before = bath_of(position_baths[id]);
     let response = position_response(species);
     var after = before;

@@ -24,7 +24,8 @@ fn own_impulse(bath: Vector) -> Steps {
 fn observe_own_products(me: Particle, momentum: Steps) {
     note_bath_products(me.position, species_of(me), observed_bath, Vector(momentum));
 }
-// A report takes what is in `kicks` twice for the impulse of a whole step: it lacks what the closing half step has beyond the opening one.
+// A report takes what is in `kicks` twice for the impulse of a whole step: it lacks what the closing half step has
+// beyond the opening one.
 fn leave_opening(slot: u32, me: Particle, own: OwnImpulses) {
     kicks[slot] = momentum_word(steps_of(kicks[slot]) + own.both + own.opening, 0);
     begin_force();

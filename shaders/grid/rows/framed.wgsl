@@ -10,12 +10,10 @@ fn row_end(row: u32) -> u32 { return cell_at(cell_index(row, CELLS_X - 1u) + 1u)
 fn row_offset_index(row: u32) -> u32 { return rows() * row_width() + 1u + row; }
 fn unframed_index(row: u32, index: u32) -> u32 { return cell_at(row_offset_index(row)) + index - row_begin(row); }
 
-// Gives a sorted particle another momentum, and its copy in the frame of its row too.
-fn keep_momentum_of_all(row: u32, index: u32, me: Particle, word: vec4<i32>) {
-    keep_momentum(index, word);
+// The place of the copy of a sorted particle in the frame of its row; its own place if it has none.
+fn copy_in_frame(row: u32, index: u32, me: Particle) -> u32 {
     let column = column_of(fraction_of(me.position));
-    if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
-        let copies = cell_at(row * row_width() + select(0u, CELLS_X + 1u, column == 0u));
-        keep_momentum(copies + index - cell_at(cell_index(row, column)), word);
-    }
+    if (frame() == 0u || (column != 0u && column != CELLS_X - 1u)) { return index; }
+    let copies = cell_at(row * row_width() + select(0u, CELLS_X + 1u, column == 0u));
+    return copies + index - cell_at(cell_index(row, column));
 }

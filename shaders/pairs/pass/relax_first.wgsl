@@ -20,10 +20,7 @@ fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let momentum = held_momentum(me, steps_of(me.momentum) + clock_closing() * sums.impulse);
     let after = Particle(me.position, momentum_word(momentum, me.momentum.w));
     stage(index, after);
-    let column = column_of(fraction_of(me.position));
-    if (frame() == 1u && (column == 0u || column == CELLS_X - 1u)) {
-        let copies = cell_at(row * row_width() + select(0u, CELLS_X + 1u, column == 0u));
-        stage(copies + index - cell_at(cell_index(row, column)), after);
-    }
+    let copy = copy_in_frame(row, index, me);
+    if (copy != index) { stage(copy, after); }
 }
 fn pass_finish(group: u32, lane: u32) { raise(failures_of_particles); }

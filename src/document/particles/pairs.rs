@@ -35,8 +35,9 @@ pub struct DpdInteraction {
     /// The heat bath of every pair, coupled to φ(r) with φ' = √ω.
     #[serde(default, skip_serializing_if = "Bath::is_plain")]
     pub bath: Bath,
-    /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, beside a coloured noise, or on
-    /// a line. With a wide margin the list is rebuilt less often and holds more pairs; no result but the noise depends on it.
+    /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, beside a coloured
+    /// noise, or on a line. With a wide margin the list is rebuilt less often and holds more pairs; no result but the
+    /// noise depends on it.
     #[serde(default = "default_skin")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub skin: f64,

@@ -108,7 +108,7 @@ impl Particles {
             && self.position_bath.as_ref().is_some_and(|bath| !bath.memory)
     }
 
-    /// Steps that are not split have baths on coordinates of particles, or a random force on them.
+    /// Kicks of a step have baths on coordinates of particles, or a random force on them.
     pub(crate) fn acts_on_particles(&self, model: &Model) -> bool {
         (self.position_bath.is_some() && !self.relaxes_particles(model)) || self.coloured_noise.is_some()
     }
@@ -227,13 +227,13 @@ impl Particles {
         self.pair_force.as_ref().is_some_and(|force| force.many_body.is_some())
     }
 
-    /// Whether there is more than pairs without memory: bonds, angles, tethers, baths on particles, memory, or a line on
+    /// There is more than pairs without memory: bonds, angles, tethers, baths on particles, memory, or a line on
     /// which particles are.
     pub(crate) fn have_more_than_pairs(&self, model: &Model) -> bool {
         self.are_sprung() || self.acts_on_particles(model) || self.has_memory() || model.units.dimension == 1
     }
 
-    /// Whether steps list pairs: those that persist because they remember, those on a line, and those of steps as short as
+    /// Steps list pairs: those that persist because they remember, those on a line, and those of steps as short as
     /// a coloured noise needs, for which a list lasts long (its scene is 7 % faster so on lavapipe, 2026-11-27).
     pub(crate) fn list_pairs(&self, model: &Model) -> bool {
         let short = self.coloured_noise.is_some() && !self.have_local_densities() && !self.splits(model);

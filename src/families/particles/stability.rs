@@ -37,13 +37,40 @@ const MOST_BONDS: usize = 10_000;
 /// Rounds of the power iteration for the largest eigenvalue, which comes from below.
 const ROUNDS: usize = 40;
 
-/// The strain of a white bath for each B: friction that sees a velocity predicted by λ is stable for 2λB + W < 4, and for λ below a quarter
-/// for (1 - 2λ)B < 4.
+/// The strain of a white bath for each B: friction that sees a velocity predicted by λ is stable for 2λB + W < 4, and
+/// for λ below a quarter for (1 - 2λ)B < 4.
 fn strain_of_bath(model: &Model) -> f64 {
     match model.integrator {
         Integrator::GrootWarren { lambda } => (2.0 * lambda).max(1.0 - 2.0 * lambda),
         _ => 1.0,
     }
+}
+
+/// The part of the bath's temperature that friction of particles and bonds leaves out or adds at the most, where it
+/// sees velocities predicted by λ: ⟨v²⟩ = (kT/m) 2/(2 + (2λ - 1)(γdt/m + W)), in which γdt/m is B/2.
+fn cold_by_prediction(strains: &[Strain], model: &Model) -> f64 {
+    let Integrator::GrootWarren { lambda } = model.integrator else { return 0.0 };
+    let part = |strain: &Strain| {
+        let rate = 0.5 * strain.bath / strain_of_bath(model) + strain.sum - strain.bath;
+        1.0 - 2.0 / (2.0 + (2.0 * lambda - 1.0) * rate)
+    };
+    let bathed = strains.iter().filter(|strain| strain.bath > 0.0).map(part);
+    bathed.fold(0.0, |most: f64, part| if part.abs() > most.abs() { part } else { most })
+}
+
+/// Warns of a temperature that a prediction makes wrong by more than is tolerated.
+pub(crate) fn warn_of_prediction(scene: &Scene, model: &Model) -> Option<Warning> {
+    let network = model.particles().bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
+    let cold = cold_by_prediction(&certain(scene, model, network.as_ref(), scene.time.step), model);
+    (cold.abs() > TOLERANCE).then(|| {
+        let message = format!(
+            "friction of particles or bonds sees predicted velocities, which makes their kinetic temperature {:.1} % too {}; \
+             `lambda` 0.5 or a smaller `time.step` does not",
+            100.0 * cold.abs(),
+            if cold > 0.0 { "low" } else { "high" }
+        );
+        Warning { path: "integrator.lambda".to_owned(), message }
+    })
 }
 
 /// What puts the most strain on a time step.
@@ -188,6 +215,10 @@ pub(super) fn limits(particles: &Particles, scene: &Scene, model: &Model) -> Vec
             }));
         }
         None => limits.push(biased(("friction Γ dt = 1/4", friction * step / model.friction_limit()))),
+    }
+    let cold = cold_by_prediction(&strains, model).abs();
+    if cold > 0.0 {
+        limits.push(biased(("1 % of the temperature, by a prediction", cold / TOLERANCE)));
     }
     limits
 }

@@ -29,6 +29,7 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
     warn_of_places(scene, &mut warnings);
     if particles.have_more_than_pairs(model) {
         warnings.extend(stability::warn(scene, model));
+        warnings.extend(stability::warn_of_prediction(scene, model));
         warn_of_springs(scene, &mut warnings);
     }
     warn_of_loose_chains(scene, &mut warnings);

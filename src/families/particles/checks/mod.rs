@@ -128,9 +128,9 @@ fn depends_on_density(interaction: &Interaction) -> bool {
     matches!(interaction, Interaction::Dpd(dpd) if dpd.acting_many_body().is_some())
 }
 
-/// The default of a scene that names no integrator is `cotter-reich`: where there is memory, a coloured noise or a line; where
-/// particles without pairs have baths or tethers, for a step without a split costs a third there; and where particles are
-/// fixed, so that scenes keep the step that was the only one for them.
+/// The default of a scene that names no integrator is `cotter-reich`: where there is memory, a coloured noise or a
+/// line; where particles without pairs have baths or tethers, for a step without a split costs a third there; and where
+/// particles are fixed, so that scenes keep the step that was the only one for them.
 pub(crate) fn defaults_to_cotter_reich(scene: &Scene) -> bool {
     let paired = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Dpd(_)));
     let unsplit = |interaction: &Interaction| match interaction {
@@ -294,7 +294,8 @@ pub(super) fn check_rounds(particles: &Particles, problems: &mut Problems) {
     problems.push(Problem::new("integrator.type", found, accepted));
 }
 
-/// Split steps find pairs in cells; baths with memory and random forces of single particles and bonds are part of their kicks.
+/// Split steps find pairs in cells; baths with memory and random forces of single particles and bonds are part of their
+/// kicks.
 fn check_splitting(scene: &Scene, problems: &mut Problems) {
     if !scene.interactions.iter().all(Interaction::is_of_particles) {
         return;

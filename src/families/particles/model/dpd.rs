@@ -113,10 +113,11 @@ impl PairForce {
         }
     }
 
-    /// The part of the displacement of boundaries that shear after which a list of neighbours is made again, in 2⁻³² of the box.
+    /// The part of the displacement of boundaries that shear after which a list of neighbours is made again, in 2⁻³² of
+    /// the box.
     ///
-    /// What is listed across a boundary goes on by that much without its particles. A quarter of the margin is kept for it,
-    /// in three parts: pairs move with their copies, and either particle is followed from a copy of where it was.
+    /// Listed copies across a boundary go on by that much without their particles. A quarter of the margin is kept for
+    /// it, in three parts: pairs move with their copies, and either particle is followed from a copy of where it was.
     pub(crate) fn margin_of_copies(&self, model: &Model) -> u32 {
         let part = self.skin / (4.0 * 3.0) / model.units.lengths[0];
         ((part * 4_294_967_296.0) as u32).max(1)

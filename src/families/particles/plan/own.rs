@@ -1,5 +1,5 @@
-//! Baths on coordinates of particles, and a random force on them that is constant for random times, in steps that are not
-//! split.
+//! Baths on coordinates of particles, and a random force on them that is constant for random times, as parts of the
+//! kicks of a step; baths without memory in split steps are none.
 
 use super::bonded::Scales;
 use super::position_bath;
@@ -69,8 +69,8 @@ pub(super) fn buffers(model: &Model) -> u32 {
     u32::from(remembers(model)) + u32::from(model.particles().coloured_noise.is_some())
 }
 
-/// The bath of a species as kernels know it: its response to a drift, its noise of one step, and its energy per square, which
-/// is zero of those that a report does not count; zeros of a species that is not there.
+/// The bath of a species as kernels know it: its response to a drift, its noise of one step, and its energy per square,
+/// which is zero of those that a report does not count; zeros of a species that is not there.
 pub(super) fn coefficients(scales: &Scales<'_>, species: usize) -> [f64; 3] {
     let Some(bath) = bath(scales.model) else { return [0.0; 3] };
     let Some(step) = bath.steps.get(species) else { return [0.0; 3] };

@@ -38,7 +38,6 @@ pub(super) fn moment(halves: u8) -> (Constant, f64) {
 pub(super) fn add_constants(model: &Model, parts: u8, entries_before: Option<usize>, plan: &mut Plan) {
     let Some(shear) = model.particles().shear.as_ref() else { return };
     let [low, high] = shear.increment();
-    plan.constants.extend(flow_share(model));
     let rows_of_a_layer = if shear.gradient == 2 { plan.cells[1] } else { 1 };
     plan.constants.extend([
         (Constant::ShearAxis, shear.gradient as f64),
@@ -56,13 +55,6 @@ pub(super) fn add_constants(model: &Model, parts: u8, entries_before: Option<usi
             None => (Constant::ShearJump, f64::from(shear.jump(0, model))),
         },
     ]);
-}
-
-/// The part of the last drift that baths on particles go back for the flow that they take for rest: none. With a part s, the shear stress of
-/// a Langevin gas at a report is 1 + s γdt/m times that of the exact motion.
-fn flow_share(model: &Model) -> Option<(Constant, f64)> {
-    let sees_flow = model.particles().position_bath.as_ref().is_some_and(|bath| bath.peculiar);
-    sees_flow.then_some((Constant::FlowShare, 0.0))
 }
 
 /// The entries of a table of species: one for each, of halves that single precision holds.

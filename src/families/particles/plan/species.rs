@@ -44,7 +44,8 @@ impl Species {
         self.mass.unwrap_or(1.0)
     }
 
-    /// The inverse mass of a species in the table: zero if it is fixed, and negative if it is frozen and moves with its wall.
+    /// The inverse mass of a species in the table: zero if it is fixed, and negative if it is frozen and moves with its
+    /// wall.
     pub fn inverse_mass(species: &families::Species) -> f64 {
         match (species.fixed, species.frozen) {
             (_, true) => -1.0 / species.mass,

@@ -76,8 +76,8 @@ pub(super) fn frozen_sums(model: &Model, sums: &Sums) -> Option<(Constant, f64)>
     model.has_frozen_particles().then_some((Constant::FrozenSums, (first + 6 * pair) as f64))
 }
 
-/// Adds the kernel that reports what walls have absorbed, before anything moves on from there, into a row after the given
-/// number of them. The number of rows that it adds.
+/// Adds the kernel that reports what walls have absorbed, before anything moves on from there, into a row after the
+/// given number of them. The number of rows that it adds.
 pub(super) fn add_account(model: &Model, choices: &Choices, first_row: u64, plan: &mut Plan) -> u64 {
     let sums = 3 * count(model) as u64;
     if sums == 0 {

@@ -1,7 +1,7 @@
 //! Particles with everything that acts on them, in float64.
 //!
-//! Every term forms its half kick, -dt/2 (∇V + ∇h s), once; it is applied twice, closing and opening: the scheme (14)-(17) of
-//! Cotter and Reich, doi:10.1209/epl/i2003-00621-8, and its limit without memory (18)-(21).
+//! Every term forms its half kick, -dt/2 (∇V + ∇h s), once; it is applied twice, closing and opening: the scheme
+//! (14)-(17) of Cotter and Reich, doi:10.1209/epl/i2003-00621-8, and its limit without memory (18)-(21).
 //!
 //! ```text
 //! p(n+½) = p(n) - dt/2 [∇V + Σ ∇h s(n)]                                               (14)
@@ -9,9 +9,9 @@
 //! s(n+1) = e s(n) + λₑ(1+e)/2 [h(r(n+1)) - h(r(n))] + √(kTλₑ(1-e²)) ξ                 (16)
 //! p(n+1) = p(n+½) - dt/2 [∇V + Σ ∇h s(n+1)]                                           (17)
 //! ```
-//! Without memory e = 0 and λₑ = 2γ/dt. The state keeps r(n) and p(n-½), so that (16), (17), (14) and (15) make a step, in
-//! this order. In a split step baths without memory relax momenta at p(n) instead: see `splitting.rs`. Impulses between particles
-//! are rounded once and handed to all ends, so that nothing depends on their order.
+//! Without memory e = 0 and λₑ = 2γ/dt. The state keeps r(n) and p(n-½), so that (16), (17), (14) and (15) make a step,
+//! in this order. In a split step baths without memory relax momenta at p(n) instead: see `splitting.rs`. Impulses
+//! between particles are rounded once and handed to all ends, so that nothing depends on their order.
 //!
 //! At step 0 the momenta are those of the report point, and baths with memory are as they are in the state: nothing is
 //! closed. Baths without memory take the initial momenta for those that brought the particles there.
@@ -61,8 +61,9 @@ struct Report {
 
 /// A model of particles and its state, stepped on the CPU.
 ///
-/// With the integrator `groot-warren` baths without memory see velocities; with `cotter-reich` they see the discrete gradient over the
-/// last drift; with `splitting` they relax momenta by themselves. Baths with memory are the same in all.
+/// With the integrator `groot-warren` baths without memory see velocities; with `cotter-reich` they see the discrete
+/// gradient over the last drift; with `splitting` they relax momenta by themselves. Baths with memory are the same in
+/// all.
 ///
 /// ```
 /// use mesoscope::{families::Model, families::reference::Reference, scene};
@@ -112,8 +113,8 @@ impl Reference {
         Self { model, state, masses, relaxation }
     }
 
-    /// The state between steps: r(n) and p(n-½), as the GPU keeps it. Bath variables are those of the step before, s(n-1),
-    /// but at step 0, where they are s(0).
+    /// The state between steps: r(n) and p(n-½), as the GPU keeps it. Bath variables are those of the step before,
+    /// s(n-1), but at step 0, where they are s(0).
     #[must_use]
     pub fn state(&self) -> &State {
         &self.state

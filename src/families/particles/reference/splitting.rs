@@ -54,7 +54,8 @@ pub enum Relaxation {
     },
 }
 
-/// O: momenta relax, first those of particles, then along bonds, then of pairs, whose virials over the time of a step are added.
+/// O: momenta relax, first those of particles, then along bonds, then of pairs, whose virials over the time of a step
+/// are added.
 pub(super) fn relax(reference: &Reference, found: &[Pair], momenta: &mut [[i64; 3]], virials: &mut Virials) {
     let (model, state) = (&reference.model, &reference.state);
     relaxation::of_particles(model, state, &reference.masses, momenta);

@@ -17,7 +17,8 @@ impl Builder<'_> {
     }
 }
 
-/// Partners from whose repulsion each particle is excluded, in rows of equal length, filled up with the particle itself.
+/// Partners from whose repulsion each particle is excluded, in rows of equal length, filled up with the particle
+/// itself.
 #[derive(Debug, Clone, PartialEq)]
 struct ExclusionTable {
     bonds: Bonds,

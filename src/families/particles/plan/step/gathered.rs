@@ -20,7 +20,7 @@ pub(super) struct GatheringKernels {
 }
 
 impl Builder<'_> {
-    /// Whether bonds have baths that remember: a report observes them before a step advances them.
+    /// Bonds have baths that remember: a report observes them before a step advances them.
     pub(super) fn bonds_remember(&self) -> bool {
         self.model.particles().bonds.as_ref().is_some_and(Bonds::have_memory)
     }
@@ -66,7 +66,8 @@ impl Builder<'_> {
         bonded::kicks(self.model.units.dimension)
     }
 
-    /// Makes the kernels of couplings. Those of a report leave rows of sums after the given number of rows, which they raise.
+    /// Makes the kernels of couplings. Those of a report leave rows of sums after the given number of rows, which they
+    /// raise.
     pub(super) fn gathering(&mut self, rows: &mut u32) -> GatheringKernels {
         let mut kernels = GatheringKernels::default();
         self.listed_pairs(rows, &mut kernels);
@@ -164,7 +165,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Where each particle is stored, for bonds and angles: noted when the state is there, and by lists whenever they are made.
+    /// Where each particle is stored, for bonds and angles: noted when the state is there, and by lists whenever they
+    /// are made.
     pub(super) fn take_stock(&mut self, noted: &Choices) -> usize {
         let choices = self.choices().with_if(self.is_bonded(), couplings::Slots::Kept).and(noted);
         self.kernel("take_stock", Entry::TakeStock, choices, self.particles)

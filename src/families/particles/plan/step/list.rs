@@ -121,7 +121,8 @@ impl Builder<'_> {
         self.kernel(name, Entry::ArrangeParticles, choices, self.particles.max(self.grid.count()))
     }
 
-    /// Kernels that order particles by cell on the side, for an analysis: the list and what it has noted stay as they are.
+    /// Kernels that order particles by cell on the side, for an analysis: the list and what it has noted stay as they
+    /// are.
     pub(super) fn order_aside(&mut self) -> Vec<usize> {
         let mut kernels = self.binning();
         let choices = self.sorted_beside();

@@ -272,9 +272,9 @@ impl<'a> Builder<'a> {
         Scales { model: self.model, species: self.species, quanta: self.plan.quanta }
     }
 
-    /// Of half a step in momentum units: repulsion at contact, and without memory friction per unit velocity (where all have
-    /// one mass, momentum) and noise, with memory the response of the bath to its coupling function and its deviation at
-    /// rest.
+    /// Of half a step in momentum units: repulsion at contact, and without memory friction per unit velocity (where all
+    /// have one mass, momentum) and noise, with memory the response of the bath to its coupling function and its
+    /// deviation at rest.
     fn impulses(&self, a: usize, b: usize) -> [f64; 3] {
         if self.model.species.is_empty() {
             return [0.0; 3];
@@ -401,8 +401,8 @@ impl<'a> Builder<'a> {
         self.model.particles().splits(self.model)
     }
 
-    /// Buffers of the kernel that ends a step beyond those of all: impulses that were gathered, what walls absorb, and of several ranks the
-    /// domain in which they do, a table of species, and local densities.
+    /// Buffers of the kernel that ends a step beyond those of all: impulses that were gathered, what walls absorb, and
+    /// of several ranks the domain in which they do, a table of species, and local densities.
     fn more_buffers(&self) -> u32 {
         let (walled, dense) = (walls::count(self.model) > 0, self.model.particles().have_local_densities());
         let booked = self.options.part.is_some() && (walled || self.is_sheared());

@@ -59,10 +59,10 @@ impl Builder<'_> {
         self.plan.part = Some(planned);
     }
 
-    /// Cells whose particles no other rank has to know of at the end of a step, if the device is to go on with them while the others are
-    /// exchanged: in steps that end with a pass over pairs, particle by particle. Eight particles that are visited together may be of both
-    /// kinds, and on the software adapters that visit them so there is nothing to gain: host and device are one. Impulses are gathered by copies
-    /// too, which have to be visited for that.
+    /// Cells whose particles no other rank has to know of at the end of a step, if the device is to go on with them
+    /// while the others are exchanged: in steps that end with a pass over pairs, particle by particle. Eight particles
+    /// that are visited together may be of both kinds, and on the software adapters that visit them so there is nothing
+    /// to gain: host and device are one. Impulses are gathered by copies too, which have to be visited for that.
     fn inner_cells(&self, part: &PlannedPart, edge: f64) -> Option<Cells> {
         if self.traversal != Traversal::Rows || self.gathers() {
             return None;

@@ -35,8 +35,8 @@ impl Builder<'_> {
         Some(Ordered { choices, kernels, grid: self.grid, needs_report: self.splits() })
     }
 
-    /// Keeps the momenta of a split step's report, where an analysis or a trajectory needs them: analyses of a sheared box without those of
-    /// the flow.
+    /// Keeps the momenta of a split step's report, where an analysis or a trajectory needs them: analyses of a sheared
+    /// box without those of the flow.
     pub(super) fn momenta(&mut self) -> Option<pairs::ReportedMomentum> {
         let analysed = self.measured.needs(Need::Momenta);
         if !analysed && !self.measured.frames {
@@ -52,7 +52,8 @@ impl Builder<'_> {
         if !self.measured.needs(Need::Forces) {
             return None;
         }
-        // Impulses of half a step where one kick is taken twice, of a whole one where friction relaxes between two kicks.
+        // Impulses of half a step where one kick is taken twice, of a whole one where friction relaxes between two
+        // kicks.
         let time = if self.splits() { 1.0 } else { 0.5 } * self.model.time_step;
         self.plan.force_unit = self.model.units.momentum / time;
         self.plan.add_buffer(Array::ReportedForces, 16 * self.particles);

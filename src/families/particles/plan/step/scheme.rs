@@ -8,8 +8,8 @@ use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, pairs};
 
 /// Friction and noise of the two stages of a relaxation: shaders/pairs/friction/stages.wgsl.
 ///
-/// (1 - α₁h)(1 - α₂h) = 1 - h + bh² for a mode of eigenvalue h, which has the noise β₁(1 - α₂h) + β₂ = 1 - (1 + 2b)h/4 times √(2kT h). Its
-/// temperature is kT (1 - .298h)²/(1 - .595h + .095h² - .0045h³): within 1.1 % up to h = 2.
+/// (1 - α₁h)(1 - α₂h) = 1 - h + bh² for a mode of eigenvalue h, which has the noise β₁(1 - α₂h) + β₂ = 1 - (1 + 2b)h/4
+/// times √(2kT h). Its temperature is kT (1 - .298h)²/(1 - .595h + .095h² - .0045h³): within 1.1 % up to h = 2.
 pub(super) fn stages() -> [[(Constant, f64); 2]; 2] {
     let b = 0.095_f64;
     let alpha = [0.5 - (0.25 - b).sqrt(), 0.5 + (0.25 - b).sqrt()];
@@ -176,7 +176,8 @@ impl Builder<'_> {
         self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model) || self.reports_own_forces()
     }
 
-    /// Makes the first of two stages of friction, which leaves momenta for these kernels, those of the second; and its report.
+    /// Makes the first of two stages of friction, which leaves momenta for these kernels, those of the second; and its
+    /// report.
     fn first_stage(&mut self, second: &[usize], kept: &Choices) -> [usize; 2] {
         let pass = self
             .booking_of_layers()
