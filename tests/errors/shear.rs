@@ -85,6 +85,8 @@ fn what_takes_shear() {
     let unknown = beside(r#"{"type":"langevin","friction":1,"velocity":"thermal"}"#);
     SHEARED.refused_with(&[&unknown], &["interactions[1].velocity", "\"peculiar\"", "\"laboratory\""]);
     let laboratory = beside(r#"{"type":"langevin","friction":1,"velocity":"laboratory"}"#);
+    let warned = SHEARED.warnings(&[&laboratory]).join(" ");
+    assert!(warned.contains("interactions[1].velocity: friction relative to the box slows the flow"), "{warned}");
     SHEARED.refused_with(
         &[&laboratory, r#"space={"box":[10,10,10]}"#],
         &["interactions[1].velocity: found in a box without shear", "no `velocity`"],

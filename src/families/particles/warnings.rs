@@ -2,8 +2,8 @@
 
 use super::stability;
 use crate::document::{
-    BondPotential, ColouredNoiseInteraction, Interaction, NoiseProcess, PairRelaxation, Placement, Scene, Warning,
-    brief,
+    BondPotential, ColouredNoiseInteraction, FrictionVelocity, Interaction, LangevinInteraction, NoiseProcess,
+    PairRelaxation, Placement, Scene, Warning, brief,
 };
 use crate::families::warnings::{warn, warn_of_momentum};
 use crate::families::{FREQUENCY_LIMIT, MOST_RELAXATION, Model, PairForce, Particles, Species};
@@ -22,8 +22,13 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
         warn_of_layers(scene, force, &mut warnings);
     }
     for (index, interaction) in scene.interactions.iter().enumerate() {
-        if let Interaction::ColouredNoise(noise) = interaction {
-            warn_of_noise(noise, model, &format!("interactions[{index}]"), &mut warnings);
+        let path = format!("interactions[{index}]");
+        match interaction {
+            Interaction::ColouredNoise(noise) => warn_of_noise(noise, model, &path, &mut warnings),
+            Interaction::Langevin(langevin) if particles.shear.is_some() => {
+                warn_of_slowed_flow(langevin, &path, &mut warnings);
+            }
+            _ => {}
         }
     }
     warn_of_places(scene, &mut warnings);
@@ -283,6 +288,15 @@ fn warn_of_attraction(model: &Model, force: &PairForce, warnings: &mut Vec<Warni
             species.name
         );
         warn(warnings, "interactions", message);
+    }
+}
+
+/// Temperatures in shear are about the linear profile, from which friction relative to the box takes the flow.
+fn warn_of_slowed_flow(langevin: &LangevinInteraction, path: &str, warnings: &mut Vec<Warning>) {
+    if langevin.velocity == Some(FrictionVelocity::Laboratory) {
+        let message = "friction relative to the box slows the flow, while temperatures, stresses and velocities of analyses are \
+                       about the linear profile: they count what the flow lacks of it as heat, and `output.profiles` shows it";
+        warn(warnings, format!("{path}.velocity"), message.to_owned());
     }
 }
 
