@@ -1,6 +1,7 @@
 //! The library: one program, which compiles and links once what its modules share.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod combinations;
 mod determinism;
 mod extremes;
 mod physics;

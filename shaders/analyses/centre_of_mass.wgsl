@@ -1,20 +1,20 @@
-// The velocity of the centre of mass, for analyses that are relative to it.
+// The velocity of the centre of mass of the particles that can move, for analyses that are relative to it.
 
-// Sums the momenta of all particles as exact integers. One invocation a particle, by id; writes rows of `partial_sums`.
+// Sums their momenta as exact integers. One invocation a particle, by id; writes rows of `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
 fn sum_momenta(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
     let id = group * WORKGROUP + lane;
     for (var axis = 0u; axis < QUANTITIES; axis++) {
         var momentum = Sum64(0u);
-        if (id < PARTICLES) { momentum = sum64_of_i32(stored_particle(id).momentum[axis]); }
+        if (is_measured(id)) { momentum = sum64_of_i32(stored_particle(id).momentum[axis]); }
         reduce_quantity(group, lane, axis, momentum);
     }
 }
 
 override INVERSE_TOTAL_MASS: f32;
 
-// Adds up the rows of `partial_sums` and divides by the total mass. One workgroup; writes `centre`.
+// Adds up the rows of `partial_sums` and divides by their mass. One workgroup; writes `centre`.
 @compute @workgroup_size(WORKGROUP)
 fn find_centre(@builtin(local_invocation_index) lane: u32) {
     for (var axis = 0u; axis < 3u; axis++) {

@@ -15,8 +15,8 @@ fn measure_chains(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     var sum = Vector(0.0);
     var squares = 0.0;
     for (var bead = 1u; bead < chain.y; bead++) {
-        let to = fraction_of(stored_position(chain.x + bead));
-        place += Vector(signed(to - fraction_of(stored_position(chain.x + bead - 1u)))) * unit_lengths();
+        let before = stored_position(chain.x + bead - 1u);
+        place += Vector(way_between(stored_position(chain.x + bead), before)) * unit_lengths();
         sum += place;
         squares += dot(place, place);
     }

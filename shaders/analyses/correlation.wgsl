@@ -8,7 +8,7 @@ fn correlate_vectors(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
     let group = linear_workgroup(workgroup);
     let id = group * WORKGROUP + lane;
     var product = Sum64(0u);
-    if (id < PARTICLES) {
+    if (is_measured(id)) {
         let now = sampled(id);
         var then = origins[id].xyz;
         if (samples[0].y % WINDOW == 0u) {

@@ -9,7 +9,7 @@ struct Tracker {
     momentum: vec4<i32>,
 }
 
-// Sums the squared displacements of all particles, and the products of their velocities now and at the origin. One invocation a
+// Sums the squared displacements of the particles that can move, and the products of their velocities now and at the origin. One invocation a
 // particle, by id; reads `paths`, keeps `trackers`, writes rows of `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
 fn track_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
@@ -17,7 +17,7 @@ fn track_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     let id = group * WORKGROUP + lane;
     var squared = Sum64(0u);
     var kept = Sum64(0u);
-    if (id < PARTICLES) {
+    if (is_measured(id)) {
         let particle = stored_particle(id);
         var tracker = trackers[id];
         let turns = paths[id].images + crossings(paths[id].last, particle.position);

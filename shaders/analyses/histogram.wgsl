@@ -26,7 +26,9 @@ fn count_histogram(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     let group = linear_workgroup(workgroup);
     // The dispatch may be folded, and then has a few workgroups too many.
     if (group < GROUPS) {
-        for (var id = group * WORKGROUP + lane; id < PARTICLES; id += GROUPS * WORKGROUP) { count_vector(sampled(id)); }
+        for (var id = group * WORKGROUP + lane; id < PARTICLES; id += GROUPS * WORKGROUP) {
+            if (is_measured(id)) { count_vector(sampled(id)); }
+        }
     }
     workgroupBarrier();
     for (var entry = lane; entry < COUNTS; entry += WORKGROUP) {

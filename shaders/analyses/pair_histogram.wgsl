@@ -1,4 +1,7 @@
 // Distances of all pairs up to a range, counted into bins, from which the radial distribution function follows.
+//
+// Slot analyses/counted_pairs: which pairs are counted. The plan chooses `between_walls` where there are walls.
+// Default: each from its smaller id.
 override PARTS: u32;    // workgroups that share the rows around the same particles
 override HISTOGRAM_RANGE: f32;
 var<workgroup> local_bins: array<atomic<u32>, BINS>;
@@ -30,6 +33,8 @@ fn count_pairs_by_distance(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin
     report_turns(workgroup.x >> 16u);
 }
 
+fn counts_pair(position: vec4<u32>, other: vec4<u32>) -> bool { return position.w < other.w; }
+
 // Counts the pairs of one particle in its part of the rows.
 fn count_pairs(row: u32, part: u32, position: vec4<u32>) {
     if (!is_own(position)) { return; }
@@ -44,7 +49,7 @@ fn count_pairs(row: u32, part: u32, position: vec4<u32>) {
                 let there = position_at(other);
                 let d = separation(position, there);
                 let bin = u32(sqrt(dot(d, d)) * (f32(BINS) / HISTOGRAM_RANGE));
-                if (position.w < there.w && bin < BINS) { atomicAdd(&local_bins[bin], 1u); }
+                if (counts_pair(position, there) && bin < BINS) { atomicAdd(&local_bins[bin], 1u); }
             }
         }
     }

@@ -4,7 +4,8 @@
 // Slot space/held: `held_momentum` is the momentum that a particle keeps of a new one, `held_kick` the impulse that it
 // keeps of one; `mobile_part` is 1 for a particle that can move and 0 for one that is held. The others are for reports,
 // see pairs/observation: held particles have no motion of their own and no part in virials, half of which belong to the
-// other particle of a pair. The plan chooses `by_species` if any species is held.
+// other particle of a pair. `is_measured` says which particles, by id, analyses of single particles average over: held
+// particles have no motion of their own there either. The plan chooses `by_species` if any species is held.
 // Default: all particles can move.
 fn held_momentum(me: Particle, momentum: Steps) -> Steps { return momentum; }
 fn held_kick(me: Particle, kick: Steps) -> Steps { return kick; }
@@ -16,6 +17,7 @@ fn report_motion(me: Particle, momentum: Steps, virial: Sum64) { observe_motion(
 fn report_configuration(me: Particle, sums: PairSums, bonded: Steps) { observe_configuration(sums, bonded); }
 fn reported_motion(me: Particle, momentum: Steps) -> Steps { return momentum; }
 fn reported_virial(me: Particle, virial: Sum64) -> Sum64 { return virial; }
+fn is_measured(id: u32) -> bool { return id < PARTICLES; }
 
 // No impulse moves the particle.
 fn is_held(me: Particle) -> bool { return yielding_of(species_of(me)) == 0.0; }

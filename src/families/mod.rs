@@ -36,7 +36,6 @@ pub use instability::Instability;
 pub use limits::{Beyond, LargestStep, Limit, largest_steps, limits};
 pub use model::{Model, Species};
 pub use observables::{BathProducts, CellObservables, Observables, OnWalls, PutIn};
-pub use particles::Particles;
 pub(crate) use particles::chains::mirrored;
 pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, MOST_RELAXATION, RelaxationErrors, TOLERANCE};
 pub use particles::model::{
@@ -44,6 +43,7 @@ pub use particles::model::{
     HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SpringChain, Strand,
 };
 pub(crate) use particles::surroundings;
+pub use particles::{Particles, combinations};
 pub use pictures::PictureKind;
 pub use registry::Family;
 pub(crate) use registry::{check_interactions, complete, settle};
@@ -209,7 +209,7 @@ pub(crate) trait Physics {
     fn check_step(&self, _: &Scene, _: &Model, _: &mut Problems) {}
 
     /// What of it several ranks cannot share, in words; nothing where they can share all.
-    fn unshared(&self, _: &Model) -> Vec<String> {
+    fn unshared(&self, _: &Scene) -> Vec<String> {
         vec!["scenes of this kind: on one rank only".to_owned()]
     }
 

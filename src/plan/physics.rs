@@ -1,7 +1,7 @@
 //! What passes between the plan of a family's physics and the analyses that complete it.
 
 use super::{Grid, Kernel, Plan};
-use crate::shaders::{Array, Choices};
+use crate::shaders::{Array, Choices, Constant};
 
 /// Something that a report has to leave for an analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,6 +62,8 @@ pub(crate) struct PhysicsPlan {
 pub(crate) struct Reported {
     /// The vector space, the stored particle, and where its mass is found.
     pub choices: Choices,
+    /// Constants of kernels that see them.
+    pub constants: Vec<(Constant, f64)>,
     /// Their buffer.
     pub particles: Array,
     /// The buffer of their momenta, where velocities are not to be taken from the particles; there only for

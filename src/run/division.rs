@@ -133,18 +133,20 @@ fn halo(scene: &Scene, model: &Model) -> (f64, f64) {
     first_part(scene, model, alone, Hardware::default()).map_or((0.0, 0.0), |part| (part.halo, part.close))
 }
 
-/// What of a scene several ranks cannot share.
+/// Why several ranks cannot share a scene: the reasons that its family gives, else the analyses that need one device.
 fn hindrances(scene: &Scene, model: &Model) -> Vec<String> {
-    let mut reasons = model.physics().unshared(model);
+    let reasons = model.physics().unshared(scene);
+    if !reasons.is_empty() {
+        return reasons;
+    }
     let plan = plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
     let is_whole = |sampler: &Sampler| sampler.whole.len() == sampler.quantities;
-    reasons.extend(plan.samplers.iter().filter_map(|sampler| match sampler.id {
+    let on_one = |sampler: &Sampler| match sampler.id {
         SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution) => None,
-        SamplerId::Analysis(id) if GATHERED.contains(&id) => None,
-        SamplerId::Analysis(_) if is_whole(sampler) => None,
+        SamplerId::Analysis(id) if GATHERED.contains(&id) || is_whole(sampler) => None,
         SamplerId::Analysis(id) => Some(format!("`{}` is measured on one device", id.path())),
-    }));
-    reasons
+    };
+    plan.samplers.iter().filter_map(on_one).collect()
 }
 
 /// All ways to divide a box of this many dimensions into so many parts, of which only so many fit along each axis.

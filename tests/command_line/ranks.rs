@@ -78,9 +78,9 @@ fn everything_that_hinders_is_told() {
     place.scene["interactions"].as_array_mut().unwrap().push(noise);
     place.scene["output"]["profiles"] = json!({"axis": "y", "bins": 3, "every": 2});
     let reasons = [
-        "baths with memory: on one rank only",
-        "coloured noise: on one rank only",
-        "`output.profiles` is measured on one device",
+        "a bath with memory on every bond in interactions[1]: on one rank only (not implemented: what a bath or a noise",
+        "coloured noise in interactions[3]: on one rank only",
+        "`profiles` in output.profiles: on one rank only (not implemented: measured on one device)",
     ];
     fails(&["run", &place.scene(), "--out", &place.argument("out"), "--ranks", "2"], 2, &reasons);
 }
@@ -91,12 +91,20 @@ fn what_is_not_shared_is_told_with_what_is() {
     let memory = r#"interactions=[{"type":"dpd","friction":1,"bath":{"type":"memory","rate":2}}]"#;
     for (scene, changes, reason) in [
         ("voronoi-dpd", &[][..], "scenes of this kind: on one rank only"),
-        ("harmonic-chain", &[], "harmonic chains: on one rank only"),
-        ("coloured-noise", &[], "coloured noise: on one rank only"),
-        ("dpd-fluid", &["integrator.type=cotter-reich", memory], "baths with memory: on one rank only"),
-        ("dpd-fluid", &["integrator.type=cotter-reich", "space.box=[40]"], "particles on a line: on one rank only"),
+        ("harmonic-chain", &[], "harmonic chains in interactions[0]: on one rank only"),
+        ("coloured-noise", &[], "coloured noise in interactions[1]: on one rank only"),
+        (
+            "dpd-fluid",
+            &["integrator.type=cotter-reich", memory],
+            "pairs with memory in interactions[0]: on one rank only",
+        ),
+        (
+            "dpd-fluid",
+            &["integrator.type=cotter-reich", "space.box=[40]"],
+            "a box of one dimension in space.box: on one rank only",
+        ),
         ("gle-oscillator", &[], "on one rank only"),
-        ("dpd-fluid", &[r#"output.stress={"every":10}"#], "`output.stress` is measured on one device"),
+        ("dpd-fluid", &[r#"output.stress={"every":10}"#], "`stress` in output.stress: on one rank only"),
     ] {
         let set = changes.iter().flat_map(|change| ["--set", change]);
         let arguments: Vec<&str> = ["check", scene, "--ranks", "2"].into_iter().chain(set).collect();

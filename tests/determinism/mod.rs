@@ -9,7 +9,7 @@ mod molecules;
 mod pair_coefficients;
 mod particles;
 mod paths;
-mod ranks;
+pub mod ranks;
 mod ranks_bonds;
 mod ranks_of_water;
 mod relaxation;

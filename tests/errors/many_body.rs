@@ -66,7 +66,10 @@ fn coefficients_of_pairs_of_species() {
 fn what_it_does_not_go_with() {
     LIQUID.refused_with(
         &[r#"interactions.0.bath={"type":"memory","rate":5}"#, r#"integrator={"type":"cotter-reich"}"#],
-        &["interactions[0].many_body: found together with a bath with memory", "in cells, not in lists"],
+        &[
+            "interactions[0]: found together with a many-body repulsion in interactions[0].many_body",
+            "are found in cells",
+        ],
     );
     let rubbing = beside(r#"{"type":"bonds","pairs":[[0,1]],"friction":1}"#);
     LIQUID.accepted(&[&rubbing, r#"integrator={"type":"cotter-reich"}"#]);
@@ -80,7 +83,7 @@ fn what_it_does_not_go_with() {
     }
     LIQUID.refused_with(
         &[&beside(r#"{"type":"bonds","pairs":[[0,1]],"exclude_repulsion":true}"#)],
-        &["interactions[0].many_body: found together with bonds", "`exclude_repulsion`"],
+        &["interactions[0].many_body: found together with `exclude_repulsion` in interactions[1]"],
     );
     // Without strength it is as if it were not there.
     let memory = r#"interactions.0.bath={"type":"memory","rate":5}"#;

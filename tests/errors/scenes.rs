@@ -328,13 +328,16 @@ fn stresses_are_those_between_particles() {
     FLUID.parse(&[&stress(r#","normal":"y""#), "space.box=[10,10]"]).unwrap();
     FLUID.refused_with(&[&stress(r#","normal":"z""#), "space.box=[10,10]"], &["output.stress.normal: found \"z\""]);
     let fixed = r#"particles=[{"species":"A","count":3000},{"species":"B","count":9,"fixed":true}]"#;
-    FLUID.refused_with(&[&stress(""), fixed], &["output.stress: found in a scene with fixed particles"]);
+    FLUID.refused_with(
+        &[&stress(""), fixed],
+        &["output.stress: found together with fixed particles in particles[1].fixed"],
+    );
     let tethers = r#"interactions=[{"type":"tether","stiffness":1}]"#;
-    FLUID.refused_with(&[&stress(""), tethers], &["output.stress: found in a scene with tethers"]);
+    FLUID.refused_with(&[&stress(""), tethers], &["output.stress: found together with tethers in interactions[0]"]);
     let line = [r#"particles=[{"species":"A","count":9}]"#, "interactions=[]", "space.box=[10]"];
     FLUID.refused_with(
         &[&[&stress("") as &str], &line[..]].concat(),
-        &["output.stress: found in a scene of one dimension"],
+        &["output.stress: found together with a box of one dimension in space.box"],
     );
     // Noise that is not sampled is missing.
     FLUID.refused_with(&[&stress(r#","window":9"#)], &["output.stress.every: found 2; accepted: 1 with a `window`"]);

@@ -96,8 +96,10 @@ fn what_takes_shear() {
 /// Whatever is bound to a box at rest is refused with the reason.
 #[test]
 fn what_takes_no_shear() {
-    SHEARED
-        .refused_with(&["particles.0.fixed=true"], &["space.shear: found together with particles[0], which are fixed"]);
+    SHEARED.refused_with(
+        &["particles.0.fixed=true"],
+        &["space.shear: found together with fixed particles in particles[0].fixed", "(physics: images of a fixed"],
+    );
     let beside =
         |interaction: &str| format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},{interaction}]"#);
     SHEARED.refused_with(
@@ -105,13 +107,18 @@ fn what_takes_no_shear() {
         &["space.shear: found together with tethers in interactions[1]", "images of the end of a tether"],
     );
     SHEARED.refused_with(
-        &[r#"space.walls={"y":{}}"#],
-        &["space.shear: found across an axis with walls", "walls that move also make a shear flow"],
+        &[r#"space.walls={"z":{}}"#],
+        &["space.shear: found together with walls in space.walls", "walls that move make a shear flow too"],
     );
-    SHEARED.refused_with(&[r#"space.walls={"z":{}}"#], &["space.shear: found together with `space.walls`"]);
+    let force = r#"{"type":"body-force","force":[1,0,0],"profile":"sinusoidal","axis":"z"}"#;
+    SHEARED.accepted(&[&beside(force)]);
+    SHEARED.accepted(&[&beside(r#"{"type":"body-force","force":[1,0,0]}"#)]);
     SHEARED.refused_with(
-        &[r#"interactions=[{"type":"dpd","repulsion":25},{"type":"body-force","force":[1,0,0]}]"#],
-        &["space.shear: found together with a body force in interactions[1]"],
+        &[&beside(&force.replace("\"z\"", "\"x\""))],
+        &[
+            "interactions[1].axis: found \"x\", along the flow of `space.shear`",
+            "images of a place have the same force",
+        ],
     );
     for other in [r#"{"type":"voronoi","viscosity":1}"#, r#"{"type":"shallow-water","mesh":[16,16],"wave_speed":1}"#] {
         let problems = SHEARED.problems(&["space.box=[10,10]", &format!("interactions=[{other}]")]);
@@ -122,7 +129,7 @@ fn what_takes_no_shear() {
     }
     SHEARED.refused_with(
         &[r#"output.stress={"every":1,"window":8}"#],
-        &["output.stress.window: found in a scene with shear", "that of the mean stress"],
+        &["output.stress.window: found together with shear in space.shear", "that of the mean stress"],
     );
     SHEARED.accepted(&[r#"output.stress={"every":10}"#, r#"output.profiles={"axis":"y","every":10}"#]);
     for (name, frameless) in [
@@ -138,13 +145,12 @@ fn what_takes_no_shear() {
         r#"diffusion={"every":2,"window":8}"#,
         r#"radial_distribution={"every":10,"range":2}"#,
         r#"viscosity={"every":2,"window":8}"#,
-        r#"chain_sizes={"every":10}"#,
     ] {
         let name = analysis.split('=').next().unwrap();
-        let named = format!("output.{name}: found in a scene with shear");
-        let chains = r#"particles=[{"species":"water","count":300,"chain":{"beads":5,"spacing":0.8}}]"#;
-        let bonds = r#"interactions=[{"type":"dpd","repulsion":25},{"type":"bonds","potential":{"type":"harmonic","stiffness":10}}]"#;
-        let changes = [&format!("output.{analysis}"), chains, bonds];
-        SHEARED.refused_with(&changes, &[&named, "none in a scene with shear"]);
+        let named = format!("output.{name}: found together with shear in space.shear");
+        SHEARED.refused_with(&[&format!("output.{analysis}")], &[&named, &format!("`{name}` without shear (")]);
     }
+    let chains = r#"particles=[{"species":"water","count":300,"chain":{"beads":5,"spacing":0.8}}]"#;
+    let bonds = beside(r#"{"type":"bonds","potential":{"type":"harmonic","stiffness":10}}"#);
+    SHEARED.accepted(&[r#"output.chain_sizes={"every":10}"#, chains, &bonds]);
 }

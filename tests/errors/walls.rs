@@ -86,7 +86,10 @@ fn what_takes_no_walls() {
         CHANNEL.accepted(&[accepted]);
     }
     let tethers = r#"interactions=[{"type":"dpd","repulsion":25},{"type":"tether","stiffness":3}]"#;
-    CHANNEL.refused_with(&[tethers], &["space.walls: found together with tethers in interactions[1]"]);
+    CHANNEL.refused_with(
+        &[tethers],
+        &["space.walls: found together with tethers in interactions[1]; accepted: walls without tethers (physics:"],
+    );
     let chains = ["space.box=[2048]", r#"space.walls={"x":{}}"#, "particles=[]", HARMONIC_CHAIN];
     let problems = CHANNEL.problems(&chains);
     let named = "space.walls: found together with harmonic chains in interactions[0]";
@@ -99,11 +102,11 @@ fn what_takes_no_walls() {
             "{problems:#?}"
         );
     }
-    for analysis in [r#"radial_distribution={"every":10,"range":2}"#, r#"viscosity={"every":2,"window":8}"#] {
-        let name = analysis.split('=').next().unwrap();
-        let named = format!("output.{name}: found in a scene with walls");
-        CHANNEL.refused_with(&[&format!("output.{analysis}")], &[&named, "none in a scene with walls"]);
-    }
+    CHANNEL.accepted(&[r#"output.radial_distribution={"every":10,"range":2}"#]);
+    CHANNEL.refused_with(
+        &[r#"output.viscosity={"every":2,"window":8}"#],
+        &["output.viscosity: found together with walls in space.walls", "have the viscosity of a flow"],
+    );
     for profile in ["opposed", "sinusoidal"] {
         let force = |axis: &str| {
             format!(
@@ -225,6 +228,7 @@ fn layers_behind_walls() {
     assert!(warnings.iter().any(|warning| warning.contains("less than the cutoff of 1")), "{warnings:?}");
     // Specular walls move if something behind them drags the fluid along.
     CHANNEL.accepted(&[r#"space.walls.z.reflection="specular""#, &layer(&[])]);
+    CHANNEL.accepted(&[&layer(&[]), r#"output.diffusion={"every":2,"window":8}"#]);
 }
 
 /// All that goes together with no layer, at once.
@@ -241,23 +245,25 @@ fn what_takes_no_layers() {
         r#"space.walls={"x":{},"z":{}}"#,
         &two,
         interactions,
-        r#"output.diffusion={"every":2,"window":8}"#,
         r#"output.stress={"every":2}"#,
         r#"output.profiles={"axis":"z","every":2,"quantities":["stress"]}"#,
     ];
     let problems = CHANNEL.problems(&changes);
     for expected in [
         r#"particles[2].placement.axis: found "x" beside "z" in particles[1]"#,
-        "interactions[0]: found a many-body repulsion together with frozen particles in particles[1]",
+        "interactions[0].many_body: found together with layers of frozen particles in particles[1].placement",
         "interactions[2].pairs[1]: found particle 300, which is frozen",
         "interactions[3].pairs[0]: found particle 301, which is frozen",
         "interactions[4].species[0]: found `wall`",
-        "output.diffusion: found in a scene with frozen particles",
-        "output.stress: found in a scene with frozen particles",
-        "output.profiles.quantities: found in a scene with frozen particles",
+        "output.stress: found together with layers of frozen particles",
+        "output.profiles.quantities: found together with layers of frozen particles",
     ] {
         assert!(problems.iter().any(|problem| problem.contains(expected)), "{expected}\n{problems:#?}");
     }
     let problems = CHANNEL.problems(&[&layer(&[]), "molecules=[{\"beads\":[\"water\"],\"count\":3}]"]);
-    assert!(problems.iter().any(|problem| problem.contains("particles[1].placement: found beside")), "{problems:#?}");
+    assert!(
+        problems.iter().any(|problem| problem
+            .contains("molecules: found together with layers of frozen particles in particles[1].placement")),
+        "{problems:#?}"
+    );
 }

@@ -210,7 +210,7 @@ fn what_cannot_be_shared_is_told_once() {
     let _turn = alone();
     for (more, ranks, code, expected) in [
         (&["--ranks", "1,2,2"][..], 3, 2, "`--ranks` asks for 4 ranks, and the launcher has started 3 copies"),
-        (&["--set", r#"output.stress={"every":10}"#], 2, 2, "`output.stress` is measured on one device"),
+        (&["--set", r#"output.stress={"every":10}"#], 2, 2, "`stress` in output.stress: on one rank only"),
         (&["--set", "time.stop=1"], 2, 2, "unknown key"),
         (&[], 7, 2, "4 ranks fit"),
         (&["--adapter", "nothing of this name"], 2, 3, "nothing of this name"),

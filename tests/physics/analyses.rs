@@ -4,11 +4,12 @@ use std::path::Path;
 
 use mesoscope::engine::{Engine, Sample};
 use mesoscope::families::Model;
+use mesoscope::families::reference::Reference;
 use mesoscope::measure::histogram::{gaussian_mean, maxwell_mean};
 use mesoscope::output::read_table;
 use mesoscope::plan::Options;
 use mesoscope::run::{Outcome, Simulation};
-use mesoscope::scene::{self, AnalysisId, CorrelatedQuantity, CountedQuantity, Scene, SceneError};
+use mesoscope::scene::{self, AnalysisId, CorrelatedQuantity, CountedQuantity, Integrator, Scene, SceneError};
 use mesoscope::shaders::{Array, Constant};
 use mesoscope::table::Table;
 use serde_json::Value;
@@ -98,6 +99,199 @@ fn velocities_in_shear_are_relative_to_the_flow() {
             let expected =
                 (-friction * time).exp() * (2.0 + along + rate * rate * time / (2.0 * friction)) / (2.0 + along);
             near(&format!("at {time}"), *value, expected, 0.005);
+        }
+    }
+}
+
+/// Particles that are held have no part in means over particles: of free flights beside fixed particles, and beside layers
+/// behind walls, the squared velocity is that of the start.
+#[test]
+fn held_particles_have_no_part_in_means() {
+    let fixed = r#"particles=[{"species":"A","count":150},{"species":"W","count":250,"fixed":true}]"#;
+    let layer = r#"{"species":"W","count":250,"placement":{"type":"behind-walls","axis":"y","thickness":1}}"#;
+    let frozen = format!(r#"particles=[{{"species":"A","count":150}},{layer}]"#);
+    let moving = r#"space.walls={"y":{"upper_velocity":[1,0,0]}}"#;
+    for (held, space) in [(fixed, "space.box=[5,5,5]"), (&frozen, moving)] {
+        for integrator in [SPLITTING, COTTER_REICH] {
+            let directory = tempfile::tempdir().unwrap();
+            let scene = fluid(&[
+                integrator,
+                held,
+                space,
+                "interactions=[]",
+                "time.step=0.01",
+                "time.steps=12",
+                "time.equilibration=0",
+                r#"output.diffusion={"every":2,"window":3}"#,
+                r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":3,"frame":"box"}]"#,
+                r#"output.histograms=[{"quantity":"velocity","every":4,"frame":"box"}]"#,
+            ]);
+            let (model, state) = start(&scene);
+            let squares = state.momenta.iter().zip(&state.species).filter(|(_, species)| **species == 0);
+            let square = 2.0 * squares.map(|(momentum, _)| kinetic_energy(&model, *momentum)).sum::<f64>() / 150.0;
+            let outcome = run(scene, directory.path());
+            assert_eq!(number(&outcome, &["velocity_histogram", "values"]), 4.0 * 3.0 * 150.0);
+            let of_histogram = number(&outcome, &["velocity_histogram", "mean_square"]);
+            let diffusion = table(directory.path(), "diffusion.csv");
+            let of_correlation = table(directory.path(), "velocity_autocorrelation.csv").rows[0][3];
+            for found in [diffusion.rows[0][3], of_correlation, of_histogram] {
+                // Walls that move change what they reflect; all else is free.
+                let error = if space == moving { 0.1 } else { 1e-5 };
+                assert!((found / square - 1.0).abs() < error, "{integrator}, {space}: {found}, expected {square}");
+            }
+            let expected = square * diffusion.rows[1][0].powi(2);
+            let error = if space == moving { 0.2 } else { 1e-5 };
+            assert!((diffusion.rows[1][1] / expected - 1.0).abs() < error, "{integrator}: {:?}", diffusion.rows);
+        }
+    }
+}
+
+/// The radial distribution of particles that know nothing of each other is one, whichever axes have walls.
+#[test]
+fn particles_spread_evenly_have_a_radial_distribution_of_one() {
+    let boxes = ["space.box=[4,5,6]", "space.box=[11,9]", "space.box=[60]"];
+    let walls = |axes: &str| {
+        let pairs: Vec<String> = axes.chars().map(|axis| format!(r#""{axis}":{{"reflection":"specular"}}"#)).collect();
+        format!("space.walls={{{}}}", pairs.join(","))
+    };
+    for (space, axes) in [(0, ""), (0, "z"), (0, "xy"), (0, "xyz"), (1, ""), (1, "x"), (1, "xy"), (2, ""), (2, "x")] {
+        let directory = tempfile::tempdir().unwrap();
+        let scene = gas(&[
+            boxes[space],
+            &walls(axes),
+            "particles.0.count=1000",
+            "time.step=0.01",
+            "time.steps=2000",
+            r#"output.radial_distribution={"every":100,"range":2,"bins":20}"#,
+        ]);
+        run(scene, directory.path());
+        let table = table(directory.path(), "radial_distribution.csv");
+        let volume = [120.0, 99.0, 60.0][space];
+        for row in &table.rows {
+            let shell = match space {
+                0 => 4.0 * std::f64::consts::PI * row[0] * row[0],
+                1 => 2.0 * std::f64::consts::PI * row[0],
+                _ => 2.0,
+            };
+            // Of 20 samples the pairs of a bin, of which half may lie behind walls, and the places of 1 000 particles,
+            // as those near a wall have fewer neighbours.
+            let pairs = 20.0 * 499_500.0 * shell * 0.1 / volume;
+            let error = (2.0 / pairs + if axes.is_empty() { 0.0 } else { 0.5_f64.powi(2) / 20_000.0 }).sqrt();
+            assert!((row[1] - 1.0).abs() < 5.0 * error, "{space} {axes}: {row:?} ± {error}");
+        }
+    }
+}
+
+/// The last sample of the first analysis on the device after some steps, and a reference with the particles as the
+/// analysis sees them.
+fn last_sample_and_reference(scene: &Scene, steps: u64) -> (Vec<i64>, Reference) {
+    let (model, state) = start(scene);
+    let mut measured = engine(scene, &state, Options::default());
+    measured.advance(steps, 4).unwrap();
+    let samples = measured.finish().unwrap();
+    let found = samples.iter().filter(|sample| sample.sampler == 1).next_back().unwrap();
+    assert_eq!(found.step, steps);
+    // A state is read before the step is reported.
+    let mut silent = scene.clone();
+    silent.output = fluid(&["output.energies.every=1000"]).output;
+    let mut silent = engine(&silent, &state, Options::default());
+    silent.advance(steps, 4).unwrap();
+    let mut reference = Reference::new(model.clone(), silent.state().unwrap());
+    if matches!(scene.integrator, Integrator::Splitting { .. }) {
+        reference = Reference::new(model, reference.state_between_forces().unwrap());
+    }
+    (found.sums.clone(), reference)
+}
+
+/// Where the particles of a reference are.
+fn places(reference: &Reference) -> Vec<[f64; 3]> {
+    let units = reference.model().units;
+    reference.state().positions.iter().map(|position| units.position(*position)).collect()
+}
+
+/// Between walls pairs are counted by the straight way, and without particles of layers.
+#[test]
+fn pairs_between_walls_are_counted_without_layers() {
+    let layers = r#"particles=[{"species":"A","count":300},
+        {"species":"W","number_density":3,"placement":{"type":"behind-walls","axis":"y","thickness":1}}]"#;
+    for integrator in [SPLITTING, PREDICTED, COTTER_REICH] {
+        let scene = fluid(&[
+            integrator,
+            layers,
+            r#"space.walls={"y":{},"z":{}}"#,
+            "time.step=0.01",
+            "time.steps=100",
+            "output.energies.every=4",
+            r#"output.radial_distribution={"every":4,"range":2.5,"bins":25}"#,
+        ]);
+        let (found, reference) = last_sample_and_reference(&scene, 8);
+        let counted: Vec<i64> = reference.radial_distribution(2.5, 25).iter().map(|count| *count as i64).collect();
+        let places = &places(&reference)[..300];
+        let mut counts = vec![0; 25];
+        let mut close = 0;
+        for (index, first) in places.iter().enumerate() {
+            for second in &places[..index] {
+                let mut way: [f64; 3] = std::array::from_fn(|axis| first[axis] - second[axis]);
+                way[0] -= 5.0 * (way[0] / 5.0).round();
+                let bins = way.iter().map(|part| part * part).sum::<f64>().sqrt() * 10.0;
+                if let Some(count) = counts.get_mut(bins as usize) {
+                    *count += 1;
+                }
+                close += i64::from((bins - bins.round()).abs() < 1e-4);
+            }
+        }
+        for counted in [found, counted] {
+            let differences: i64 = counted.iter().zip(&counts).map(|(a, b)| (a - b).abs()).sum();
+            assert!(differences <= 2 * close && close < 30, "{integrator}: {differences} {close}");
+        }
+        assert!(counts[24] > 300, "{counts:?}");
+    }
+}
+
+/// Chains in a box whose boundaries shear are measured from copy to copy, where the boundaries have displaced them.
+#[test]
+fn sizes_of_chains_in_shear() {
+    let (rate, step) = (2.0, 0.02);
+    for integrator in [SPLITTING, COTTER_REICH, PREDICTED] {
+        let scene = fluid(&[
+            integrator,
+            &format!("time.step={step}"),
+            "time.steps=100",
+            r#"particles=[{"species":"A","count":300,"chain":{"beads":5,"spacing":0.9}}]"#,
+            r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+                {"type":"bonds","species":["A"],"potential":{"type":"harmonic","stiffness":10,"length":0.9}}]"#,
+            &format!(r#"space.shear={{"rate":{rate},"gradient":"z","displacement":1.3}}"#),
+            "output.energies.every=7",
+            r#"output.chain_sizes={"every":7}"#,
+        ]);
+        let (found, reference) = last_sample_and_reference(&scene, 35);
+        // Particles of a split step are half a drift later.
+        let time = step * if integrator == SPLITTING { 35.5 } else { 35.0 };
+        let shift = 1.3 + rate * 5.0 * time;
+        let places = places(&reference);
+        let (mut ends, mut gyration) = (0.0, 0.0);
+        for chain in places.chunks_exact(5) {
+            let mut beads = vec![[0.0; 3]];
+            for pair in chain.windows(2) {
+                let mut way: [f64; 3] = std::array::from_fn(|axis| pair[1][axis] - pair[0][axis]);
+                let up = (way[2] / 5.0).round();
+                way[2] -= 5.0 * up;
+                way[0] -= up * shift;
+                way[0] -= 5.0 * (way[0] / 5.0).round();
+                way[1] -= 5.0 * (way[1] / 5.0).round();
+                let last = *beads.last().unwrap();
+                beads.push(std::array::from_fn(|axis| last[axis] + way[axis]));
+            }
+            ends += (0..3).map(|axis| beads[4][axis].powi(2)).sum::<f64>();
+            for axis in 0..3 {
+                let mean = beads.iter().map(|bead| bead[axis]).sum::<f64>() / 5.0;
+                gyration += beads.iter().map(|bead| (bead[axis] - mean).powi(2)).sum::<f64>() / 5.0;
+            }
+        }
+        let quantum = engine(&scene, reference.state(), Options::default()).plan().quanta.length_squared;
+        for (sum, expected) in found.iter().zip([ends, gyration]) {
+            let measured = *sum as f64 * quantum;
+            assert!((measured / expected - 1.0).abs() < 1e-4, "{integrator}: {measured}, expected {expected}");
         }
     }
 }

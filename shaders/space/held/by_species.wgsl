@@ -28,3 +28,4 @@ fn report_configuration(me: Particle, sums: PairSums, bonded: Steps) {
 }
 fn reported_motion(me: Particle, momentum: Steps) -> Steps { return select(momentum, steps_of(me.momentum), is_held(me)); }
 fn reported_virial(me: Particle, virial: Sum64) -> Sum64 { return select(virial, Sum64(0u), is_held(me)); }
+fn is_measured(id: u32) -> bool { return id < PARTICLES && !is_held(stored_particle(id)); }

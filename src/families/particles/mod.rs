@@ -2,6 +2,7 @@
 
 pub(crate) mod chains;
 pub(crate) mod checks;
+pub mod combinations;
 mod composition;
 mod conservation;
 mod description;
@@ -370,20 +371,8 @@ impl Physics for Particles {
         stability::check_repulsion(scene, model, problems);
     }
 
-    fn unshared(&self, model: &Model) -> Vec<String> {
-        let chained = self.chains.is_some();
-        let there = [
-            (chained, "harmonic chains"),
-            (self.coloured_noise.is_some(), "coloured noise"),
-            (!chained && self.has_memory(), "baths with memory"),
-            (!chained && model.units.dimension == 1, "particles on a line"),
-        ];
-        let mut found: Vec<String> =
-            there.iter().filter(|(there, _)| *there).map(|(_, what)| format!("{what}: on one rank only")).collect();
-        if found.is_empty() && self.list_pairs(model) {
-            found.push("lists of neighbours: on one rank only".to_owned());
-        }
-        found
+    fn unshared(&self, scene: &Scene) -> Vec<String> {
+        combinations::unshared(scene)
     }
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {

@@ -149,7 +149,7 @@ impl Physics for ShallowWater {
         self::plan::plan(model, self, measured, hardware, options)
     }
 
-    fn unshared(&self, _: &Model) -> Vec<String> {
+    fn unshared(&self, _: &Scene) -> Vec<String> {
         Vec::new()
     }
 

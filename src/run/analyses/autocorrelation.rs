@@ -105,7 +105,7 @@ fn force_product_quantum(particles: u64) -> f64 {
     ((particles.max(1) as f64).log2().ceil() - 6.0).max(0.0).exp2()
 }
 
-/// Means over particles of products with the beginning of the window, sample by sample.
+/// Means over the particles that can move of products with the beginning of the window, sample by sample.
 struct Correlation {
     asked: scene::Autocorrelation,
     particles: f64,
@@ -118,7 +118,7 @@ impl Correlation {
     fn new(setting: &Setting<'_>, asked: &scene::Autocorrelation) -> Self {
         Self {
             asked: asked.clone(),
-            particles: setting.plan.particles as f64,
+            particles: setting.model.mobile_particles() as f64,
             interval: asked.every as f64 * setting.model.time_step,
             scale: quantum(setting.plan, asked.quantity),
             products: Vec::new(),

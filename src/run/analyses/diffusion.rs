@@ -88,7 +88,7 @@ impl Descriptor for Diffusion {
     }
 }
 
-/// Means over particles, sample by sample.
+/// Means over the particles that can move, sample by sample.
 struct Averages {
     particles: f64,
     dimension: usize,
@@ -103,7 +103,7 @@ impl Averages {
     fn new(setting: &Setting<'_>, asked: &scene::Diffusion) -> Self {
         let quanta = setting.plan.quanta;
         Self {
-            particles: setting.plan.particles as f64,
+            particles: setting.model.mobile_particles() as f64,
             dimension: setting.model.units.dimension,
             interval: asked.every as f64 * setting.model.time_step,
             window: asked.window as usize,

@@ -195,6 +195,8 @@ fn density_chart(title: &str, table: &Table) -> Chart {
 struct Counts {
     asked: scene::Histogram,
     particles: f64,
+    /// The value of one unit of the powers.
+    quantum: f64,
     dimension: usize,
     range: f64,
     samples: f64,
@@ -211,7 +213,8 @@ impl Counts {
         let low = if asked.quantity == CountedQuantity::Speed { 0.0 } else { -range };
         Self {
             asked: asked.clone(),
-            particles: setting.plan.particles as f64,
+            particles: setting.model.mobile_particles() as f64,
+            quantum: moment_quantum(setting.plan.particles),
             dimension: setting.model.units.dimension,
             range,
             samples: 0.0,
@@ -256,7 +259,6 @@ impl OfSamples for Counts {
         }
         let (counts, rest) = sample.sums.split_at(bins);
         let (extra, powers) = rest.split_at(EXTRA);
-        let quantum = moment_quantum(self.particles as u64);
         self.samples += 1.0;
         self.histogram.counts.iter_mut().zip(counts).for_each(|(count, found)| *count += *found as f64);
         for (count, found) in
@@ -264,7 +266,7 @@ impl OfSamples for Counts {
         {
             *count += *found as f64;
         }
-        self.powers.iter_mut().zip(powers).for_each(|(power, found)| *power += *found as f64 * quantum);
+        self.powers.iter_mut().zip(powers).for_each(|(power, found)| *power += *found as f64 * self.quantum);
     }
 }
 

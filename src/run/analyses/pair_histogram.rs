@@ -4,6 +4,7 @@ use crate::plan::recording::record_histogram;
 use crate::plan::serial_memory::TURNS;
 use crate::plan::{Grid, Kernel, Options, Ordered, Plan, Sampler, SamplerId};
 use crate::scene::{AnalysisId, RadialDistribution};
+use crate::shaders::analyses::CountedPairs;
 use crate::shaders::core::Dispatches;
 use crate::shaders::{Array, Constant, Entry};
 use crate::state::Units;
@@ -26,6 +27,10 @@ const ENOUGH: u64 = 8192;
 /// What the kernel that counts pairs has to know.
 pub(super) struct PairHistogram<'a> {
     pub units: &'a Units,
+    /// A bit for each axis across which there are walls.
+    pub walled_axes: u32,
+    /// Particles from this id on are frozen, and not counted.
+    pub first_frozen: u64,
     pub grid: &'a Grid,
     pub options: Options,
     pub asked: &'a RadialDistribution,
@@ -41,7 +46,10 @@ impl PairHistogram<'_> {
         let shares = self.grid.rows() * segments * parts;
         let (dispatches, takes_long) = self.dispatches(plan.particles, spans);
         let dispatches = dispatches.min(shares);
-        let choices = ordered.choices.clone().with_if(dispatches > 1, Dispatches::InTurn);
+        let walled = self.walled_axes > 0;
+        let choices = (ordered.choices.clone())
+            .with_if(dispatches > 1, Dispatches::InTurn)
+            .with_if(walled, CountedPairs::BetweenWalls);
         let shares = shares.div_ceil(dispatches);
         let mut constants = vec![
             (Constant::Bins, bins as f64),
@@ -52,6 +60,10 @@ impl PairHistogram<'_> {
             (Constant::Segments, segments as f64),
             (Constant::Parts, parts as f64),
         ];
+        if walled {
+            constants.push((Constant::WalledAxes, f64::from(self.walled_axes)));
+            constants.push((Constant::FirstFrozen, self.first_frozen as f64));
+        }
         if dispatches > 1 {
             constants.push((Constant::Shares, shares as f64));
         }
@@ -128,6 +140,10 @@ impl PairHistogram<'_> {
 mod tests {
     use super::*;
 
+    fn histogram<'a>(units: &'a Units, grid: &'a Grid, asked: &'a RadialDistribution) -> PairHistogram<'a> {
+        PairHistogram { units, walled_axes: 0, first_frozen: u64::MAX, grid, options: Options::default(), asked }
+    }
+
     /// Over a thousand million pairs are shared; a batch may have many histograms of some millions each.
     #[test]
     fn histograms_that_take_long_are_shared_and_submitted_by_themselves() {
@@ -136,7 +152,7 @@ mod tests {
             let particles = 125_000;
             let grid = Grid::new(&units, 1.0, particles);
             let asked = RadialDistribution { every: 1, range, bins: 10 };
-            let histogram = PairHistogram { units: &units, grid: &grid, options: Options::default(), asked: &asked };
+            let histogram = histogram(&units, &grid, &asked);
             let spans: [u64; 3] = std::array::from_fn(|axis| histogram.span(axis));
             assert_eq!(histogram.dispatches(particles, spans), expected, "{range}");
         }
@@ -151,7 +167,7 @@ mod tests {
             let particles = (density * edge * edge * edge) as u64;
             let grid = Grid::new(&units, 1.0, particles);
             let asked = RadialDistribution { every: 1, range, bins: 10 };
-            let histogram = PairHistogram { units: &units, grid: &grid, options: Options::default(), asked: &asked };
+            let histogram = histogram(&units, &grid, &asked);
             let spans: [u64; 3] = std::array::from_fn(|axis| histogram.span(axis));
             let (segments, parts) = histogram.shares(particles, spans);
             // A lane's particles, the rows of cells that it visits around each, the cells of these, and the particles in the

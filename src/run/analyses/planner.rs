@@ -92,7 +92,8 @@ impl<'a> Planner<'a> {
         let momenta = reported.momenta.map(|buffer| (Array::ReportedMomenta, buffer));
         let all = here.into_iter().chain(momenta).chain(renamed.iter().copied());
         let renamed = all.filter(|(variable, buffer)| variable != buffer).collect();
-        Some(Kernel::new(name, entry, reported.choices.clone().and(choices), groups).renamed(renamed))
+        let kernel = Kernel::new(name, entry, reported.choices.clone().and(choices), groups);
+        Some(kernel.with(reported.constants.clone()).renamed(renamed))
     }
 
     /// Adds a sampler whose kernel reads the particles by id and leaves its sums to `record_sample`. Of several ranks the first measures, and
@@ -156,8 +157,8 @@ impl<'a> Planner<'a> {
         let kernel = self.kernel_of_particles("sum_momenta", Entry::SumMomenta, &Choices::new(), groups, &sums);
         let Some(kernel) = kernel else { return Vec::new() };
         let sum = self.plan.add_kernel(kernel.with(vec![(Constant::Quantities, 3.0)]));
-        let species = self.model.species.iter();
-        let mass: f64 = species.map(|species| species.mass * species.count as f64).sum();
+        let mobile = self.model.species.iter().filter(|species| !species.fixed);
+        let mass: f64 = mobile.map(|species| species.mass * species.count as f64).sum();
         let find = self.plan.add_kernel(
             Kernel::new("find_centre", Entry::FindCentre, Choices::new(), 1)
                 .with(vec![

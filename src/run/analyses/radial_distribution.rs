@@ -33,8 +33,15 @@ impl Descriptor for RadialDistribution {
 
     fn add_sampler(&self, planner: &mut Planner<'_>) {
         let (Some(asked), Some(ordered)) = (&planner.output.radial_distribution, planner.ordered) else { return };
-        let (units, options) = (&planner.model.units, planner.options);
-        let histogram = PairHistogram { units, grid: &ordered.grid, options, asked };
+        let model = planner.model;
+        let histogram = PairHistogram {
+            units: &model.units,
+            walled_axes: model.particles().walls.iter().map(|walls| 1 << walls.axis).sum(),
+            first_frozen: planner.plan.particles - model.frozen_particles(),
+            grid: &ordered.grid,
+            options: planner.options,
+            asked,
+        };
         histogram.add(planner.plan, ordered, planner.equilibration);
     }
 
@@ -63,6 +70,8 @@ struct Pairs {
     particles: f64,
     volume: f64,
     dimension: usize,
+    /// Distances of walls that face each other.
+    gaps: Vec<f64>,
     range: f64,
     samples: f64,
     counts: Vec<f64>,
@@ -70,10 +79,12 @@ struct Pairs {
 
 impl Pairs {
     fn new(setting: &Setting<'_>, asked: &scene::RadialDistribution, sampler: &Sampler) -> Self {
+        let units = &setting.model.units;
         Self {
-            particles: setting.plan.particles as f64,
-            volume: setting.model.units.volume(),
-            dimension: setting.model.units.dimension,
+            particles: (setting.plan.particles - setting.model.frozen_particles()) as f64,
+            volume: units.volume(),
+            dimension: units.dimension,
+            gaps: setting.model.particles().walls.iter().map(|walls| units.edges()[walls.axis]).collect(),
             range: asked.range,
             samples: 0.0,
             counts: vec![0.0; sampler.quantities],
@@ -107,8 +118,7 @@ impl Analysis for Pairs {
     fn conclude(&self) -> Conclusion {
         let width = self.range / self.counts.len() as f64;
         let pairs = 0.5 * self.particles * (self.particles - 1.0);
-        let ball =
-            |radius: f64| if self.dimension == 3 { 4.0 / 3.0 * PI * radius.powi(3) } else { PI * radius * radius };
+        let ball = |radius: f64| ball(radius, self.dimension, &self.gaps);
         let mut rows = Vec::new();
         for (bin, count) in self.counts.iter().enumerate() {
             let inner = bin as f64 * width;
@@ -123,6 +133,28 @@ impl Analysis for Pairs {
             None => Ok(json!({ "samples": samples, PEAK_DISTANCE: null, PEAK_HEIGHT: null })),
         };
         Conclusion::new(Table::new([DISTANCE, VALUE], rows), result)
+    }
+}
+
+/// The mean volume that particles spread evenly have within a radius around each other: of a ball, less what of it lies
+/// behind walls at these distances from each other.
+///
+/// The part of the places whose copy displaced by `d` is still between the walls is the product of `1 − |dₐ|/Lₐ` over the
+/// axes across which there are walls; its mean over all directions needs those of `|x|`, `|x y|` and `|x y z|` on a sphere
+/// or a circle.
+fn ball(radius: f64, dimension: usize, gaps: &[f64]) -> f64 {
+    let inverse: Vec<f64> = gaps.iter().map(|gap| 1.0 / gap).collect();
+    let singles: f64 = inverse.iter().sum();
+    let pairs: f64 = inverse.iter().enumerate().flat_map(|(i, a)| inverse[..i].iter().map(move |b| a * b)).sum();
+    let triple: f64 = if inverse.len() == 3 { inverse.iter().product() } else { 0.0 };
+    let r = radius;
+    match dimension {
+        1 => 2.0 * r - singles * r * r,
+        2 => PI * r * r - 4.0 / 3.0 * singles * r.powi(3) + 0.5 * pairs * r.powi(4),
+        _ => {
+            4.0 / 3.0 * PI * r.powi(3) - 0.5 * PI * singles * r.powi(4) + 8.0 / 15.0 * pairs * r.powi(5)
+                - triple * r.powi(6) / 6.0
+        }
     }
 }
 

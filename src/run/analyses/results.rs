@@ -13,7 +13,7 @@ pub(super) fn windows_missing(average: &WindowedAverage, particles: f64) -> Opti
     if average.windows().len() == 0 {
         Some(format!("the run ends before a window of {} samples is full", average.lags()))
     } else if particles == 0.0 {
-        Some("there are no particles".to_owned())
+        Some("there are no particles that can move".to_owned())
     } else {
         None
     }

@@ -175,7 +175,7 @@ fn check_scene(scene: &Scene, problems: &mut Problems) {
         None => ("found beside `molecules`", "no `placement`: molecules are placed along random walks"),
     };
     for (index, group) in scene.particles.iter().enumerate() {
-        if group.placement != Placement::Random {
+        if group.placement != Placement::Random && !group.is_frozen() {
             problems.push(Problem::new(format!("particles[{index}].placement"), beside, places));
         }
         if group.velocities != Velocities::Thermal {
@@ -529,7 +529,7 @@ impl Reader<'_> {
                     format!("found `{name}` in {} groups", groups.len()),
                     accepted,
                 );
-            } else if given(&first) && sum != count {
+            } else if given(&first) && sum != count && !scene.particles[first].is_frozen() {
                 let key = if scene.particles[first].count.is_some() { "count" } else { "number_density" };
                 let accepted =
                     format!("{count}, the number of particles of `{name}` in `{}`, or no `{key}`", self.state.file);

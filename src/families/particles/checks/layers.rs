@@ -11,7 +11,6 @@ pub(super) fn is_behind(group: &ParticleGroup, axis: usize) -> bool {
 /// Checks the layers of a scene, with what else is in it.
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     let layers = || scene.particles.iter().enumerate().filter(|(_, group)| group.is_frozen());
-    let Some((first, _)) = layers().next() else { return };
     for (index, group) in layers() {
         check_group(scene, group, &format!("particles[{index}]"), problems);
     }
@@ -27,8 +26,7 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
             "layers behind the walls across one axis: where two meet, the corner between them would be empty";
         problems.push(Problem::new(format!("particles[{index}].placement.axis"), found, accepted));
     }
-    check_interactions(scene, first, problems);
-    check_analyses(scene, first, problems);
+    check_interactions(scene, problems);
 }
 
 /// The walls are there, and nothing is said of the particles that they do not have.
@@ -66,26 +64,14 @@ fn check_group(scene: &Scene, group: &ParticleGroup, path: &str, problems: &mut 
 }
 
 /// Frozen particles take part in pairs, and in nothing else.
-fn check_interactions(scene: &Scene, layer: usize, problems: &mut Problems) {
-    let where_from = format!("together with frozen particles in particles[{layer}]");
+fn check_interactions(scene: &Scene, problems: &mut Problems) {
     for (index, interaction) in scene.interactions.iter().enumerate().filter(|(_, interaction)| acts(interaction)) {
         let path = format!("interactions[{index}]");
-        let (what, accepted) = match interaction {
-            Interaction::Dpd(dpd) if dpd.acting_many_body().is_some() => (
-                "a many-body repulsion",
-                "repulsions of pairs alone beside layers, whose local densities end behind the wall",
-            ),
-            Interaction::Bonds(bonds) => {
-                check_members(scene, &bonds.pairs, &format!("{path}.pairs"), problems);
-                continue;
-            }
-            Interaction::Angles(angles) => {
-                check_members(scene, &angles.triples, &format!("{path}.triples"), problems);
-                continue;
-            }
-            _ => continue,
-        };
-        problems.push(Problem::new(path, format!("found {what} {where_from}"), accepted));
+        match interaction {
+            Interaction::Bonds(bonds) => check_members(scene, &bonds.pairs, &format!("{path}.pairs"), problems),
+            Interaction::Angles(angles) => check_members(scene, &angles.triples, &format!("{path}.triples"), problems),
+            _ => {}
+        }
     }
 }
 
@@ -109,24 +95,5 @@ fn check_members<const LENGTH: usize>(scene: &Scene, members: &[[u32; LENGTH]], 
             format!("found particle {number}, which is frozen"),
             accepted,
         ));
-    }
-}
-
-/// Analyses that would count what is frozen.
-fn check_analyses(scene: &Scene, layer: usize, problems: &mut Problems) {
-    let output = &scene.output;
-    let asked = [
-        ("diffusion", output.diffusion.is_some()),
-        ("autocorrelations", !output.autocorrelations.is_empty()),
-        ("histograms", !output.histograms.is_empty()),
-        ("stress", output.stress.is_some()),
-    ];
-    for (name, _) in asked.into_iter().filter(|(_, asked)| *asked) {
-        let found = format!("found in a scene with frozen particles in particles[{layer}], which it would count");
-        problems.push(Problem::new(format!("output.{name}"), found, "none beside layers; `profiles` leave them out"));
-    }
-    for path in output.asks_for_stress().filter(|path| *path != "output.stress") {
-        let found = format!("found in a scene with frozen particles in particles[{layer}]");
-        problems.push(Problem::new(path, found, "other quantities beside layers, which carry stress too"));
     }
 }

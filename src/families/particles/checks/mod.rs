@@ -14,6 +14,7 @@ use crate::document::{
     AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, DpdInteraction, Integrator, Interaction,
     LangevinInteraction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames, Stress,
 };
+use crate::families::particles::combinations::{self, Feature};
 use crate::families::{Bonds, Particles};
 use crate::numbers::grouped;
 
@@ -49,54 +50,22 @@ pub(crate) fn check_interaction(
 
 /// Checks what interactions and particles have to have in common.
 pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
+    combinations::check(scene, problems);
     check_numbers(scene, problems);
     body_force::check_together(scene, problems);
-    many_body::check_together(scene, problems);
     walls::check(scene, problems);
     layers::check(scene, problems);
     shear::check(scene, problems);
     check_groups(scene, problems);
-    check_integrator(scene, problems);
+    if matches!(scene.integrator, Integrator::Splitting { .. }) {
+        check_splitting(scene, problems);
+    }
     if scene.output.chain_sizes.is_some() && !scene.particles.iter().any(|group| group.chain.is_some()) {
         let accepted = "a scene with chains: a `chain` in one of `particles`";
         problems.push(Problem::new("output.chain_sizes", "found in a scene without chains", accepted));
     }
-    check_stress(scene, problems);
-    if scene.space.lengths.len() == 1 && scene.output.viscosity.is_some() {
-        let found = "found in a scene of one dimension";
-        problems.push(Problem::new("output.viscosity", found, "two or three dimensions: there is no shear on a line"));
-    }
-}
-
-/// Forces from places in space have no stress between particles.
-fn check_stress(scene: &Scene, problems: &mut Problems) {
     if let Some(asked) = &scene.output.stress {
         check_window_of_stress(asked, scene, problems);
-    }
-    for path in scene.output.asks_for_stress() {
-        check_forces_of_stress(path, scene, problems);
-    }
-}
-
-fn check_forces_of_stress(path: &str, scene: &Scene, problems: &mut Problems) {
-    let mut refuse = |found: &str, accepted: &str| problems.push(Problem::new(path, found, accepted));
-    if scene.space.lengths.len() == 1 {
-        refuse(
-            "found in a scene of one dimension",
-            "two or three dimensions; on a line there is `pressure` in energies.csv",
-        );
-    }
-    if scene.particles.iter().any(|group| group.fixed) {
-        refuse(
-            "found in a scene with fixed particles",
-            "a scene without them: what holds them in place carries stress too",
-        );
-    }
-    if scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Tether(_)) && acts(interaction)) {
-        refuse(
-            "found in a scene with tethers",
-            "a scene without them: they are tied to places in space, and carry stress too",
-        );
     }
 }
 
@@ -121,11 +90,6 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
         let accepted = "a temperature above 0, or no `window`";
         problems.push(Problem::new("output.stress.window", "found in a scene at a temperature of 0", accepted));
     }
-}
-
-/// Forces of an interaction depend on local densities.
-fn depends_on_density(interaction: &Interaction) -> bool {
-    matches!(interaction, Interaction::Dpd(dpd) if dpd.acting_many_body().is_some())
 }
 
 /// The default of a scene that names no integrator is `cotter-reich`: where there is memory, a coloured noise or a
@@ -166,11 +130,6 @@ pub(super) fn acts(interaction: &Interaction) -> bool {
         Interaction::Angles(angles) => angles.stiffness != 0.0,
         _ => true,
     }
-}
-
-/// Interactions that do anything, with their places.
-fn acting(scene: &Scene) -> impl Iterator<Item = (usize, &Interaction)> {
-    scene.interactions.iter().enumerate().filter(|(_, interaction)| acts(interaction))
 }
 
 /// Everything that acts on single particles is there at most once.
@@ -269,15 +228,6 @@ fn half_box(scene: &Scene) -> f64 {
     0.5 * scene.space.shortest_length()
 }
 
-fn check_integrator(scene: &Scene, problems: &mut Problems) {
-    match scene.integrator {
-        Integrator::Splitting { .. } => check_splitting(scene, problems),
-        Integrator::GrootWarren { .. } => check_groot_warren(scene, problems),
-        // The last two are refused with all other scenes that are not of shallow water.
-        Integrator::CotterReich {} | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {}
-    }
-}
-
 /// Where the velocities along bonds relax one after the other, there are few enough of them, and a particle has few enough.
 pub(super) fn check_rounds(particles: &Particles, problems: &mut Problems) {
     let Some(bonds) = &particles.bonds else { return };
@@ -294,48 +244,13 @@ pub(super) fn check_rounds(particles: &Particles, problems: &mut Problems) {
     problems.push(Problem::new("integrator.type", found, accepted));
 }
 
-/// Split steps find pairs in cells; baths with memory and random forces of single particles and bonds are part of their
-/// kicks.
+/// Bonds relax in a split step or keep a memory in its kicks, all of a scene alike.
 fn check_splitting(scene: &Scene, problems: &mut Problems) {
-    if !scene.interactions.iter().all(Interaction::is_of_particles) {
-        return;
-    }
-    let listed = acting(scene).find_map(|(index, interaction)| {
-        let what = match interaction {
-            Interaction::Dpd(dpd) if dpd.remembers() => "pairs with memory",
-            Interaction::HarmonicChain(_) => "harmonic chains",
-            _ => return None,
-        };
-        Some(format!("{what} in interactions[{index}]"))
-    });
-    let bonds = |remembers: bool| {
-        acting(scene).any(|(_, interaction)| {
-            matches!(interaction, Interaction::Bonds(bonds) if bonds.has_bath() && bonds.bath.remembers() == remembers)
-        })
-    };
-    let mixed = (bonds(true) && bonds(false)).then(|| "friction along bonds with and without memory".to_owned());
-    let line = (scene.space.lengths.len() == 1).then(|| "a box of one dimension".to_owned());
-    if let Some(what) = listed.or(mixed).or(line) {
-        let found = format!("found `splitting` together with {what}");
-        let accepted = "`cotter-reich`, which takes all couplings and baths together; or no integrator at all";
-        problems.push(Problem::new("integrator.type", found, accepted));
-    }
-}
-
-fn check_groot_warren(scene: &Scene, problems: &mut Problems) {
-    for (index, interaction) in acting(scene) {
-        let found = match interaction {
-            Interaction::Dpd(dpd) if dpd.remembers() => "a bath with memory",
-            Interaction::Langevin(langevin) if langevin.bath.remembers() => "a bath with memory on every particle",
-            Interaction::Bonds(bonds) if bonds.has_bath() && bonds.bath.remembers() => {
-                "a bath with memory on every bond"
-            }
-            Interaction::HarmonicChain(_) => "chains with baths on their springs",
-            _ => continue,
-        };
-        let found = format!("found `groot-warren` and {found} in interactions[{index}]");
-        let accepted =
-            "`cotter-reich`; a bath with memory is coupled to places, and `groot-warren` takes friction of velocities";
+    let [memory, friction] = [Feature::MemoryOfBonds, Feature::FrictionOfBonds].map(|feature| feature.place(scene));
+    if let (Some(memory), Some(friction)) = (memory, friction) {
+        let found =
+            format!("found `splitting` together with friction along bonds in {friction} and memory in {memory}");
+        let accepted = "bonds with one of the two; or `cotter-reich`, which takes both together";
         problems.push(Problem::new("integrator.type", found, accepted));
     }
 }

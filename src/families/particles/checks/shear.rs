@@ -1,6 +1,5 @@
 //! Checks of shear that a schema cannot express.
 
-use super::{acts, is_fixed_in_space};
 use crate::document::{Axis, DpdInteraction, Frame, Interaction, Output, Problem, Problems, Scene, brief};
 use crate::families::{Model, ShearedBox};
 
@@ -39,39 +38,17 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     } else {
         check_edge(scene, shear.gradient, &mut refuse);
     }
-    let tied = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_)) && acts(interaction);
-    if let Some(index) = scene.interactions.iter().position(tied) {
-        let found = format!("found together with tethers in interactions[{index}]");
-        refuse(
-            at,
-            found,
-            "particles that are free to move: images of the end of a tether move across a boundary that shears",
-        );
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        if let Interaction::BodyForce(force) = interaction
+            && force.axis == Some(shear.flow)
+        {
+            let found = format!("found \"{}\", along the flow of `space.shear`", shear.flow.name());
+            let accepted = "an axis across the flow: images of a place have the same force only if it is the same along \
+                            the flow";
+            refuse(&format!("interactions[{index}].axis"), found, accepted);
+        }
     }
-    if dimension == 1 {
-        refuse(
-            at,
-            "found in a box of one dimension".to_owned(),
-            "a box of two or three: the flow varies across its direction",
-        );
-    }
-    let fixed = scene.particles.iter().position(is_fixed_in_space);
-    if let Some(group) = fixed {
-        let found = format!("found together with particles[{group}], which are fixed");
-        refuse(at, found, "particles that move: across a boundary that shears, the images of a fixed particle move");
-    }
-    if !scene.space.walls.is_empty() {
-        let named = scene.space.walls.of_axes()[shear.gradient as usize].is_some();
-        let found = if named { "found across an axis with walls" } else { "found together with `space.walls`" };
-        refuse(at, found.to_owned(), "either of them: walls that move also make a shear flow");
-    }
-    if let Some(index) =
-        scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::BodyForce(_)))
-    {
-        let found = format!("found together with a body force in interactions[{index}]");
-        refuse(at, found, "no body force: its work on what crosses a boundary is not booked");
-    }
-    check_output(&scene.output, &mut refuse);
+    check_frames(&scene.output, &mut refuse);
 }
 
 /// Rows at one boundary are not next to the other.
@@ -92,24 +69,8 @@ fn check_edge(scene: &Scene, gradient: Axis, refuse: &mut impl FnMut(&str, Strin
     }
 }
 
-/// What is written in a box whose boundaries move.
-fn check_output(output: &Output, refuse: &mut impl FnMut(&str, String, &str)) {
-    let paths = "follows paths of particles, whose copies move past each other";
-    let distances = "finds pairs further than the cutoff round a box at rest";
-    let analyses = [
-        ("diffusion", output.diffusion.is_some(), paths),
-        ("radial_distribution", output.radial_distribution.is_some(), distances),
-        ("chain_sizes", output.chain_sizes.is_some(), "adds up bonds round a box at rest"),
-        (
-            "viscosity",
-            output.viscosity.is_some(),
-            "is that of waves in a periodic box; `stress` has the viscosity of shear",
-        ),
-    ];
-    if output.stress.as_ref().is_some_and(|stress| stress.window.is_some()) {
-        let accepted = "no `window`: Green and Kubo's viscosity is that of a fluid at rest; in shear it is that of the mean stress";
-        refuse("output.stress.window", "found in a scene with shear".to_owned(), accepted);
-    }
+/// Velocities are relative to the flow already.
+fn check_frames(output: &Output, refuse: &mut impl FnMut(&str, String, &str)) {
     let histograms = output.histograms.iter().map(|asked| asked.frame).enumerate();
     let autocorrelations = output.autocorrelations.iter().map(|asked| asked.frame).enumerate();
     for (name, index, frame) in histograms
@@ -121,10 +82,6 @@ fn check_output(output: &Output, refuse: &mut impl FnMut(&str, String, &str)) {
             let accepted = "no `frame`: in shear velocities are relative to the linear profile of the flow";
             refuse(&path, "found `centre-of-mass` in a scene with shear".to_owned(), accepted);
         }
-    }
-    for (name, _, why) in analyses.into_iter().filter(|(_, asked, _)| *asked) {
-        let found = format!("found in a scene with shear, and this analysis {why}");
-        refuse(&format!("output.{name}"), found, "none in a scene with shear");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Checks of walls that a schema cannot express.
 
-use super::{acts, layers};
+use super::layers;
 use crate::document::{
     BodyForceInteraction, ForceProfile, Interaction, Placement, Problem, Problems, Reflection, Scene, WallPair,
 };
@@ -22,16 +22,6 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         refuse(problems, found, "walls with particles only: meshes and tessellations are periodic");
         return;
     }
-    let chains = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
-    if let Some(index) = scene.interactions.iter().position(chains) {
-        let found = format!("found together with harmonic chains in interactions[{index}]");
-        refuse(problems, found, "walls without harmonic chains, which have fixed ends of their own");
-    }
-    let ties = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_)) && acts(interaction);
-    if let Some(index) = scene.interactions.iter().position(ties) {
-        let found = format!("found together with tethers in interactions[{index}]");
-        refuse(problems, found, "walls without tethers, which would pull through them");
-    }
     let dimension = scene.space.lengths.len();
     for (axis, walls) in scene.space.walls.of_axes().into_iter().enumerate() {
         let Some(walls) = walls else { continue };
@@ -45,18 +35,6 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     }
     check_forces(scene, problems);
     check_places(scene, problems);
-    let analyses = [
-        (
-            "radial_distribution",
-            scene.output.radial_distribution.is_some(),
-            "takes the density to be the same everywhere",
-        ),
-        ("viscosity", scene.output.viscosity.is_some(), "is that of waves in a periodic box"),
-    ];
-    for (name, _, why) in analyses.into_iter().filter(|(_, asked, _)| *asked) {
-        let found = format!("found in a scene with walls, and this analysis {why}");
-        problems.push(Problem::new(format!("output.{name}"), found, "none in a scene with walls"));
-    }
 }
 
 /// Velocities have a component for each axis of the box, none across the wall, and none where nothing would feel them.

@@ -83,8 +83,17 @@ fn products(reference: &Reference, report: &Report) -> BathProducts {
 /// Counts of unordered pairs in `bins` equal bins of distance up to `range`.
 pub(super) fn radial_distribution(reference: &Reference, range: f64, bins: usize) -> Vec<u64> {
     let mut counts = vec![0; bins];
-    for pair in find_pairs(&Images::of_step(&reference.model, reference.state.step), &reference.state.positions, range)
-    {
+    let (model, state) = (&reference.model, &reference.state);
+    // Frozen particles are not counted, nor is anything through the space behind walls.
+    let frozen = |id: usize| model.species[state.species[id] as usize].frozen;
+    let through = |first: usize, second: usize| {
+        let apart = |axis: usize| state.positions[first][axis].abs_diff(state.positions[second][axis]);
+        model.particles().walls.iter().any(|walls| apart(walls.axis) >= 1 << 31)
+    };
+    for pair in find_pairs(&Images::of_step(model, state.step), &state.positions, range) {
+        if frozen(pair.first) || frozen(pair.second) || through(pair.first, pair.second) {
+            continue;
+        }
         // Rounding may carry a distance just under the range to the end of the last bin.
         let bin = (pair.distance / range * bins as f64) as usize;
         if let Some(count) = counts.get_mut(bin) {

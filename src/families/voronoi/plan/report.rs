@@ -50,6 +50,13 @@ impl Builder<'_> {
             return None;
         }
         self.plan.add_buffer(Array::Reported, 32 * self.particles);
-        Some(Reported { choices: plane(), particles: Array::Reported, momenta: None, forces: Array::ReportedForces })
+        let choices = plane();
+        Some(Reported {
+            choices,
+            constants: Vec::new(),
+            particles: Array::Reported,
+            momenta: None,
+            forces: Array::ReportedForces,
+        })
     }
 }

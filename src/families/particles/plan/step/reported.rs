@@ -9,15 +9,19 @@ impl Builder<'_> {
     /// The particles of a report.
     pub(super) fn reported(&self) -> Reported {
         let aside = self.order != Order::EveryStep;
+        let sheared = self.is_sheared();
         Reported {
             choices: self
                 .space()
                 // What is reported aside has no predicted momentum.
                 .with_if(aside, space::Particle::Plain)
                 .and(&self.species.choices())
-                .and(&shear::of_species(self.model, self.species.have_table())),
+                .and(&shear::of_species(self.model, self.species.have_table()))
+                .with_if(sheared, pairs::Apart::Sheared),
+            // The particles of a split step's report are half a drift later.
+            constants: if sheared && self.splits() { vec![shear::moment(1)] } else { Vec::new() },
             particles: if aside || self.options.part.is_some() { Array::Reported } else { Array::Particles },
-            // The particles of a split step's report are half a drift later, and have been kicked for it.
+            // And have been kicked for it.
             momenta: self.splits().then_some(Array::ReportedMomenta),
             forces: Array::ReportedForces,
         }

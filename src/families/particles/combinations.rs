@@ -1,0 +1,418 @@
+//! Features of scenes of particles that do not go together: one table, from which come the mistakes that `check` names,
+//! the reasons why ranks cannot share a scene, and the table of docs/combinations.md.
+//!
+//! Two features that no [`Refusal`] names go together, unless a check of one of them says otherwise for some of its
+//! values (tests/reference/combinations.rs runs all pairs against the reference).
+
+use std::fmt;
+
+use super::checks::acts;
+use crate::document::{
+    Bath, BodyForceInteraction, ForceProfile, Integrator, Interaction, Problem, Problems, ProfiledQuantity, Scene,
+};
+
+/// A feature of a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Feature {
+    /// Pairs whose bath has no memory.
+    Pairs,
+    /// Pairs whose bath has a memory.
+    PairsWithMemory,
+    /// A repulsion that depends on local densities.
+    ManyBody,
+    /// Friction and noise of single particles.
+    Langevin,
+    /// A bath with memory on every particle.
+    LangevinWithMemory,
+    /// A random force that is constant for random times.
+    ColouredNoise,
+    /// Bonds without friction.
+    Bonds,
+    /// Friction and noise along bonds.
+    FrictionOfBonds,
+    /// A bath with memory on every bond.
+    MemoryOfBonds,
+    /// Bonds whose ends do not repel each other.
+    Exclusion,
+    /// Angles between bonds.
+    Angles,
+    /// Springs to places in space.
+    Tethers,
+    /// A force from outside that is the same everywhere.
+    UniformForce,
+    /// A force from outside that varies in space.
+    VaryingForce,
+    /// Harmonic chains, which are a scene by themselves.
+    HarmonicChain,
+    /// Particles that are held where they start.
+    FixedParticles,
+    /// A box of one dimension.
+    Line,
+    /// Walls.
+    Walls,
+    /// Layers of frozen particles behind walls.
+    Layers,
+    /// Boundaries that shear.
+    Shear,
+    /// The integrator `splitting`.
+    Splitting,
+    /// The integrator `groot-warren`.
+    GrootWarren,
+    /// The integrator `cotter-reich`.
+    CotterReich,
+    /// A start from a file.
+    State,
+    /// A start from molecules.
+    Molecules,
+    /// The radial distribution function.
+    RadialDistribution,
+    /// Displacements and velocity correlations.
+    Diffusion,
+    /// Sizes of chains.
+    ChainSizes,
+    /// The viscosity from momentum waves.
+    Viscosity,
+    /// Autocorrelations of velocities and forces.
+    Autocorrelations,
+    /// Histograms of velocities and accelerations.
+    Histograms,
+    /// The pressure tensor.
+    Stress,
+    /// The correlation of the pressure tensor in a window, for the viscosity.
+    StressWindow,
+    /// Profiles along an axis.
+    Profiles,
+    /// Profiles of the stress.
+    StressProfiles,
+    /// A run that several ranks share.
+    Ranks,
+}
+
+use Feature::{
+    Angles, Autocorrelations, Bonds, ChainSizes, ColouredNoise, CotterReich, Diffusion, Exclusion, FixedParticles,
+    FrictionOfBonds, GrootWarren, HarmonicChain, Histograms, Langevin, LangevinWithMemory, Layers, Line, ManyBody,
+    MemoryOfBonds, Molecules, Pairs, PairsWithMemory, Profiles, RadialDistribution, Ranks, Shear, Splitting, State,
+    Stress, StressProfiles, StressWindow, Tethers, UniformForce, VaryingForce, Viscosity, Walls,
+};
+
+/// Why two features do not go together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// The two together have no meaning, or the result would not be what its name says.
+    Physics(&'static str),
+    /// The two together have a meaning, and the program cannot do it yet.
+    NotImplemented(&'static str),
+}
+
+impl Reason {
+    /// Whether the two have a meaning together that the program lacks.
+    #[must_use]
+    pub const fn is_missing(&self) -> bool {
+        matches!(self, Self::NotImplemented(_))
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Physics(why) => write!(formatter, "physics: {why}"),
+            Self::NotImplemented(why) => write!(formatter, "not implemented: {why}"),
+        }
+    }
+}
+
+/// A feature that does not go with some others.
+#[derive(Debug, Clone, Copy)]
+pub struct Refusal {
+    /// The feature, in whose place of a scene the mistake is found.
+    pub feature: Feature,
+    /// The others.
+    pub others: &'static [Feature],
+    /// The reason.
+    pub reason: Reason,
+}
+
+const fn physics(feature: Feature, others: &'static [Feature], why: &'static str) -> Refusal {
+    Refusal { feature, others, reason: Reason::Physics(why) }
+}
+
+const fn missing(feature: Feature, others: &'static [Feature], why: &'static str) -> Refusal {
+    Refusal { feature, others, reason: Reason::NotImplemented(why) }
+}
+
+/// All of them.
+pub const REFUSALS: &[Refusal] = &[
+    physics(
+        GrootWarren,
+        &[PairsWithMemory, LangevinWithMemory, MemoryOfBonds, HarmonicChain],
+        "a bath with memory is coupled to places, and `groot-warren` predicts the velocities of a friction; `cotter-reich` \
+         takes both",
+    ),
+    physics(Walls, &[Tethers], "a tether would pull through a wall"),
+    physics(Walls, &[HarmonicChain], "harmonic chains have fixed ends of their own"),
+    physics(Shear, &[Tethers], "images of the end of a tether move across a boundary that shears"),
+    physics(Shear, &[FixedParticles], "images of a fixed particle move across a boundary that shears"),
+    physics(Shear, &[Line], "a flow varies across its direction"),
+    physics(ManyBody, &[Exclusion], "bonded particles are part of the density around each other"),
+    physics(ManyBody, &[Layers], "local densities end behind the wall"),
+    physics(Stress, &[Line], "on a line there is `pressure` in energies.csv"),
+    physics(Stress, &[FixedParticles, Tethers, Layers], "what holds particles in place carries stress too"),
+    physics(StressProfiles, &[Line], "on a line there is `pressure` in energies.csv"),
+    physics(StressProfiles, &[FixedParticles, Tethers, Layers], "what holds particles in place carries stress too"),
+    physics(
+        StressWindow,
+        &[Shear],
+        "Green and Kubo's viscosity is that of a fluid at rest; in shear it is that of the mean stress",
+    ),
+    physics(StressWindow, &[ColouredNoise], "Green and Kubo's viscosity is that of a fluid in equilibrium"),
+    physics(Viscosity, &[Line], "there is no shear on a line"),
+    physics(
+        Viscosity,
+        &[Walls, Shear],
+        "its waves are those of a periodic box at rest; `stress` and `profiles` have the viscosity of a flow",
+    ),
+    physics(
+        Viscosity,
+        &[Langevin, LangevinWithMemory, ColouredNoise, Tethers, FixedParticles, VaryingForce],
+        "its waves decay by the exchange of momentum between particles, and these change their momentum themselves",
+    ),
+    missing(PairsWithMemory, &[ManyBody], "local densities are found in cells, and memory is kept in a list"),
+    missing(Line, &[ManyBody], "local densities are found in cells, and pairs on a line in a list"),
+    missing(Splitting, &[PairsWithMemory], "a split step that relaxes pairs with memory; `cotter-reich` takes them"),
+    missing(Splitting, &[Line, HarmonicChain], "a split step of pairs in a list; `cotter-reich` takes them"),
+    missing(Shear, &[Walls], "images of walls that boundaries carry along; walls that move make a shear flow too"),
+    missing(State, &[Layers], "particles of layers follow all others, and a file has no layers"),
+    missing(Molecules, &[Layers], "particles of layers follow all others, and are no beads"),
+    missing(RadialDistribution, &[Shear], "pairs further than the cutoff are found round a box at rest"),
+    missing(Diffusion, &[Shear], "displacements in a flow that carries copies past each other"),
+    missing(ChainSizes, &[Molecules], "sizes of molecules"),
+    missing(
+        Ranks,
+        &[PairsWithMemory, LangevinWithMemory, MemoryOfBonds, ColouredNoise, HarmonicChain],
+        "what a bath or a noise remembers does not change its rank with the particle",
+    ),
+    missing(Ranks, &[Line], "pairs in a list"),
+    missing(Ranks, &[Autocorrelations, Histograms, Stress, Profiles], "measured on one device"),
+];
+
+impl Feature {
+    /// All features.
+    pub const ALL: [Self; 36] = [
+        Pairs,
+        PairsWithMemory,
+        ManyBody,
+        Langevin,
+        LangevinWithMemory,
+        ColouredNoise,
+        Bonds,
+        FrictionOfBonds,
+        MemoryOfBonds,
+        Exclusion,
+        Angles,
+        Tethers,
+        UniformForce,
+        VaryingForce,
+        HarmonicChain,
+        FixedParticles,
+        Line,
+        Walls,
+        Layers,
+        Shear,
+        Splitting,
+        GrootWarren,
+        CotterReich,
+        State,
+        Molecules,
+        RadialDistribution,
+        Diffusion,
+        ChainSizes,
+        Viscosity,
+        Autocorrelations,
+        Histograms,
+        Stress,
+        StressWindow,
+        Profiles,
+        StressProfiles,
+        Ranks,
+    ];
+
+    /// Its name in messages and tables.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Pairs => "pairs without memory",
+            PairsWithMemory => "pairs with memory",
+            ManyBody => "a many-body repulsion",
+            Langevin => "Langevin friction",
+            LangevinWithMemory => "a bath with memory on every particle",
+            ColouredNoise => "coloured noise",
+            Bonds => "bonds",
+            FrictionOfBonds => "friction along bonds",
+            MemoryOfBonds => "a bath with memory on every bond",
+            Exclusion => "`exclude_repulsion`",
+            Angles => "angles",
+            Tethers => "tethers",
+            UniformForce => "a uniform body force",
+            VaryingForce => "a body force that varies",
+            HarmonicChain => "harmonic chains",
+            FixedParticles => "fixed particles",
+            Line => "a box of one dimension",
+            Walls => "walls",
+            Layers => "layers of frozen particles",
+            Shear => "shear",
+            Splitting => "`splitting`",
+            GrootWarren => "`groot-warren`",
+            CotterReich => "`cotter-reich`",
+            State => "`state`",
+            Molecules => "`molecules`",
+            RadialDistribution => "`radial_distribution`",
+            Diffusion => "`diffusion`",
+            ChainSizes => "`chain_sizes`",
+            Viscosity => "`viscosity`",
+            Autocorrelations => "`autocorrelations`",
+            Histograms => "`histograms`",
+            Stress => "`stress`",
+            StressWindow => "a `window` of `stress`",
+            Profiles => "`profiles`",
+            StressProfiles => "`profiles` of stress",
+            Ranks => "ranks",
+        }
+    }
+
+    /// The place in a scene that first has it, if any has; the number of ranks is no part of a scene.
+    #[must_use]
+    pub fn place(self, scene: &Scene) -> Option<String> {
+        let when = |there: bool, path: &str| there.then(|| path.to_owned());
+        let interaction = |key: &str, wanted: &dyn Fn(&Interaction) -> bool| {
+            let mut places = scene.interactions.iter().enumerate();
+            let (index, _) = places.find(|(_, interaction)| acts(interaction) && wanted(interaction))?;
+            Some(format!("interactions[{index}]{key}"))
+        };
+        let group = |key: &str, wanted: &dyn Fn(&crate::document::ParticleGroup) -> bool| {
+            scene.particles.iter().position(wanted).map(|index| format!("particles[{index}]{key}"))
+        };
+        let output = &scene.output;
+        match self {
+            Pairs => interaction("", &|found| matches!(found, Interaction::Dpd(dpd) if !dpd.remembers())),
+            PairsWithMemory => interaction("", &|found| matches!(found, Interaction::Dpd(dpd) if dpd.remembers())),
+            ManyBody => interaction(
+                ".many_body",
+                &|found| matches!(found, Interaction::Dpd(dpd) if dpd.acting_many_body().is_some()),
+            ),
+            Langevin => {
+                interaction("", &|found| matches!(found, Interaction::Langevin(bath) if !bath.bath.remembers()))
+            }
+            LangevinWithMemory => {
+                interaction("", &|found| matches!(found, Interaction::Langevin(bath) if bath.bath.remembers()))
+            }
+            ColouredNoise => interaction("", &|found| matches!(found, Interaction::ColouredNoise(_))),
+            Bonds => interaction("", &|found| matches!(found, Interaction::Bonds(bonds) if !bonds.has_bath())),
+            FrictionOfBonds => interaction(
+                "",
+                &|found| matches!(found, Interaction::Bonds(bonds) if bonds.has_bath() && matches!(bonds.bath, Bath::White { .. })),
+            ),
+            MemoryOfBonds => interaction(
+                "",
+                &|found| matches!(found, Interaction::Bonds(bonds) if bonds.has_bath() && bonds.bath.remembers()),
+            ),
+            Exclusion => interaction(
+                ".exclude_repulsion",
+                &|found| matches!(found, Interaction::Bonds(bonds) if bonds.exclude_repulsion),
+            ),
+            Angles => interaction("", &|found| matches!(found, Interaction::Angles(_))),
+            Tethers => interaction("", &|found| matches!(found, Interaction::Tether(_))),
+            UniformForce => interaction("", &|found| matches!(found, Interaction::BodyForce(force) if !varies(force))),
+            VaryingForce => interaction("", &|found| matches!(found, Interaction::BodyForce(force) if varies(force))),
+            HarmonicChain => interaction("", &|found| matches!(found, Interaction::HarmonicChain(_))),
+            FixedParticles => group(".fixed", &|group| group.fixed && !group.is_frozen()),
+            Line => when(scene.space.lengths.len() == 1, "space.box"),
+            Walls => when(!scene.space.walls.is_empty(), "space.walls"),
+            Layers => group(".placement", &|group| group.is_frozen()),
+            Shear => when(scene.space.shear.is_some(), "space.shear"),
+            Splitting => when(matches!(scene.integrator, Integrator::Splitting { .. }), "integrator.type"),
+            GrootWarren => when(matches!(scene.integrator, Integrator::GrootWarren { .. }), "integrator.type"),
+            CotterReich => when(matches!(scene.integrator, Integrator::CotterReich {}), "integrator.type"),
+            State => when(scene.state.is_some(), "state"),
+            Molecules => when(!scene.molecules.is_empty(), "molecules"),
+            RadialDistribution => when(output.radial_distribution.is_some(), "output.radial_distribution"),
+            Diffusion => when(output.diffusion.is_some(), "output.diffusion"),
+            ChainSizes => when(output.chain_sizes.is_some(), "output.chain_sizes"),
+            Viscosity => when(output.viscosity.is_some(), "output.viscosity"),
+            Autocorrelations => when(!output.autocorrelations.is_empty(), "output.autocorrelations"),
+            Histograms => when(!output.histograms.is_empty(), "output.histograms"),
+            Stress => when(output.stress.is_some(), "output.stress"),
+            StressWindow => {
+                let window = output.stress.as_ref().is_some_and(|stress| stress.window.is_some());
+                when(window, "output.stress.window")
+            }
+            Profiles => when(output.profiles.is_some(), "output.profiles"),
+            StressProfiles => {
+                let profiles = output.profiles.as_ref();
+                let stress = profiles.is_some_and(|asked| asked.quantities.contains(&ProfiledQuantity::Stress));
+                when(stress, "output.profiles.quantities")
+            }
+            Ranks => None,
+        }
+    }
+
+    /// The features that it is a part of.
+    #[must_use]
+    pub const fn requires(self) -> &'static [Self] {
+        match self {
+            Layers => &[Walls],
+            StressWindow => &[Stress],
+            StressProfiles => &[Profiles],
+            _ => &[],
+        }
+    }
+
+    /// The refusal of two features, in either order.
+    ///
+    /// ```
+    /// use mesoscope::families::combinations::Feature;
+    ///
+    /// assert!(Feature::Walls.refusal(Feature::PairsWithMemory).is_none());
+    /// let refusal = Feature::Tethers.refusal(Feature::Walls).expect("a tether may not lead through a wall");
+    /// assert!(!refusal.reason.is_missing());
+    /// ```
+    #[must_use]
+    pub fn refusal(self, other: Self) -> Option<&'static Refusal> {
+        let names = |refusal: &&Refusal, feature: Self, other: Self| {
+            refusal.feature == feature && refusal.others.contains(&other)
+        };
+        REFUSALS.iter().find(|refusal| names(refusal, self, other) || names(refusal, other, self))
+    }
+}
+
+/// A force that is not the same everywhere.
+fn varies(force: &BodyForceInteraction) -> bool {
+    force.profile != ForceProfile::Uniform
+}
+
+/// Adds a mistake for every two features of a scene that do not go together.
+pub(super) fn check(scene: &Scene, problems: &mut Problems) {
+    if !scene.interactions.iter().all(Interaction::is_of_particles) {
+        return;
+    }
+    for refusal in REFUSALS {
+        let Some(path) = refusal.feature.place(scene) else { continue };
+        for other in refusal.others {
+            let Some(place) = other.place(scene) else { continue };
+            let found = format!("found together with {} in {place}", other.name());
+            let accepted = format!("{} without {} ({})", refusal.feature.name(), other.name(), refusal.reason);
+            problems.push(Problem::new(&path, found, accepted));
+        }
+    }
+}
+
+/// The reasons why several ranks cannot share a scene.
+pub(super) fn unshared(scene: &Scene) -> Vec<String> {
+    let mut reasons = Vec::new();
+    for refusal in REFUSALS.iter().filter(|refusal| refusal.feature == Ranks) {
+        for other in refusal.others {
+            let Some(place) = other.place(scene) else { continue };
+            reasons.push(format!("{} in {place}: on one rank only ({})", other.name(), refusal.reason));
+        }
+    }
+    reasons
+}
