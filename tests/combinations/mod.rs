@@ -159,9 +159,11 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
         scene["space"]["shear"] = json!({"rate": 0.7, "gradient": "y"});
     }
     if has(Molecules) {
-        let beads =
-            json!({"beads": ["A", "A", "A"], "bonds": [[0, 1], [1, 2]], "angles": [[0, 1, 2]], "count": count / 3});
-        scene["molecules"] = json!([beads, {"beads": ["B"], "count": count}]);
+        // Beads at a distance of the cutoff, the default, would interact in one implementation and not in the other.
+        let molecule = json!({
+            "beads": ["A", "A", "A"], "bonds": [[0, 1], [1, 2]], "angles": [[0, 1, 2]], "count": count / 3, "spacing": 0.6,
+        });
+        scene["molecules"] = json!([molecule, {"beads": ["B"], "count": count}]);
     }
     for (feature, name) in [(Splitting, "splitting"), (GrootWarren, "groot-warren"), (CotterReich, "cotter-reich")] {
         if has(feature) {

@@ -42,6 +42,13 @@ const SAMPLERS: &[&str] = &[
     r#"output.stress={"every":2}"#,
 ];
 
+/// Analyses of the motion of particles.
+const OF_MOTION: [&str; 3] = [
+    r#"output.diffusion={"every":2,"window":4}"#,
+    r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":4,"frame":"centre-of-mass"}]"#,
+    r#"output.histograms=[{"quantity":"velocity","every":2,"frame":"box"},{"quantity":"speed","every":2}]"#,
+];
+
 fn plan_of(scene: &Scene, options: Options) -> Plan {
     run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, Hardware::default(), options)
 }
@@ -389,13 +396,9 @@ fn driven_plans() -> Vec<(String, Plan)> {
     plans
 }
 
-/// Pairs between walls of every kind, at rest and moving, with bonds and with a body force. Some analyses take no walls.
+/// Pairs between walls of every kind, at rest and moving, with bonds and with a body force.
 fn walled_plans() -> Vec<(String, Plan)> {
-    let samplers: Vec<&str> = SAMPLERS
-        .iter()
-        .filter(|sampler| !["radial", "viscosity"].iter().any(|refused| sampler.contains(refused)))
-        .copied()
-        .collect();
+    let samplers: Vec<&str> = SAMPLERS.iter().filter(|sampler| !sampler.contains("viscosity")).copied().collect();
     let particles = [
         r#"particles=[{"species":"A","count":200}]"#,
         r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
@@ -519,6 +522,8 @@ fn porous_plans() -> Vec<(String, Plan)> {
                 for others in ["", excluding, bathed, bonds].into_iter().filter(|others| splits || *others != bonds) {
                     let interactions = format!("interactions=[{pairs}{others}]");
                     let changes = [particles, &interactions, space, integrator, "time.steps=1000", profiles];
+                    let changes =
+                        if others.is_empty() { [&changes[..], &OF_MOTION].concat() } else { changes.to_vec() };
                     plans.extend(plans_in_turn(row + column + number, &changes));
                 }
             }
@@ -554,7 +559,9 @@ fn layered_plans() -> Vec<(String, Plan)> {
                 format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5{ranges}}}{others}]"#);
             for integrator in INTEGRATORS {
                 for traversal in [None, Some(Traversal::Rows)] {
-                    let changes = [&layer(axis), &interactions, space, integrator, "time.steps=100", &profiles];
+                    let changes = [&layer(axis), &interactions, space, integrator, "time.steps=1000", &profiles];
+                    let changes =
+                        if others.is_empty() { [&changes[..], &OF_MOTION].concat() } else { changes.to_vec() };
                     let options = Options { traversal, ..Options::default() };
                     plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
                 }
@@ -564,7 +571,7 @@ fn layered_plans() -> Vec<(String, Plan)> {
     plans
 }
 
-/// Pairs and chains in boxes whose boundaries shear. Most analyses take none.
+/// Pairs and chains in boxes whose boundaries shear. Some analyses take none.
 fn sheared_plans() -> Vec<(String, Plan)> {
     let particles = [
         r#"particles=[{"species":"A","count":200}]"#,
@@ -597,6 +604,22 @@ fn sheared_plans() -> Vec<(String, Plan)> {
                         plans.extend(plans_of(&name, &fluid(&changes), options));
                     }
                 }
+            }
+        }
+    }
+    let chain = r#"particles=[{"species":"A","count":200,"chain":{"beads":4}},{"species":"B","count":50,"mass":2.5}]"#;
+    let springs = r#"{"type":"bonds","potential":{"type":"harmonic","stiffness":9}}"#;
+    for (row, space) in spaces.into_iter().enumerate() {
+        let components = if space.contains("[9,7]") { "[1,2]" } else { "[1,2,-3]" };
+        for (column, profile) in
+            ["", r#","profile":"opposed","axis":"y""#, r#","profile":"sinusoidal","axis":"y""#].into_iter().enumerate()
+        {
+            let force = format!(r#"{{"type":"body-force","force":{components}{profile}}}"#);
+            let pairs = r#"{"type":"dpd","repulsion":25,"friction":4.5}"#;
+            let interactions = format!("interactions=[{pairs},{springs},{force}]");
+            for (number, integrator) in INTEGRATORS.iter().enumerate() {
+                let sizes = r#"output.chain_sizes={"every":2}"#;
+                plans.extend(plans_in_turn(row + column + number, &[chain, &interactions, space, integrator, sizes]));
             }
         }
     }
