@@ -67,7 +67,7 @@ impl Kernel {
 
     /// The same with constants of its own.
     pub(crate) fn with(self, constants: Vec<(Constant, f64)>) -> Self {
-        Self { constants: [self.constants, constants].concat(), ..self }
+        Self { constants, ..self }
     }
 
     /// The same with other buffers and textures in the place of variables.

@@ -62,8 +62,8 @@ pub(crate) struct PhysicsPlan {
 pub(crate) struct Reported {
     /// The vector space, the stored particle, and where its mass is found.
     pub choices: Choices,
-    /// Constants of kernels that see them.
-    pub constants: Vec<(Constant, f64)>,
+    /// Constants of kernels that find the way between two of them.
+    pub between: Vec<(Constant, f64)>,
     /// Their buffer.
     pub particles: Array,
     /// The buffer of their momenta, where velocities are not to be taken from the particles; there only for

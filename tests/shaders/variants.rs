@@ -33,7 +33,6 @@ const SAMPLERS: &[&str] = &[
     "time.steps=1000",
     r#"output.radial_distribution={"every":10,"range":1.1}"#,
     r#"output.diffusion={"every":2,"window":8}"#,
-    r#"output.viscosity={"every":2,"window":8}"#,
     r#"output.trajectory={"every":5}"#,
     r#"output.autocorrelations=[{"quantity":"velocity","every":2,"window":8},{"quantity":"force","every":2,"window":8}]"#,
     r#"output.histograms=[{"quantity":"velocity","every":2,"axis":"x"},{"quantity":"acceleration","every":2},
@@ -41,6 +40,9 @@ const SAMPLERS: &[&str] = &[
     r#"output.profiles={"axis":"x","every":2,"quantities":["density","velocity","temperature","stress"]}"#,
     r#"output.stress={"every":2}"#,
 ];
+
+/// Of particles that nothing but pairs and bonds acts on.
+const VISCOSITY: &str = r#"output.viscosity={"every":2,"window":8}"#;
 
 /// Analyses of the motion of particles.
 const OF_MOTION: [&str; 3] = [
@@ -123,7 +125,7 @@ fn fluid_plans() -> Vec<(String, Plan)> {
         vec!["interactions.0.friction=0"],
         vec!["interactions=[]"],
     ]);
-    choices.push(vec![vec![], SAMPLERS.to_vec()]);
+    choices.push(vec![vec![], [SAMPLERS, &[VISCOSITY]].concat()]);
     let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
     for choice in choices {
         combinations = combinations
@@ -168,7 +170,7 @@ fn range_plans() -> Vec<(String, Plan)> {
                 INTEGRATORS.iter().flat_map(|integrator| ["", bonds].map(|bonds| (integrator, bonds)))
             {
                 let force = format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5,{range}}}{bonds}]"#);
-                let scene = fluid(&[&[force.as_str(), particles, space, integrator], SAMPLERS].concat());
+                let scene = fluid(&[&[force.as_str(), particles, space, integrator, VISCOSITY], SAMPLERS].concat());
                 for traversal in [Traversal::Rows, Traversal::Clusters] {
                     let options = Options { traversal: Some(traversal), ..Options::default() };
                     let name = format!("{force} {particles} {space} {integrator} {traversal:?}");
@@ -205,11 +207,6 @@ fn many_body_plans() -> Vec<(String, Plan)> {
         r#"particles=[{"species":"A","count":200}]"#,
         r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
     ];
-    let walled: Vec<&str> = SAMPLERS
-        .iter()
-        .filter(|sampler| !["radial", "viscosity"].iter().any(|refused| sampler.contains(refused)))
-        .copied()
-        .collect();
     let mut plans = Vec::new();
     let forces = pairs.iter().flat_map(|pairs| particles.map(|particles| (pairs, particles)));
     for (number, (pairs, particles)) in forces.enumerate() {
@@ -225,9 +222,9 @@ fn many_body_plans() -> Vec<(String, Plan)> {
                 let mut changes = vec![particles, interactions.as_str(), space, integrator];
                 if walls {
                     changes.push(r#"space.walls={"y":{}}"#);
-                    changes.extend(&walled);
-                } else if number % 4 < 2 {
                     changes.extend(SAMPLERS);
+                } else if number % 4 < 2 {
+                    changes.extend([SAMPLERS, &[VISCOSITY]].concat());
                 }
                 plans.extend(plans_in_turn(turn, &changes));
             }
@@ -242,7 +239,7 @@ fn long_range_plans() -> Vec<(String, Plan)> {
     for space in ["space.box=[9,7]", "space.box=[9,7,8]"] {
         for integrator in INTEGRATORS {
             for listed in [false, true].into_iter().filter(|listed| !listed || !integrator.contains("splitting")) {
-                let scene = fluid(&[SAMPLERS, &[space, integrator]].concat());
+                let scene = fluid(&[SAMPLERS, &[VISCOSITY, space, integrator]].concat());
                 let options = Options { listed, pairs_in_dispatch: Some(999), ..Options::default() };
                 plans.extend(plans_of(&format!("{space} {integrator} in several dispatches"), &scene, options));
             }
@@ -398,7 +395,6 @@ fn driven_plans() -> Vec<(String, Plan)> {
 
 /// Pairs between walls of every kind, at rest and moving, with bonds and with a body force.
 fn walled_plans() -> Vec<(String, Plan)> {
-    let samplers: Vec<&str> = SAMPLERS.iter().filter(|sampler| !sampler.contains("viscosity")).copied().collect();
     let particles = [
         r#"particles=[{"species":"A","count":200}]"#,
         r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
@@ -421,7 +417,7 @@ fn walled_plans() -> Vec<(String, Plan)> {
                 let pairs = if first { r#"{"type":"dpd","repulsion":25,"friction":4.5}"# } else { "" };
                 let interactions = format!("interactions=[{pairs}{others}]");
                 for integrator in INTEGRATORS {
-                    let changes = [&[particles, interactions.as_str(), space, integrator], &samplers[..]].concat();
+                    let changes = [&[particles, interactions.as_str(), space, integrator], SAMPLERS].concat();
                     plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
                 }
             }
@@ -865,7 +861,7 @@ fn relaxed_plans() -> Vec<(String, Plan)> {
             ("space.box=[9,7,8]", rubbing),
         ] {
             // What is tied to places has no stress to measure.
-            let samplers = if more == tether { &SAMPLERS[..7] } else { SAMPLERS };
+            let samplers = if more == tether { &SAMPLERS[..6] } else { SAMPLERS };
             for (bath, noise) in baths {
                 let interactions = if more == rubbing {
                     format!(r#"interactions=[{{"type":"bonds","friction":1,{bath}}}{pair}]"#)

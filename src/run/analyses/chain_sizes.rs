@@ -34,8 +34,9 @@ impl Descriptor for ChainSizes {
         let groups = &planner.model.particles().chain_groups;
         let chains: u64 = groups.iter().map(|group| u64::from(group.chains)).sum();
         planner.plan.add_long_table(Array::ChainStarts, ChainTable(groups.clone()));
-        let constants =
-            vec![(Constant::Chains, chains as f64), (Constant::ChainLength, 1.0 / planner.plan.quanta.length_squared)];
+        let mut constants = planner.between();
+        constants.push((Constant::Chains, chains as f64));
+        constants.push((Constant::ChainLength, 1.0 / planner.plan.quanta.length_squared));
         planner.add_sums(&SumSampler {
             id: AnalysisId::ChainSizes,
             entry: Entry::MeasureChains,

@@ -92,8 +92,12 @@ impl<'a> Planner<'a> {
         let momenta = reported.momenta.map(|buffer| (Array::ReportedMomenta, buffer));
         let all = here.into_iter().chain(momenta).chain(renamed.iter().copied());
         let renamed = all.filter(|(variable, buffer)| variable != buffer).collect();
-        let kernel = Kernel::new(name, entry, reported.choices.clone().and(choices), groups);
-        Some(kernel.with(reported.constants.clone()).renamed(renamed))
+        Some(Kernel::new(name, entry, reported.choices.clone().and(choices), groups).renamed(renamed))
+    }
+
+    /// Constants of kernels that find the way between two particles.
+    pub(super) fn between(&self) -> Vec<(Constant, f64)> {
+        self.reported.map_or_else(Vec::new, |reported| reported.between.clone())
     }
 
     /// Adds a sampler whose kernel reads the particles by id and leaves its sums to `record_sample`. Of several ranks the first measures, and

@@ -53,7 +53,7 @@ impl Builder<'_> {
         let choices = plane();
         Some(Reported {
             choices,
-            constants: Vec::new(),
+            between: Vec::new(),
             particles: Array::Reported,
             momenta: None,
             forces: Array::ReportedForces,

@@ -19,7 +19,7 @@ impl Builder<'_> {
                 .and(&shear::of_species(self.model, self.species.have_table()))
                 .with_if(sheared, pairs::Apart::Sheared),
             // The particles of a split step's report are half a drift later.
-            constants: if sheared && self.splits() { vec![shear::moment(1)] } else { Vec::new() },
+            between: if sheared && self.splits() { vec![shear::moment(1)] } else { Vec::new() },
             particles: if aside || self.options.part.is_some() { Array::Reported } else { Array::Particles },
             // And have been kicked for it.
             momenta: self.splits().then_some(Array::ReportedMomenta),
