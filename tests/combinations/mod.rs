@@ -116,7 +116,9 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
 
     let mut groups = vec![json!({"species": "A"}), json!({"species": "B", "mass": 2})];
     if !has(Molecules) {
-        groups.iter_mut().for_each(|group| group["count"] = json!(count));
+        for group in &mut groups {
+            group["count"] = json!(count);
+        }
         if chained {
             groups[0]["chain"] = json!({"beads": 3, "spacing": 0.5});
         }

@@ -26,7 +26,7 @@ fn sampled(changes: &[&str]) -> Scene {
     let samplers = [
         r#"output.radial_distribution={"every":4,"range":2.0,"bins":40}"#,
         r#"output.diffusion={"every":2,"window":8}"#,
-        r#"output.viscosity={"every":5,"window":8}"#,
+        r#"output.histograms=[{"quantity":"velocity","every":5}]"#,
     ];
     let base = ["time.steps=1000", "time.step=0.02", "output.energies.every=3", COUPLED];
     fluid(&[&base[..], &samplers, changes].concat())
@@ -49,7 +49,7 @@ fn run(scene: &Scene, options: Options, batch: u64) -> Bytes {
 fn reruns_batches_scans_and_workgroup_sizes_give_the_same_bytes() {
     for scene in scenes() {
         let plain = bytes::same_in_every_way(&scene, STEPS);
-        // Energies at 0, 3, …, 39 and g(r), diffusion, viscosity at their own steps, the last included.
+        // Energies at 0, 3, …, 39 and g(r), diffusion, velocities at their own steps, the last included.
         let of = |sampler: usize| plain.samples.iter().filter(|sample| sample.sampler == sampler).count();
         assert_eq!([of(0), of(1), of(2), of(3)], [14, 11, 21, 9]);
     }

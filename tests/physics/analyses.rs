@@ -189,7 +189,7 @@ fn last_sample_and_reference(scene: &Scene, steps: u64) -> (Vec<i64>, Reference)
     let mut measured = engine(scene, &state, Options::default());
     measured.advance(steps, 4).unwrap();
     let samples = measured.finish().unwrap();
-    let found = samples.iter().filter(|sample| sample.sampler == 1).next_back().unwrap();
+    let found = samples.iter().rfind(|sample| sample.sampler == 1).unwrap();
     assert_eq!(found.step, steps);
     // A state is read before the step is reported.
     let mut silent = scene.clone();
