@@ -9,8 +9,8 @@ struct Tracker {
     momentum: vec4<i32>,
 }
 
-// Sums the squared displacements of the particles that can move, and the products of their velocities now and at the origin. One invocation a
-// particle, by id; reads `paths`, keeps `trackers`, writes rows of `partial_sums`.
+// Sums the squared displacements of the particles that can move, and the products of their velocities now and at the
+// origin. One invocation a particle, by id; reads `paths`, keeps `trackers`, writes rows of `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
 fn track_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);

@@ -29,7 +29,7 @@ pub struct Output {
     /// The radial distribution function g(r).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radial_distribution: Option<RadialDistribution>,
-    /// Mean squared displacement and velocity autocorrelation.
+    /// Mean squared displacement and velocity autocorrelation of the particles that can move.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diffusion: Option<Diffusion>,
     /// Sizes of chains: end-to-end distance and radius of gyration.
@@ -41,11 +41,11 @@ pub struct Output {
     /// Tables and plots of harmonic chains.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chain: Option<ChainOutput>,
-    /// Normalised autocorrelations of velocities and forces, each quantity at most once.
+    /// Normalised autocorrelations of velocities and forces of the particles that can move, each quantity at most once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 16))]
     pub autocorrelations: Vec<Autocorrelation>,
-    /// Histograms of velocities and accelerations, each quantity at most once.
+    /// Histograms of velocities and accelerations of the particles that can move, each quantity at most once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 16))]
     pub histograms: Vec<Histogram>,

@@ -1,5 +1,5 @@
-//! All pairs of features: two that go together run as the reference does and on two ranks with the bytes of one; two that
-//! do not are refused, with the reason of the table.
+//! All pairs of features: two that go together run as the reference does, and on two ranks with the bytes of one; two
+//! that do not are refused, with the reason of the table.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -110,7 +110,8 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
     if has(HarmonicChain) {
         let pulse = json!({"amplitude": 0, "width": 1});
         interactions.push(json!({
-            "type": "harmonic-chain", "chains": 1, "clusters": 4, "cluster_size": 4, "stiffness": 10, "spacing": 1, "pulse": pulse,
+            "type": "harmonic-chain", "chains": 1, "clusters": 4, "cluster_size": 4, "stiffness": 10, "spacing": 1,
+            "pulse": pulse,
         }));
     }
 
@@ -163,7 +164,8 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
     if has(Molecules) {
         // Beads at a distance of the cutoff, the default, would interact in one implementation and not in the other.
         let molecule = json!({
-            "beads": ["A", "A", "A"], "bonds": [[0, 1], [1, 2]], "angles": [[0, 1, 2]], "count": count / 3, "spacing": 0.6,
+            "beads": ["A", "A", "A"], "bonds": [[0, 1], [1, 2]], "angles": [[0, 1, 2]], "count": count / 3,
+            "spacing": 0.6,
         });
         scene["molecules"] = json!([molecule, {"beads": ["B"], "count": count}]);
     }
@@ -240,7 +242,8 @@ fn divided(scene: &Scene) -> Bytes {
 /// All pairs but alternatives, in a random order.
 fn pairs() -> Vec<[Feature; 2]> {
     let mut pairs = Vec::new();
-    let features: Vec<Feature> = Feature::ALL.into_iter().filter(|feature| ![Ranks, State].contains(feature)).collect();
+    let features: Vec<Feature> =
+        Feature::ALL.iter().copied().filter(|feature| ![Ranks, State].contains(feature)).collect();
     for (index, first) in features.iter().enumerate() {
         pairs.extend(features[..index].iter().map(|second| [*second, *first]).filter(|pair| !are_alternatives(*pair)));
     }
@@ -301,10 +304,10 @@ fn page() -> String {
     let mut text = "\
 # What goes together
 
-Everything that a scene of particles can have goes with everything else, but for the pairs in these two tables; `check` names the mistake and
-the reason. This page is made from the table of the program (`src/families/particles/combinations.rs`) by
-`MESOSCOPE_RECORD=1 cargo test --test library combinations`, and tests run all other pairs on the device, beside the float64 reference,
-and on two ranks.
+Everything that a scene of particles can have goes with everything else, but for the pairs in these two tables;
+`check` names the mistake and the reason. This page is made from the table of the program
+(`src/families/particles/combinations.rs`) by `MESOSCOPE_RECORD=1 cargo test --test library combinations`. Tests run
+all other pairs, but for starts from a file, beside the float64 reference and, where ranks can share them, on two ranks.
 
 "
     .to_owned();
@@ -323,7 +326,7 @@ and on two ranks.
     let heads: Vec<&str> = columns.iter().map(|column| column.name()).collect();
     writeln!(text, "## At a glance\n\n✓ goes together; ○ is not implemented; – has no meaning.\n").unwrap();
     writeln!(text, "| | {} |\n|---|{}", heads.join(" | "), ":-:|".repeat(columns.len())).unwrap();
-    for row in Feature::ALL.into_iter().filter(|row| !columns.contains(row) && *row != HarmonicChain) {
+    for row in Feature::ALL.iter().copied().filter(|row| !columns.contains(row) && *row != HarmonicChain) {
         write!(text, "| {} |", row.name()).unwrap();
         for column in columns {
             let features = with_needed([row, column]);

@@ -78,7 +78,7 @@ fn everything_that_hinders_is_told() {
     place.scene["interactions"].as_array_mut().unwrap().push(noise);
     place.scene["output"]["profiles"] = json!({"axis": "y", "bins": 3, "every": 2});
     let reasons = [
-        "a bath with memory on every bond in interactions[1]: on one rank only (not implemented: what a bath or a noise",
+        "a bath with memory on every bond in interactions[1]: on one rank only (not implemented: what a bath or",
         "coloured noise in interactions[3]: on one rank only",
         "`profiles` in output.profiles: on one rank only (not implemented: measured on one device)",
     ];

@@ -103,8 +103,8 @@ fn velocities_in_shear_are_relative_to_the_flow() {
     }
 }
 
-/// Particles that are held have no part in means over particles: of free flights beside fixed particles, and beside layers
-/// behind walls, the squared velocity is that of the start.
+/// Particles that are held have no part in means over particles: of free flights beside fixed particles, and beside
+/// layers behind walls, the squared velocity is that of the start.
 #[test]
 fn held_particles_have_no_part_in_means() {
     let fixed = r#"particles=[{"species":"A","count":150},{"species":"W","count":250,"fixed":true}]"#;
@@ -246,6 +246,22 @@ fn pairs_between_walls_are_counted_without_layers() {
         }
         assert!(counts[24] > 300, "{counts:?}");
     }
+}
+
+/// The surface tension across walls belongs to their distance, not to the period of positions, which is longer.
+#[test]
+fn surface_tension_belongs_to_the_distance_of_walls() {
+    let directory = tempfile::tempdir().unwrap();
+    let scene = fluid(&[
+        r#"space={"box":[5,5,6],"walls":{"z":{}}}"#,
+        "time.steps=40",
+        r#"output.stress={"every":2,"normal":"z"}"#,
+    ]);
+    let outcome = run(scene, directory.path());
+    let pressure = |component: &str| number(&outcome, &["stress", "pressure", component, "mean"]);
+    let expected = 0.5 * 6.0 * (pressure("zz") - 0.5 * (pressure("xx") + pressure("yy")));
+    let found = number(&outcome, &["stress", "surface_tension", "mean"]);
+    assert!((found / expected - 1.0).abs() < 1e-9, "{found}, expected {expected}");
 }
 
 /// Chains in a box whose boundaries shear are measured from copy to copy, where the boundaries have displaced them.

@@ -540,18 +540,18 @@ fn show(found: Measured) -> String {
 #[ignore = "minutes"]
 fn temperatures_of_the_processes() {
     println!("| process | T | expected |\n|-|-|-|");
-    for (process, time, expected, allowance, time_step, duration) in [
-        ("short", 0.039, 1.0, 0.01, 0.01, 2400.0),
-        ("short", 0.05, 1.27, 0.02, 0.01, 1500.0),
-        ("kangaroo", 0.05, 4.8, 0.3, 0.002, 1000.0),
-        ("kangaroo-exponential", 0.05, 8.6, 0.4, 0.002, 1000.0),
+    // The kangaroos keep a large force for long: the error of their temperature is that of few independent samples.
+    for (process, time, expected, allowance, largest_error, time_step, duration) in [
+        ("short", 0.039, 1.0, 0.01, 0.005, 0.01, 2400.0),
+        ("short", 0.05, 1.27, 0.02, 0.01, 0.01, 1500.0),
+        ("kangaroo", 0.05, 4.8, 0.3, 0.36, 0.002, 1000.0),
+        ("kangaroo-exponential", 0.05, 8.6, 0.4, 0.48, 0.002, 1000.0),
     ] {
         let process_change = format!("interactions.1.process={process}");
         let time_change = format!("interactions.1.time={time}");
         let found = temperature(200.0, duration, time_step, &[&process_change, &time_change]);
         println!("| {process}, {time} | {} | {expected} ± {allowance} |", show(found));
-        // The kangaroos keep a large force for long, and the error of their temperature is that of few independent samples.
-        found.assert(process, expected, allowance, 1.2 * allowance);
+        found.assert(process, expected, allowance, largest_error);
     }
 }
 

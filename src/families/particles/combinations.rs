@@ -8,92 +8,73 @@ use std::fmt;
 
 use super::checks::acts;
 use crate::document::{
-    Bath, BodyForceInteraction, ForceProfile, Integrator, Interaction, Problem, Problems, ProfiledQuantity, Scene,
+    BodyForceInteraction, ForceProfile, Integrator, Interaction, Problem, Problems, ProfiledQuantity, Scene,
 };
 
-/// A feature of a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Feature {
-    /// Pairs whose bath has no memory.
-    Pairs,
-    /// Pairs whose bath has a memory.
-    PairsWithMemory,
-    /// A repulsion that depends on local densities.
-    ManyBody,
-    /// Friction and noise of single particles.
-    Langevin,
-    /// A bath with memory on every particle.
-    LangevinWithMemory,
-    /// A random force that is constant for random times.
-    ColouredNoise,
-    /// Bonds without friction.
-    Bonds,
-    /// Friction and noise along bonds.
-    FrictionOfBonds,
-    /// A bath with memory on every bond.
-    MemoryOfBonds,
-    /// Bonds whose ends do not repel each other.
-    Exclusion,
-    /// Angles between bonds.
-    Angles,
-    /// Springs to places in space.
-    Tethers,
-    /// A force from outside that is the same everywhere.
-    UniformForce,
-    /// A force from outside that varies in space.
-    VaryingForce,
-    /// Harmonic chains, which are a scene by themselves.
-    HarmonicChain,
-    /// Particles that are held where they start.
-    FixedParticles,
-    /// A box of one dimension.
-    Line,
-    /// Walls.
-    Walls,
-    /// Layers of frozen particles behind walls.
-    Layers,
-    /// Boundaries that shear.
-    Shear,
-    /// The integrator `splitting`.
-    Splitting,
-    /// The integrator `groot-warren`.
-    GrootWarren,
-    /// The integrator `cotter-reich`.
-    CotterReich,
-    /// A start from a file.
-    State,
-    /// A start from molecules.
-    Molecules,
-    /// The radial distribution function.
-    RadialDistribution,
-    /// Displacements and velocity correlations.
-    Diffusion,
-    /// Sizes of chains.
-    ChainSizes,
-    /// The viscosity from momentum waves.
-    Viscosity,
-    /// Autocorrelations of velocities and forces.
-    Autocorrelations,
-    /// Histograms of velocities and accelerations.
-    Histograms,
-    /// The pressure tensor.
-    Stress,
-    /// The correlation of the pressure tensor in a window, for the viscosity.
-    StressWindow,
-    /// Profiles along an axis.
-    Profiles,
-    /// Profiles of the stress.
-    StressProfiles,
-    /// A run that several ranks share.
-    Ranks,
+/// The features with their names in messages and tables, and what each is.
+macro_rules! features {
+    ($($feature:ident $name:literal $meaning:literal)*) => {
+        /// A feature of a scene.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Feature {
+            $(#[doc = $meaning] $feature,)*
+        }
+
+        use Feature::{$($feature),*};
+
+        impl Feature {
+            /// All features.
+            pub const ALL: &'static [Self] = &[$($feature),*];
+
+            /// Its name in messages and tables.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $($feature => $name,)*
+                }
+            }
+        }
+    };
 }
 
-use Feature::{
-    Angles, Autocorrelations, Bonds, ChainSizes, ColouredNoise, CotterReich, Diffusion, Exclusion, FixedParticles,
-    FrictionOfBonds, GrootWarren, HarmonicChain, Histograms, Langevin, LangevinWithMemory, Layers, Line, ManyBody,
-    MemoryOfBonds, Molecules, Pairs, PairsWithMemory, Profiles, RadialDistribution, Ranks, Shear, Splitting, State,
-    Stress, StressProfiles, StressWindow, Tethers, UniformForce, VaryingForce, Viscosity, Walls,
-};
+features! {
+    Pairs "pairs without memory" "Pairs whose bath has no memory."
+    PairsWithMemory "pairs with memory" "Pairs whose bath has a memory."
+    ManyBody "a many-body repulsion" "A repulsion that depends on local densities."
+    Langevin "Langevin friction" "Friction and noise of single particles."
+    LangevinWithMemory "a bath with memory on every particle" "A bath with memory on every particle."
+    ColouredNoise "coloured noise" "A random force that is constant for random times."
+    Bonds "bonds" "Bonds without friction."
+    FrictionOfBonds "friction along bonds" "Friction and noise along bonds."
+    MemoryOfBonds "a bath with memory on every bond" "A bath with memory on every bond."
+    Exclusion "`exclude_repulsion`" "Bonds whose ends do not repel each other."
+    Angles "angles" "Angles between bonds."
+    Tethers "tethers" "Springs to places in space."
+    UniformForce "a uniform body force" "A force from outside that is the same everywhere."
+    VaryingForce "a body force that varies" "A force from outside that varies in space."
+    HarmonicChain "harmonic chains" "Harmonic chains, which are a scene by themselves."
+    FixedParticles "fixed particles" "Particles that are held where they start."
+    Line "a box of one dimension" "A box of one dimension."
+    Walls "walls" "Walls."
+    Layers "layers of frozen particles" "Layers of frozen particles behind walls."
+    Shear "shear" "Boundaries that shear."
+    Splitting "`splitting`" "The integrator `splitting`."
+    GrootWarren "`groot-warren`" "The integrator `groot-warren`."
+    CotterReich "`cotter-reich`" "The integrator `cotter-reich`."
+    State "`state`" "A start from a file."
+    Molecules "`molecules`" "A start from molecules."
+    RadialDistribution "`radial_distribution`" "The radial distribution function."
+    Diffusion "`diffusion`" "Displacements and velocity correlations."
+    ChainSizes "`chain_sizes`" "Sizes of chains."
+    Viscosity "`viscosity`" "The viscosity from momentum waves."
+    Autocorrelations "`autocorrelations`" "Autocorrelations of velocities and forces."
+    Histograms "`histograms`" "Histograms of velocities and accelerations."
+    Stress "`stress`" "The pressure tensor."
+    StressWindow "a `window` of `stress`" "The correlation of the pressure tensor in a window, for the viscosity."
+    Profiles "`profiles`" "Profiles along an axis."
+    StressProfiles "`profiles` of stress" "Profiles of the stress."
+    Ranks "ranks" "A run that several ranks share."
+}
 
 /// Why two features do not go together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -105,7 +86,7 @@ pub enum Reason {
 }
 
 impl Reason {
-    /// Whether the two have a meaning together that the program lacks.
+    /// True if the two have a meaning together, which the program lacks.
     #[must_use]
     pub const fn is_missing(&self) -> bool {
         matches!(self, Self::NotImplemented(_))
@@ -145,8 +126,8 @@ pub const REFUSALS: &[Refusal] = &[
     physics(
         GrootWarren,
         &[PairsWithMemory, LangevinWithMemory, MemoryOfBonds, HarmonicChain],
-        "a bath with memory is coupled to places, and `groot-warren` predicts the velocities of a friction; `cotter-reich` \
-         takes both",
+        "a bath with memory is coupled to places, and `groot-warren` predicts the velocities of a friction; \
+         `cotter-reich` takes both",
     ),
     physics(Walls, &[Tethers], "a tether would pull through a wall"),
     physics(Walls, &[HarmonicChain], "harmonic chains have fixed ends of their own"),
@@ -196,89 +177,6 @@ pub const REFUSALS: &[Refusal] = &[
 ];
 
 impl Feature {
-    /// All features.
-    pub const ALL: [Self; 36] = [
-        Pairs,
-        PairsWithMemory,
-        ManyBody,
-        Langevin,
-        LangevinWithMemory,
-        ColouredNoise,
-        Bonds,
-        FrictionOfBonds,
-        MemoryOfBonds,
-        Exclusion,
-        Angles,
-        Tethers,
-        UniformForce,
-        VaryingForce,
-        HarmonicChain,
-        FixedParticles,
-        Line,
-        Walls,
-        Layers,
-        Shear,
-        Splitting,
-        GrootWarren,
-        CotterReich,
-        State,
-        Molecules,
-        RadialDistribution,
-        Diffusion,
-        ChainSizes,
-        Viscosity,
-        Autocorrelations,
-        Histograms,
-        Stress,
-        StressWindow,
-        Profiles,
-        StressProfiles,
-        Ranks,
-    ];
-
-    /// Its name in messages and tables.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Pairs => "pairs without memory",
-            PairsWithMemory => "pairs with memory",
-            ManyBody => "a many-body repulsion",
-            Langevin => "Langevin friction",
-            LangevinWithMemory => "a bath with memory on every particle",
-            ColouredNoise => "coloured noise",
-            Bonds => "bonds",
-            FrictionOfBonds => "friction along bonds",
-            MemoryOfBonds => "a bath with memory on every bond",
-            Exclusion => "`exclude_repulsion`",
-            Angles => "angles",
-            Tethers => "tethers",
-            UniformForce => "a uniform body force",
-            VaryingForce => "a body force that varies",
-            HarmonicChain => "harmonic chains",
-            FixedParticles => "fixed particles",
-            Line => "a box of one dimension",
-            Walls => "walls",
-            Layers => "layers of frozen particles",
-            Shear => "shear",
-            Splitting => "`splitting`",
-            GrootWarren => "`groot-warren`",
-            CotterReich => "`cotter-reich`",
-            State => "`state`",
-            Molecules => "`molecules`",
-            RadialDistribution => "`radial_distribution`",
-            Diffusion => "`diffusion`",
-            ChainSizes => "`chain_sizes`",
-            Viscosity => "`viscosity`",
-            Autocorrelations => "`autocorrelations`",
-            Histograms => "`histograms`",
-            Stress => "`stress`",
-            StressWindow => "a `window` of `stress`",
-            Profiles => "`profiles`",
-            StressProfiles => "`profiles` of stress",
-            Ranks => "ranks",
-        }
-    }
-
     /// The place in a scene that first has it, if any has; the number of ranks is no part of a scene.
     #[must_use]
     pub fn place(self, scene: &Scene) -> Option<String> {
@@ -309,7 +207,7 @@ impl Feature {
             Bonds => interaction("", &|found| matches!(found, Interaction::Bonds(bonds) if !bonds.has_bath())),
             FrictionOfBonds => interaction(
                 "",
-                &|found| matches!(found, Interaction::Bonds(bonds) if bonds.has_bath() && matches!(bonds.bath, Bath::White { .. })),
+                &|found| matches!(found, Interaction::Bonds(bonds) if bonds.has_bath() && !bonds.bath.remembers()),
             ),
             MemoryOfBonds => interaction(
                 "",

@@ -64,8 +64,8 @@ pub(crate) fn warn_of_prediction(scene: &Scene, model: &Model) -> Option<Warning
     let cold = cold_by_prediction(&certain(scene, model, network.as_ref(), scene.time.step), model);
     (cold.abs() > TOLERANCE).then(|| {
         let message = format!(
-            "friction of particles or bonds sees predicted velocities, which makes their kinetic temperature {:.1} % too {}; \
-             `lambda` 0.5 or a smaller `time.step` does not",
+            "friction of particles or bonds sees predicted velocities, which makes their kinetic temperature {:.1} % \
+             too {}; `lambda` 0.5 or a smaller `time.step` does not",
             100.0 * cold.abs(),
             if cold > 0.0 { "low" } else { "high" }
         );

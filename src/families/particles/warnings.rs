@@ -294,8 +294,9 @@ fn warn_of_attraction(model: &Model, force: &PairForce, warnings: &mut Vec<Warni
 /// Temperatures in shear are about the linear profile, from which friction relative to the box takes the flow.
 fn warn_of_slowed_flow(langevin: &LangevinInteraction, path: &str, warnings: &mut Vec<Warning>) {
     if langevin.velocity == Some(FrictionVelocity::Laboratory) {
-        let message = "friction relative to the box slows the flow, while temperatures, stresses and velocities of analyses are \
-                       about the linear profile: they count what the flow lacks of it as heat, and `output.profiles` shows it";
+        let message = "friction relative to the box slows the flow, while temperatures, stresses and velocities of \
+                       analyses are about the linear profile: they count what the flow lacks of it as heat, and \
+                       `output.profiles` shows it";
         warn(warnings, format!("{path}.velocity"), message.to_owned());
     }
 }

@@ -139,9 +139,9 @@ impl Analysis for Pairs {
 /// The mean volume that particles spread evenly have within a radius around each other: of a ball, less what of it lies
 /// behind walls at these distances from each other.
 ///
-/// The part of the places whose copy displaced by `d` is still between the walls is the product of `1 − |dₐ|/Lₐ` over the
-/// axes across which there are walls; its mean over all directions needs those of `|x|`, `|x y|` and `|x y z|` on a sphere
-/// or a circle.
+/// The part of the places whose copy displaced by `d` is still between the walls is the product of `1 − |dₐ|/Lₐ` over
+/// the axes across which there are walls; its mean over all directions needs those of `|x|`, `|x y|` and `|x y z|` on a
+/// sphere or a circle.
 fn ball(radius: f64, dimension: usize, gaps: &[f64]) -> f64 {
     let inverse: Vec<f64> = gaps.iter().map(|gap| 1.0 / gap).collect();
     let singles: f64 = inverse.iter().sum();

@@ -141,7 +141,7 @@ impl Tensors {
             time_step: model.time_step,
             volume: model.units.volume(),
             temperature: model.temperature,
-            length: asked.normal.map_or(0.0, |axis| model.units.lengths[axis as usize]),
+            length: asked.normal.map_or(0.0, |axis| model.units.edges()[axis as usize]),
             is_driven: model.is_driven(),
             shear: sheared(model),
             units: [plan.quanta.energy, plan.stress_unit, plan.stress_unit],

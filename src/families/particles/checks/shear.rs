@@ -43,8 +43,8 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
             && force.axis == Some(shear.flow)
         {
             let found = format!("found \"{}\", along the flow of `space.shear`", shear.flow.name());
-            let accepted = "an axis across the flow: images of a place have the same force only if it is the same along \
-                            the flow";
+            let accepted = "an axis across the flow: images of a place have the same force only if it is the same \
+                            along the flow";
             refuse(&format!("interactions[{index}].axis"), found, accepted);
         }
     }
