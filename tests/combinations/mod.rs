@@ -11,6 +11,7 @@ use mesoscope::families::combinations::{
     REFUSALS, Reason,
 };
 use mesoscope::plan::{Division, Options};
+use mesoscope::run;
 use mesoscope::scene::{self, Scene};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
@@ -19,7 +20,7 @@ use serde_json::{Value, json};
 
 use crate::determinism::ranks::{fits, team};
 use crate::support::bytes::{self, Bytes, same};
-use crate::support::{SideBySide, start};
+use crate::support::{SideBySide, gpu, hardware, start};
 
 const STEPS: u64 = 4;
 
@@ -177,13 +178,22 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
     scene
 }
 
+/// What became of a pair.
+#[derive(Debug, PartialEq)]
+enum Outcome {
+    Compared,
+    Refused,
+    TooLarge,
+}
+
 /// Two features with those that they need.
 fn with_needed(pair: [Feature; 2]) -> BTreeSet<Feature> {
     pair.iter().flat_map(|feature| feature.requires().iter().copied().chain([*feature])).collect()
 }
 
-/// Runs two features together, or finds the mistake that names the reason why they do not go together.
-fn compare(pair: [Feature; 2]) {
+/// Runs two features together, unless the adapter has too few storage buffers for them, or finds the mistake that names
+/// the reason why they do not go together.
+fn compare(pair: [Feature; 2]) -> Outcome {
     let features = with_needed(pair);
     let text = scene_with(&features).to_string();
     let refusals: Vec<_> = features
@@ -198,7 +208,7 @@ fn compare(pair: [Feature; 2]) {
             for refusal in refusals {
                 assert!(error.contains(&format!("({})", refusal.reason)), "{pair:?}: {error}");
             }
-            return;
+            return Outcome::Refused;
         }
     };
     assert!(refusals.is_empty(), "{pair:?} is accepted, and the table says {refusals:?}");
@@ -206,6 +216,10 @@ fn compare(pair: [Feature; 2]) {
         assert!(feature.place(&scene).is_some(), "{feature:?} is not in the scene of {pair:?}");
     }
     let (model, state) = start(&scene);
+    let plan = run::plan(&model, 0, &scene.output, hardware(), Options::default());
+    if plan.storage_buffers > gpu().device().limits().max_storage_buffers_per_shader_stage {
+        return Outcome::TooLarge;
+    }
     let mut both = SideBySide::new(scene.clone(), model.clone(), &state, Options::default());
     both.steps(3, 200, &format!("{pair:?}"), |_, found, _| {
         if model.conserves_momentum() {
@@ -218,6 +232,7 @@ fn compare(pair: [Feature; 2]) {
         let alone = bytes::run(&scene, Options::default(), STEPS, STEPS);
         assert!(same(&alone, &divided(&scene)), "{pair:?} on two ranks");
     }
+    Outcome::Compared
 }
 
 /// What two ranks give, with bonds that are expected to be longer as long as some are too long.
@@ -255,14 +270,17 @@ fn pairs() -> Vec<[Feature; 2]> {
 const PARTS: usize = 12;
 
 fn compare_part(part: usize) {
-    let failed: Vec<String> = (pairs().into_iter().skip(part).step_by(PARTS))
-        .filter_map(|pair| {
-            let result = std::panic::catch_unwind(|| compare(pair)).err()?;
-            let message = result.downcast_ref::<String>().cloned();
-            Some(message.unwrap_or_else(|| format!("{pair:?}")))
-        })
-        .collect();
+    let mut failed = Vec::new();
+    let mut outcomes = Vec::new();
+    for pair in pairs().into_iter().skip(part).step_by(PARTS) {
+        match std::panic::catch_unwind(|| compare(pair)) {
+            Ok(outcome) => outcomes.push(outcome),
+            Err(panic) => failed.push(panic.downcast_ref::<String>().cloned().unwrap_or_else(|| format!("{pair:?}"))),
+        }
+    }
     assert!(failed.is_empty(), "{} pairs fail:\n{}", failed.len(), failed.join("\n"));
+    let number = |wanted: Outcome| outcomes.iter().filter(|outcome| **outcome == wanted).count();
+    assert!(number(Outcome::Compared) > 25 && number(Outcome::TooLarge) < 10, "{outcomes:?}");
 }
 
 macro_rules! parts {

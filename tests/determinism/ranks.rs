@@ -133,6 +133,27 @@ fn plan_of_part(scene: &Scene, parts: [u32; 3], options: Options) -> Plan {
     run::plan(&start(scene).0, 0, &scene.output, Hardware::default(), Options { part, ..options })
 }
 
+/// The first rank measures the particles of all, which are more than it has room for in its own part.
+#[test]
+fn all_particles_are_measured_by_the_first_of_many_ranks() {
+    let measured = r#"output={"energies":{"every":3},"diffusion":{"every":2,"window":3},"viscosity":{"every":3,"window":8},
+        "chain_sizes":{"every":5}}"#;
+    let chains = r#"particles=[{"species":"A","count":6000,"chain":{"beads":3,"spacing":0.5}}]"#;
+    let bonds = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+        {"type":"bonds","potential":{"type":"harmonic","stiffness":20,"length":0.5}}]"#;
+    let parts = [1, 1, 6];
+    for integrator in [SPLITTING, COTTER_REICH] {
+        let scene = scene(&[integrator, "space.box=[4,4,125]", chains, bonds, measured]);
+        let plan = plan_of_part(&scene, parts, Options::default());
+        assert!(plan.part.unwrap().slots < 5000);
+        let (_, state) = start(&scene);
+        let alone = bytes::run(&scene, Options::default(), 6, 6);
+        let mut team = team(&scene, Division { parts }, Options::default().with_longer_bonds(), &state);
+        team.advance(6, 6).unwrap();
+        assert!(same(&alone, &harvest(team, Vec::new())), "{integrator}");
+    }
+}
+
 /// Whether a rank goes on while particles are exchanged.
 fn overlaps(plan: &Plan) -> bool {
     let Some(part) = &plan.part else { return false };

@@ -40,17 +40,18 @@ impl Descriptor for Diffusion {
         let Some(asked) = &planner.output.diffusion else { return };
         let unit = planner.model.units.momentum;
         let measured = planner.measured();
+        let mut constants = planner.of_all_particles();
         let plan = &mut *planner.plan;
         plan.add_buffer(TRACKERS, 48 * measured);
         let of_all_ranks = plan.part.is_some();
         if of_all_ranks {
             plan.add_buffer(Array::GatheredPaths, PATH * measured);
         }
-        let constants = vec![
+        constants.extend([
             (Constant::Window, asked.window as f64),
             (Constant::Displacement, 1.0 / plan.quanta.length_squared),
             (Constant::Velocity, unit * unit / plan.quanta.velocity_squared),
-        ];
+        ]);
         planner.add_sums(&SumSampler {
             id: AnalysisId::Diffusion,
             entry: Entry::TrackParticles,

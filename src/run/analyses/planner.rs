@@ -95,6 +95,12 @@ impl<'a> Planner<'a> {
         Some(Kernel::new(name, entry, reported.choices.clone().and(choices), groups).renamed(renamed))
     }
 
+    /// Constants of a kernel that measures every particle: of several ranks the first gathers those of all, which are more
+    /// than have a place in its part.
+    pub(super) fn of_all_particles(&self) -> Vec<(Constant, f64)> {
+        self.plan.part.iter().map(|_| (Constant::Particles, self.plan.particles as f64)).collect()
+    }
+
     /// Constants of kernels that find the way between two particles.
     pub(super) fn between(&self) -> Vec<(Constant, f64)> {
         self.reported.map_or_else(Vec::new, |reported| reported.between.clone())

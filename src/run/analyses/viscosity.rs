@@ -40,7 +40,7 @@ impl Descriptor for Viscosity {
             id: AnalysisId::Viscosity,
             entry: Entry::SumTransverseModes,
             choices: Choices::new(),
-            constants: Vec::new(),
+            constants: planner.of_all_particles(),
             renamed: Vec::new(),
             before: Vec::new(),
             sums: Array::ModeSums,
