@@ -2,7 +2,7 @@
 //! the reasons why ranks cannot share a scene, and the table of docs/combinations.md.
 //!
 //! Two features that no [`Refusal`] names go together, unless a check of one of them says otherwise for some of its
-//! values (tests/reference/combinations.rs runs all pairs against the reference).
+//! values (tests/combinations runs all pairs against the reference).
 
 use std::fmt;
 
