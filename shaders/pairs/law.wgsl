@@ -15,8 +15,23 @@ struct Repulsion {
     energy: f32,    // in halves of the cutoff, as an impulse
     laplacian: f32, // of the energy by the position of one particle, as an impulse per length
 }
+//
+// Slot pairs/further_repulsions: repulsions that a pair has beside its first. The plan chooses `from_table` if there are several.
+fn with_further_impulses(c: Coefficients, w: f32, impulse: f32) -> f32 { return impulse; }
+fn with_further_repulsions(c: Coefficients, contact: Contact, first: Repulsion) -> Repulsion { return first; }
+
 fn repulsion_impulse(c: Coefficients, w: f32) -> f32 { return 0.0; }
 fn repulsion_of(c: Coefficients, contact: Contact) -> Repulsion { return Repulsion(0.0, 0.0, 0.0); }
+
+// A soft repulsion with an impulse at contact and a cutoff of its own.
+fn soft_repulsion(at_contact: f32, stretch: f32, contact: Contact) -> Repulsion {
+    let w = closeness_within(contact.w, stretch);
+    let impulse = at_contact * w;
+    let slope = w / max(contact.distance, 1e-6 * CUTOFF);
+    let laplacian = at_contact * (stretch / CUTOFF - f32(DIMENSION - 1u) * slope);
+    let acts = contact.distance > 0.0 && w > 0.0;
+    return Repulsion(impulse, impulse * w / stretch, select(0.0, laplacian, acts));
+}
 
 // Slot pairs/friction: the frictional impulse, `root` being the root of the weight. Variants velocity, discrete_gradient: the
 // plan follows the integrator. The variants relaxation and stages provide `relaxation_impulse` for split steps instead, from the

@@ -1,8 +1,8 @@
 //! The scene as a whole: box, clock, noise.
 
 use super::{
-    EarlierRun, FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, Origin, Output,
-    ParticleGroup, Shear, StateFile, StateVelocities, Walls,
+    DpdInteraction, EarlierRun, FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, Origin,
+    Output, ParticleGroup, Shear, StateFile, StateVelocities, Walls,
 };
 use crate::noise::seed_from_state;
 use schemars::JsonSchema;
@@ -95,6 +95,14 @@ fn amounts_or_a_file(schema: &mut schemars::Schema) {
 }
 
 impl Scene {
+    /// The `dpd` interactions, with their places in the list.
+    pub(crate) fn pair_interactions(&self) -> impl Iterator<Item = (usize, &DpdInteraction)> {
+        self.interactions.iter().enumerate().filter_map(|(index, interaction)| match interaction {
+            Interaction::Dpd(dpd) => Some((index, dpd)),
+            _ => None,
+        })
+    }
+
     /// What was read of the file that the particles start from, or what follows from molecules, if there are any.
     #[must_use]
     pub fn start(&self) -> Option<&Arc<FileStart>> {

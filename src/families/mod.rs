@@ -40,7 +40,8 @@ pub(crate) use particles::chains::mirrored;
 pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, MOST_RELAXATION, RelaxationErrors, TOLERANCE};
 pub use particles::model::{
     Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
-    HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SpringChain, Strand,
+    HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SoftRepulsion,
+    SpringChain, Strand,
 };
 pub(crate) use particles::surroundings;
 pub use particles::{Particles, combinations};

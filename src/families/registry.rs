@@ -57,7 +57,7 @@ pub(crate) fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, prob
             Interaction::ShallowWater(water) => {
                 shallow_water::checks::check(scene, water, &path, problems);
             }
-            Interaction::Dpd(dpd) => particles::checks::check_pairs(scene, species, dpd, &path, problems),
+            Interaction::Dpd(dpd) => particles::checks::pairs::check(scene, species, dpd, &path, problems),
             Interaction::Voronoi(voronoi) => voronoi::checks::check(scene, voronoi, &path, problems),
             Interaction::HarmonicChain(chain) => {
                 particles::checks::harmonic_chain::check(scene, chain, &path, problems);
@@ -66,7 +66,7 @@ pub(crate) fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, prob
         }
         particles::checks::check_interaction(scene, species, interaction, &path, problems);
     }
-    particles::checks::check_scene(scene, problems);
+    particles::checks::check_scene(scene, species, problems);
     if first_water.is_none() {
         shallow_water::checks::check_absence(scene, problems);
     }

@@ -51,7 +51,7 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
     let force = &first[..if line { 1 } else { 3 }];
 
     let mut interactions = Vec::new();
-    if any(&[Pairs, PairsWithMemory, ManyBody, Exclusion]) {
+    if any(&[Pairs, PairsWithMemory, SeveralPairForces, ManyBody, Exclusion]) {
         let mut pairs = json!({"type": "dpd", "repulsion": 25, "friction": 4.5});
         if has(PairsWithMemory) {
             pairs["bath"] = memory.clone();
@@ -60,6 +60,9 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
             pairs["many_body"] = json!({"repulsion": 10});
         }
         interactions.push(pairs);
+    }
+    if has(SeveralPairForces) {
+        interactions.push(json!({"type": "dpd", "repulsion": -6, "cutoff": 1.1}));
     }
     if has(Langevin) {
         interactions.push(json!({"type": "langevin", "friction": 1.5}));

@@ -150,7 +150,6 @@ fn interactions_without_anything_to_act_on() {
 #[test]
 fn interactions_that_are_there_twice() {
     for (interaction, words) in [
-        (r#"{"type":"dpd"}"#, "a second `dpd` interaction defines the same pairs of species again"),
         (r#"{"type":"langevin","friction":1}"#, "a second `langevin` interaction acts on the same particles again"),
         (
             r#"{"type":"coloured-noise","strength":1,"time":1}"#,

@@ -164,10 +164,22 @@ fn species_and_pairs() {
         &[r#"interactions.0.pairs=[{"between": ["water", "oil"]}, {"between": ["oil", "water"]}]"#],
         &["interactions[0].pairs[1]: pairs[0] defines `oil` with `water` already"],
     );
-    FLUID.refused_with(
-        &[r#"interactions=[{"type": "dpd"}, {"type": "dpd"}]"#],
-        &["interactions[1]: a second `dpd` interaction defines the same pairs"],
-    );
+    let twice = r#"interactions=[
+        {"type": "dpd", "friction": 1, "many_body": {"repulsion": 2}},
+        {"type": "dpd", "pairs": [{"between": ["oil", "water"], "friction": 2}], "many_body": {"repulsion": 3}},
+        {"type": "dpd", "friction": 1, "bath": {"type": "white", "temperature": 2}},
+        {"type": "dpd", "cutoff": 0.005, "repulsion": 1}]"#;
+    let mistakes = [
+        "interactions[3].cutoff: found 0.005 between species that have no cutoff of their own; accepted: at least 0.01",
+        "interactions[1].many_body: a second many-body repulsion, beside that of interactions[0]; accepted: one",
+        "interactions[1].friction: friction between `water` and `oil`, which they have in interactions[0] too; accepted: the",
+        "interactions[2].bath: another bath than that of interactions[0]; accepted: the `bath` of interactions[0]",
+    ];
+    let found = FLUID.problems(&[twice]);
+    assert_eq!(found.len(), mistakes.len(), "{found:#?}");
+    for (found, expected) in found.iter().zip(mistakes) {
+        assert!(found.starts_with(expected), "`{expected}` does not begin: {found}");
+    }
     FLUID.refused_with(
         &["particles.1.species=water", "particles.1.mass=2"],
         &["particles[1].mass: found 2; accepted: 1, the mass of species `water` in particles[0]"],

@@ -157,6 +157,7 @@ fn range_plans() -> Vec<(String, Plan)> {
         r#""pairs":[{"between":["A","B"],"cutoff":0.7}]"#,
         r#""pairs":[{"between":["A","B"],"weight_exponent":1}]"#,
         r#""pairs":[{"between":["A","B"],"cutoff":1.2,"weight_exponent":0.5}]"#,
+        r#""cutoff":0.8},{"type":"dpd","repulsion":-5,"pairs":[{"between":["A","B"],"cutoff":1.2}]"#,
     ];
     let particles = [
         r#"particles=[{"species":"A","count":200,"chain":{"beads":2}},{"species":"B","count":50}]"#,
@@ -186,7 +187,7 @@ fn range_plans() -> Vec<(String, Plan)> {
                 }
             }
             let memory = r#""bath":{"type":"memory","rate":3}"#;
-            let force = format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5,{range},{memory}}}]"#);
+            let force = format!(r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5,{memory},{range}}}]"#);
             let scene = fluid(&[force.as_str(), particles, space, INTEGRATORS[3]]);
             plans.extend(plans_of(&format!("{force} {particles} {space}"), &scene, Options::default()));
         }
@@ -201,6 +202,7 @@ fn many_body_plans() -> Vec<(String, Plan)> {
         r#"{"type":"dpd","repulsion":-40,"many_body":{"repulsion":25}}"#,
         r#"{"type":"dpd","friction":4.5,"weight_exponent":1,"many_body":{"repulsion":25}}"#,
         r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25},"pairs":[{"between":["A","A"],"cutoff":0.8}]}"#,
+        r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}},{"type":"dpd","repulsion":5,"cutoff":0.6}"#,
     ];
     let bonds = r#",{"type":"bonds","pairs":[[0,1]],"potential":{"type":"harmonic","stiffness":9}}"#;
     let particles = [
@@ -1499,20 +1501,19 @@ fn host_structs_lie_as_in_the_shaders() {
             if shader.bindings.iter().any(|binding| binding.array == Array::Coefficients) {
                 tables += 1;
                 // Baths on particles add a row for the species by themselves, which couplings always have.
-                // Pairs with ranges of their own have one row more each, after a row for each species.
-                let ranges = plan.kernels.iter().any(|kernel| kernel.choices.has(Coefficients::Ranges));
-                let rows = if ranges {
-                    2 + 1 + 2
-                } else if plan.kernels.iter().any(has_rows_of_species) {
-                    3
-                } else {
-                    2
+                // Pairs with ranges of their own have one row more each, after a row for each species, and for every further repulsion one.
+                let constant = |wanted| {
+                    let found = plan.constants.iter().find(|(constant, _)| *constant == wanted);
+                    found.map_or(1, |(_, value)| *value as u64)
                 };
-                let pairs = 2 * rows;
+                let species = constant(Constant::Species);
+                let ranges = plan.kernels.iter().any(|kernel| kernel.choices.has(Coefficients::Ranges));
+                let of_species = ranges || plan.kernels.iter().any(has_rows_of_species);
+                let rows = species * species * if ranges { 1 + constant(Constant::Repulsions) } else { 1 };
                 // Body forces have one an axis and a species, shear one a species.
                 let sheared = plan.kernels.iter().any(|kernel| kernel.choices.has(Jump::BySpecies));
-                let entries =
-                    pairs + if plan.has_buffer(Array::Account) { 2 * 3 } else { 0 } + if sheared { 2 } else { 0 };
+                let driven = if plan.has_buffer(Array::Account) { 3 * species } else { 0 };
+                let entries = rows + if of_species { species } else { 0 } + driven + if sheared { species } else { 0 };
                 match texels(Array::Coefficients) {
                     None => assert_eq!(bytes(Array::Coefficients), Some(16 * entries)),
                     Some((words, held)) => assert!(words == 4 && held >= entries, "{scene}"),

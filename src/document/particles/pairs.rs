@@ -4,7 +4,7 @@ use crate::document::Bath;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Parameters of a DPD interaction.
+/// Parameters of a DPD interaction. Repulsions of several add up; a pair of species has the friction of one of them.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DpdInteraction {
@@ -44,11 +44,20 @@ pub struct DpdInteraction {
 }
 
 impl DpdInteraction {
+    /// The frictions of pairs of species.
+    fn frictions(&self) -> impl Iterator<Item = f64> {
+        self.pairs.iter().filter_map(|pair| pair.friction).chain([self.friction])
+    }
+
+    /// Whether any pair has a bath.
+    pub(crate) fn has_bath(&self) -> bool {
+        self.frictions().any(|friction| self.bath.acts(friction))
+    }
+
     /// Whether the bath of any pair has a memory.
     pub(crate) fn remembers(&self) -> bool {
-        let own = self.pairs.iter().filter_map(|pair| pair.friction);
         matches!(self.bath, Bath::Memory { .. })
-            && own.chain([self.friction]).any(|friction| friction != 0.0 || self.bath.acts(friction))
+            && self.frictions().any(|friction| friction != 0.0 || self.bath.acts(friction))
     }
 }
 

@@ -40,6 +40,7 @@ macro_rules! features {
 features! {
     Pairs "pairs without memory" "Pairs whose bath has no memory."
     PairsWithMemory "pairs with memory" "Pairs whose bath has a memory."
+    SeveralPairForces "several `dpd`" "Pair forces that add up."
     ManyBody "a many-body repulsion" "A repulsion that depends on local densities."
     Langevin "Langevin friction" "Friction and noise of single particles."
     LangevinWithMemory "a bath with memory on every particle" "A bath with memory on every particle."
@@ -193,6 +194,7 @@ impl Feature {
         match self {
             Pairs => interaction("", &|found| matches!(found, Interaction::Dpd(dpd) if !dpd.remembers())),
             PairsWithMemory => interaction("", &|found| matches!(found, Interaction::Dpd(dpd) if dpd.remembers())),
+            SeveralPairForces => scene.pair_interactions().nth(1).map(|(index, _)| format!("interactions[{index}]")),
             ManyBody => interaction(
                 ".many_body",
                 &|found| matches!(found, Interaction::Dpd(dpd) if dpd.acting_many_body().is_some()),

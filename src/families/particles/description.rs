@@ -19,7 +19,7 @@ pub(super) fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)>
     let text = format!(
         "within {} of each other ({}cutoff {}, margin {}), capacity for {} {noun} a particle owns; {each}",
         six_digits(force.cutoff + force.skin),
-        if force.cutoffs_differ() { "largest " } else { "" },
+        if force.smallest_cutoff() < force.cutoff { "largest " } else { "" },
         six_digits(force.cutoff),
         six_digits(force.skin),
         list.capacity

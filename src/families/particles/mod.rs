@@ -28,7 +28,8 @@ use super::{
     Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, units,
 };
 use crate::document::{
-    BondPotential, FileStart, Integrator, Interaction, PairRelaxation, Problems, Scene, Surroundings, Warning,
+    BondPotential, DpdInteraction, FileStart, Integrator, Interaction, PairRelaxation, Problems, Scene, Surroundings,
+    Warning,
 };
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
 use crate::shaders::Sum;
@@ -144,15 +145,13 @@ impl Particles {
 
     /// What acts on the particles of a scene; harmonic chains add their species.
     pub(super) fn new(scene: &Scene, species: &mut Vec<Species>) -> Self {
-        let (mut pair_force, mut position_bath, mut coloured_noise, mut tether) = (None, None, None, None);
+        let (mut position_bath, mut coloured_noise, mut tether) = (None, None, None);
         let (mut bonds, mut angles) = (Bonds::default(), Angles::default());
         let (mut body_forces, mut chains) = (None, None);
         let shear = ShearedBox::of(scene);
+        let mut pair_force = pair_force(scene, species, scene.space.lengths.len());
         for interaction in scene.interactions.iter().filter(|interaction| checks::acts(interaction)) {
             match interaction {
-                Interaction::Dpd(dpd) => {
-                    pair_force = Some(PairForce::new(dpd, species, scene.temperature, scene.space.lengths.len()));
-                }
                 Interaction::Langevin(langevin) => {
                     position_bath =
                         Some(PositionBath::new(langevin, species, scene.temperature, scene.time.step, shear.is_some()));
@@ -170,7 +169,7 @@ impl Particles {
                     trios.add_bonds(&mut bonds, scene.time.step);
                     chains = Some(trios);
                 }
-                // Of other families.
+                // Pairs are of all `dpd` interactions together; others are of other families.
                 _ => {}
             }
         }
@@ -459,11 +458,7 @@ impl Physics for Particles {
 pub(crate) fn surroundings(scene: &Scene, start: &FileStart, lengths: &[f64]) -> Option<Surroundings> {
     let places = start.places.as_ref()?;
     let species = Species::of(scene);
-    let mut interactions = scene.interactions.iter().filter(|interaction| checks::acts(interaction));
-    let force = interactions.find_map(|interaction| match interaction {
-        Interaction::Dpd(dpd) => Some(PairForce::new(dpd, &species, scene.temperature, lengths.len())),
-        _ => None,
-    });
+    let force = pair_force(scene, &species, lengths.len());
     let crowd = surroundings::Crowd {
         places: &places.positions,
         species: &start.species,
@@ -471,6 +466,12 @@ pub(crate) fn surroundings(scene: &Scene, start: &FileStart, lengths: &[f64]) ->
         even: vec![0.0; species.len()],
     };
     force.map(|force| crowd.surroundings(force.cutoff))
+}
+
+/// The force between pairs, which all `dpd` interactions of a scene make together; none without one.
+fn pair_force(scene: &Scene, species: &[Species], dimension: usize) -> Option<PairForce> {
+    let interactions: Vec<&DpdInteraction> = scene.pair_interactions().map(|(_, dpd)| dpd).collect();
+    PairForce::new(&interactions, species, scene.temperature, dimension)
 }
 
 /// The index of a species by its name.

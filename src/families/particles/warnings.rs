@@ -117,8 +117,7 @@ fn warn_of_layers(scene: &Scene, force: &PairForce, warnings: &mut Vec<Warning>)
 
 /// Particles in one place have no direction to push each other in.
 fn warn_of_places(scene: &Scene, warnings: &mut Vec<Warning>) {
-    let pairs = |interaction: &Interaction| matches!(interaction, Interaction::Dpd(_));
-    if !scene.interactions.iter().any(pairs) {
+    if scene.pair_interactions().next().is_none() {
         return;
     }
     let lists = scene.particles.iter().enumerate().filter_map(|(index, group)| match &group.placement {

@@ -44,14 +44,12 @@ fn acceleration_scale(model: &Model) -> f64 {
         let sum = |coefficient: &dyn Fn(usize) -> f64| -> f64 {
             model.densities(a).map(|(b, density)| coefficient(b) * density).sum()
         };
-        // In units of what particles of the species have among themselves.
         let axes = model.units.dimension;
-        let (sphere, weight, cutoff) =
-            (force.sphere(a, a, axes), force.weight_volume(a, a, axes), force.cutoff_between(a, a));
-        let of_repulsion =
-            |b: usize| force.repulsion(a, b).abs() * (force.cutoff_between(a, b) / cutoff).powi(axes as i32 - 1);
+        let of_repulsion = |b: usize| force.stiffness(a, b, axes);
         let many_body = model.many_body_stiffness(force).map_or(0.0, |[stiffness, _]| stiffness);
-        let frequency = (sum(&of_repulsion) * sphere / (dimension * cutoff) + many_body) / species.mass;
+        let frequency = (sum(&of_repulsion) / dimension + many_body) / species.mass;
+        // In units of the weight that particles of the species have among themselves.
+        let weight = force.weight_volume(a, a, axes);
         let of_friction = |b: usize| force.friction(a, b) * (force.weight_volume(a, b, axes) / weight);
         let rate = sum(&of_friction) * weight / (dimension * species.mass);
         model.temperature / species.mass * (frequency + (2.0 * rate / step).min(4.0 / (step * step)))

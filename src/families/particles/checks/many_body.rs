@@ -1,9 +1,16 @@
 //! Checks of the many-body repulsion that a schema cannot express.
 
-use crate::document::{DpdInteraction, Problem, Problems};
+use super::pairs::{MOST_DIFFERENT, largest_cutoff};
+use crate::document::{DpdInteraction, Problem, Problems, Scene, SpeciesNames};
 
 /// Checks the many-body repulsion of an interaction by itself.
-pub(super) fn check(dpd: &DpdInteraction, species: usize, path: &str, problems: &mut Problems) {
+pub(super) fn check(
+    scene: &Scene,
+    species: &SpeciesNames<'_>,
+    dpd: &DpdInteraction,
+    path: &str,
+    problems: &mut Problems,
+) {
     for (index, pair) in dpd.pairs.iter().enumerate().filter(|(_, pair)| pair.many_body.is_some()) {
         if pair.many_body != dpd.many_body {
             let accepted = format!(
@@ -15,16 +22,14 @@ pub(super) fn check(dpd: &DpdInteraction, species: usize, path: &str, problems: 
         }
     }
     // Without species there is no pair whose cutoff it could be compared with.
-    let Some(many_body) = dpd.acting_many_body().filter(|_| species > 0) else { return };
-    let own = dpd.pairs.iter().filter_map(|pair| pair.cutoff);
-    let largest = own.chain(dpd.common_cutoff(species)).fold(0.0, f64::max);
+    let Some(many_body) = dpd.acting_many_body().filter(|_| species.count() > 0) else { return };
+    let largest = largest_cutoff(scene, species);
     if many_body.cutoff > largest {
-        let accepted =
-            format!("at most {largest}, the largest cutoff of the interaction: pairs are looked for within it");
+        let accepted = format!("at most {largest}, the largest cutoff of pairs, which are looked for within it");
         let found = format!("found {}", many_body.cutoff);
         problems.push(Problem::new(format!("{path}.many_body.cutoff"), found, accepted));
-    } else if many_body.cutoff < largest / super::MOST_DIFFERENT {
-        let accepted = format!("at least {}, a hundredth of the largest cutoff", largest / super::MOST_DIFFERENT);
+    } else if many_body.cutoff < largest / MOST_DIFFERENT {
+        let accepted = format!("at least {}, a hundredth of the largest cutoff", largest / MOST_DIFFERENT);
         let found = format!("found {}", many_body.cutoff);
         problems.push(Problem::new(format!("{path}.many_body.cutoff"), found, accepted));
     }

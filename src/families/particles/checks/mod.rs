@@ -5,14 +5,15 @@ pub(crate) mod coloured_noise;
 pub(crate) mod harmonic_chain;
 mod layers;
 mod many_body;
+pub(crate) mod pairs;
 pub(super) mod shear;
 pub(super) mod walls;
 
 use std::collections::{HashMap, HashSet};
 
 use crate::document::{
-    AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, DpdInteraction, Integrator, Interaction,
-    LangevinInteraction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames, Stress,
+    AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, Integrator, Interaction, LangevinInteraction,
+    ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames, Stress,
 };
 use crate::families::particles::combinations::{self, Feature};
 use crate::families::{Bonds, Particles};
@@ -49,8 +50,9 @@ pub(crate) fn check_interaction(
 }
 
 /// Checks what interactions and particles have to have in common.
-pub(crate) fn check_scene(scene: &Scene, problems: &mut Problems) {
+pub(crate) fn check_scene(scene: &Scene, names: &SpeciesNames<'_>, problems: &mut Problems) {
     combinations::check(scene, problems);
+    pairs::check_together(scene, names, problems);
     check_numbers(scene, problems);
     body_force::check_together(scene, problems);
     walls::check(scene, problems);
@@ -96,7 +98,7 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
 /// line; where particles without pairs have baths or tethers, for a step without a split costs a third there; and where
 /// particles are fixed, so that scenes keep the step that was the only one for them.
 pub(crate) fn defaults_to_cotter_reich(scene: &Scene) -> bool {
-    let paired = scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Dpd(_)));
+    let paired = scene.pair_interactions().next().is_some();
     let unsplit = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => dpd.remembers(),
         Interaction::Bonds(bonds) => bonds.has_bath() && (bonds.bath.remembers() || !paired),
@@ -135,11 +137,6 @@ pub(super) fn acts(interaction: &Interaction) -> bool {
 /// Everything that acts on single particles is there at most once.
 fn check_numbers(scene: &Scene, problems: &mut Problems) {
     let single = |interaction: &Interaction| match interaction {
-        Interaction::Dpd(_) => Some((
-            "dpd",
-            "defines the same pairs of species again",
-            "one `dpd` interaction; give pairs of species their own coefficients in its `pairs`",
-        )),
         Interaction::Langevin(_) => Some((
             "langevin",
             "acts on the same particles again",
@@ -497,61 +494,4 @@ fn check_presence(
     };
     let accepted = format!("`{key}` of particle ids, or particles with a `chain` of at least {length} `beads`");
     problems.push(Problem::new(path, found, accepted));
-}
-
-/// The largest cutoff over the smallest that a pair of species may have.
-const MOST_DIFFERENT: f64 = 100.0;
-
-pub(crate) fn check_pairs(
-    scene: &Scene,
-    species: &SpeciesNames<'_>,
-    dpd: &DpdInteraction,
-    path: &str,
-    problems: &mut Problems,
-) {
-    check_cutoffs(scene, species, dpd, path, problems);
-    many_body::check(dpd, species.count(), path, problems);
-    let mut defined: HashMap<[&str; 2], usize> = HashMap::new();
-    for (index, pair) in dpd.pairs.iter().enumerate() {
-        let path = format!("{path}.pairs[{index}]");
-        for (end, name) in pair.between.iter().enumerate() {
-            species.check(name, &format!("{path}.between[{end}]"), problems);
-        }
-        let key = pair.key();
-        if let Some(earlier) = defined.insert(key, index) {
-            let found = format!("pairs[{earlier}] defines `{}` with `{}` already", key[0], key[1]);
-            problems.push(Problem::new(path, found, "every pair of species once, in either order"));
-        }
-    }
-}
-
-/// Cutoffs that pairs of species have of their own.
-fn check_cutoffs(scene: &Scene, species: &SpeciesNames<'_>, dpd: &DpdInteraction, path: &str, problems: &mut Problems) {
-    let common = dpd.common_cutoff(species.count());
-    let largest = dpd.pairs.iter().filter_map(|pair| pair.cutoff).fold(common.unwrap_or(0.0), f64::max);
-    let least = largest / MOST_DIFFERENT;
-    let half = half_box(scene);
-    for (index, pair) in dpd.pairs.iter().enumerate() {
-        let Some(cutoff) = pair.cutoff else { continue };
-        let path = format!("{path}.pairs[{index}].cutoff");
-        let [first, second] = pair.key();
-        let found = format!("found {cutoff} between `{first}` and `{second}`");
-        if cutoff > half {
-            let accepted = format!(
-                "at most {half}, half the shortest box edge: beyond it a particle would meet two images of a neighbour"
-            );
-            problems.push(Problem::new(path, found, accepted));
-        } else if cutoff < least {
-            let accepted = format!(
-                "at least {least}, a hundredth of the largest cutoff, {largest}: cells are as wide as that, and distances are \
-                 resolved to a small part of it"
-            );
-            problems.push(Problem::new(path, found, accepted));
-        }
-    }
-    if let Some(cutoff) = common.filter(|cutoff| *cutoff < least) {
-        let found = format!("found {cutoff} between species that have no cutoff of their own");
-        let accepted = format!("at least {least}, a hundredth of the largest cutoff, {largest}, in `pairs`");
-        problems.push(Problem::new(format!("{path}.cutoff"), found, accepted));
-    }
 }

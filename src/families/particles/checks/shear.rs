@@ -54,11 +54,7 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
 /// Rows at one boundary are not next to the other.
 fn check_edge(scene: &Scene, gradient: Axis, refuse: &mut impl FnMut(&str, String, &str)) {
     let cutoffs = |dpd: &DpdInteraction| dpd.pairs.iter().filter_map(|pair| pair.cutoff).fold(dpd.cutoff, f64::max);
-    let largest = scene.interactions.iter().filter_map(|interaction| match interaction {
-        Interaction::Dpd(dpd) => Some(cutoffs(dpd)),
-        _ => None,
-    });
-    let cutoff = largest.fold(0.0, f64::max);
+    let cutoff = scene.pair_interactions().map(|(_, dpd)| cutoffs(dpd)).fold(0.0, f64::max);
     let edge = scene.space.lengths[gradient as usize];
     if edge < 3.0 * cutoff {
         let accepted = format!(

@@ -5,7 +5,7 @@ use crate::document::{Bath, DpdInteraction};
 use crate::families::{BathStep, Model, Species};
 use std::f64::consts::PI;
 
-/// Soft repulsion, friction and noise between all pairs of species.
+/// The soft repulsions, friction and noise between all pairs of species.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairForce {
     /// The largest range of any pair of species that has a force.
@@ -19,97 +19,143 @@ pub struct PairForce {
     /// The repulsion between all pairs that depends on the local density, if there is one.
     pub many_body: Option<ManyBodyForce>,
     species: usize,
-    repulsion: Vec<f64>,
-    friction: Vec<f64>,
-    /// Pairs of species of which both are held, and have no bath.
-    uncoupled: Vec<bool>,
-    cutoffs: Vec<f64>,
-    exponents: Vec<f64>,
+    /// Soft repulsions, which add up: tables of all pairs of species, in each of which a pair has at most one.
+    repulsions: Vec<Vec<SoftRepulsion>>,
+    frictions: Vec<PairFriction>,
 }
 
-impl PairForce {
-    pub(crate) fn new(interaction: &DpdInteraction, species: &[Species], temperature: f64, dimension: usize) -> Self {
+/// The soft repulsion V = a rc/2 (1 - r/rc)² of a pair of species.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SoftRepulsion {
+    /// Strength a, the force at contact; attraction where it is negative.
+    pub strength: f64,
+    /// Range rc.
+    pub cutoff: f64,
+}
+
+/// The friction γ (1 - r/rc)^exponent of a pair of species.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct PairFriction {
+    coefficient: f64,
+    cutoff: f64,
+    exponent: f64,
+    /// Both are held, and have no bath.
+    uncoupled: bool,
+}
+
+/// What a `dpd` interaction gives a pair of species.
+#[derive(Debug, Clone, Copy)]
+struct Coefficients {
+    repulsion: SoftRepulsion,
+    friction: f64,
+    exponent: f64,
+}
+
+impl Coefficients {
+    /// A table of all pairs of species.
+    fn of_all_pairs(interaction: &DpdInteraction, species: &[Species]) -> Vec<Self> {
         let count = species.len();
-        let mut force = Self {
-            cutoff: interaction.cutoff,
-            temperature: interaction.bath.temperature(temperature),
-            bath: interaction.bath.clone(),
-            skin: interaction.skin,
-            many_body: interaction.acting_many_body().map(|many_body| ManyBodyForce::new(many_body, dimension)),
-            species: count,
-            repulsion: vec![interaction.repulsion; count * count],
-            friction: vec![interaction.friction; count * count],
-            uncoupled: vec![false; count * count],
-            cutoffs: vec![interaction.cutoff; count * count],
-            exponents: vec![interaction.weight_exponent; count * count],
+        let common = Self {
+            repulsion: SoftRepulsion { strength: interaction.repulsion, cutoff: interaction.cutoff },
+            friction: interaction.friction,
+            exponent: interaction.weight_exponent,
         };
+        let mut table = vec![common; count * count];
         for pair in &interaction.pairs {
             let index = |name: &str| species.iter().position(|species| species.name == name);
             let (Some(a), Some(b)) = (index(&pair.between[0]), index(&pair.between[1])) else { continue };
-            for entry in [a * count + b, b * count + a] {
-                if let Some(repulsion) = pair.repulsion {
-                    force.repulsion[entry] = repulsion;
-                }
-                if let Some(friction) = pair.friction {
-                    force.friction[entry] = friction;
-                }
-                if let Some(cutoff) = pair.cutoff {
-                    force.cutoffs[entry] = cutoff;
-                }
-                if let Some(exponent) = pair.weight_exponent {
-                    force.exponents[entry] = exponent;
-                }
+            for own in [a * count + b, b * count + a] {
+                let Self { repulsion, friction, exponent } = &mut table[own];
+                repulsion.strength = pair.repulsion.unwrap_or(repulsion.strength);
+                repulsion.cutoff = pair.cutoff.unwrap_or(repulsion.cutoff);
+                *friction = pair.friction.unwrap_or(*friction);
+                *exponent = pair.weight_exponent.unwrap_or(*exponent);
             }
         }
-        // Held particles do not move each other.
+        table
+    }
+}
+
+impl PairForce {
+    /// The force that `dpd` interactions make together: repulsions add up, and a pair of species has the friction of the interaction
+    /// that gives it one. The bath is that of interactions with friction. None without an interaction.
+    pub(crate) fn new(
+        interactions: &[&DpdInteraction],
+        species: &[Species],
+        temperature: f64,
+        dimension: usize,
+    ) -> Option<Self> {
+        let first = *interactions.first()?;
+        let count = species.len();
+        let bathed = interactions.iter().find(|interaction| interaction.has_bath()).unwrap_or(&first);
+        let many_body = interactions.iter().find_map(|interaction| interaction.acting_many_body());
+        let tables: Vec<Vec<Coefficients>> =
+            interactions.iter().map(|interaction| Coefficients::of_all_pairs(interaction, species)).collect();
+        let mut repulsions: Vec<Vec<SoftRepulsion>> = Vec::with_capacity(count * count);
+        let mut frictions = Vec::with_capacity(count * count);
         for pair in 0..count * count {
             let [one, other] = [&species[pair / count], &species[pair % count]];
-            if one.fixed && other.fixed {
-                (force.friction[pair], force.uncoupled[pair]) = (0.0, true);
-            }
-            if one.frozen && other.frozen {
-                force.repulsion[pair] = 0.0;
-            }
+            // Held particles do not move each other.
+            let (uncoupled, unmoved) = (one.fixed && other.fixed, one.frozen && other.frozen);
+            let acting = tables.iter().map(|table| table[pair].repulsion);
+            repulsions.push(acting.filter(|own| own.strength != 0.0 && !unmoved).collect());
+            let rubbing = tables.iter().zip(interactions).find(|(table, own)| own.bath.acts(table[pair].friction));
+            let Coefficients { friction, repulsion, exponent } = rubbing.map_or(&tables[0], |(table, _)| table)[pair];
+            let coefficient = if uncoupled { 0.0 } else { friction };
+            frictions.push(PairFriction { coefficient, cutoff: repulsion.cutoff, exponent, uncoupled });
         }
-        force.unite_what_does_not_act();
-        force
+        let mut force = Self {
+            cutoff: interactions.iter().map(|interaction| interaction.cutoff).fold(0.0, f64::max),
+            temperature: bathed.bath.temperature(temperature),
+            bath: bathed.bath.clone(),
+            skin: interactions.iter().map(|interaction| interaction.skin).fold(0.0, f64::max),
+            many_body: many_body.map(|many_body| ManyBodyForce::new(many_body, dimension)),
+            species: count,
+            repulsions: Vec::new(),
+            frictions,
+        };
+        force.find_largest_cutoff(&repulsions);
+        force.tabulate(&repulsions);
+        Some(force)
     }
 
-    /// Finds the largest cutoff of all forces that there are, and gives it to pairs of species without a force, which need none.
-    fn unite_what_does_not_act(&mut self) {
-        let acts = |entry: &usize| self.repulsion[*entry] != 0.0 || self.bath.acts(self.friction[*entry]);
-        let rubs = |entry: &usize| self.bath.acts(self.friction[*entry]);
-        let (acting, still): (Vec<usize>, Vec<usize>) = (0..self.cutoffs.len()).partition(acts);
-        let (rubbing, smooth): (Vec<usize>, Vec<usize>) = (0..self.cutoffs.len()).partition(rubs);
-        let of_pairs = acting.iter().map(|entry| self.cutoffs[*entry]);
-        if let Some(largest) = of_pairs.chain(self.many_body.map(|many_body| many_body.cutoff)).reduce(f64::max) {
+    /// Finds the largest cutoff of all forces that there are, and gives it to pairs of species without friction, which need none.
+    fn find_largest_cutoff(&mut self, repulsions: &[Vec<SoftRepulsion>]) {
+        let rubs = |friction: &PairFriction| self.bath.acts(friction.coefficient);
+        let of_frictions = self.frictions.iter().filter(|friction| rubs(friction)).map(|friction| friction.cutoff);
+        let of_repulsions = repulsions.iter().flatten().map(|repulsion| repulsion.cutoff);
+        let of_densities = self.many_body.map(|many_body| many_body.cutoff);
+        if let Some(largest) = of_frictions.chain(of_repulsions).chain(of_densities).reduce(f64::max) {
             self.cutoff = largest;
-            for entry in still {
-                self.cutoffs[entry] = largest;
-            }
         }
-        if let Some(first) = rubbing.first().map(|entry| self.exponents[*entry]) {
-            for entry in smooth {
-                self.exponents[entry] = first;
-            }
+        let exponent = self.frictions.iter().find(|friction| rubs(friction)).map(|friction| friction.exponent);
+        for friction in self.frictions.iter_mut().filter(|friction| !self.bath.acts(friction.coefficient)) {
+            friction.cutoff = self.cutoff;
+            friction.exponent = exponent.unwrap_or(friction.exponent);
         }
+    }
+
+    /// As many tables as a pair of species has repulsions, at least one.
+    fn tabulate(&mut self, repulsions: &[Vec<SoftRepulsion>]) {
+        let tables = repulsions.iter().map(Vec::len).max().unwrap_or(0).max(1);
+        let none = SoftRepulsion { strength: 0.0, cutoff: self.cutoff };
+        let table = |index: usize| repulsions.iter().map(|own| own.get(index).copied().unwrap_or(none)).collect();
+        self.repulsions = (0..tables).map(table).collect();
     }
 
     /// No force: nothing reaches further than half the shortest edge.
     pub(crate) fn none(units: &crate::state::Units, species: usize) -> Self {
-        let zeros = vec![0.0; species * species];
+        let cutoff = 0.5 * units.shortest_length();
+        let friction = PairFriction { coefficient: 0.0, cutoff, exponent: 2.0, uncoupled: false };
         Self {
-            cutoff: 0.5 * units.shortest_length(),
+            cutoff,
             temperature: 0.0,
             bath: Bath::default(),
             skin: 0.0,
             many_body: None,
             species,
-            repulsion: zeros.clone(),
-            friction: zeros,
-            uncoupled: vec![false; species * species],
-            cutoffs: vec![0.5 * units.shortest_length(); species * species],
-            exponents: vec![2.0; species * species],
+            repulsions: vec![vec![SoftRepulsion { strength: 0.0, cutoff }; species * species]],
+            frictions: vec![friction; species * species],
         }
     }
 
@@ -131,13 +177,36 @@ impl PairForce {
         0.5 * (self.skin - copies).max(0.0)
     }
 
-    /// Repulsion a between two species.
-    #[must_use]
-    pub fn repulsion(&self, a: usize, b: usize) -> f64 {
-        self.repulsion[a * self.species + b]
+    /// The soft repulsions of two species, whose forces add up; those without strength stand for a pair that has fewer than another.
+    ///
+    /// ```
+    /// use mesoscope::{families::Model, scene};
+    ///
+    /// let second = r#"interactions.1={"type":"dpd","repulsion":-10,"cutoff":1.5}"#;
+    /// let model = Model::new(&scene::load("dpd-fluid", &[second.to_owned()])?);
+    /// let force = model.particles().pair_force.as_ref();
+    /// let repulsions = force.map(|force| force.repulsions(0, 0).map(|own| [own.strength, own.cutoff]).collect());
+    /// assert_eq!(repulsions, Some(vec![[25.0, 1.0], [-10.0, 1.5]]));
+    /// # Ok::<(), scene::SceneError>(())
+    /// ```
+    pub fn repulsions(&self, a: usize, b: usize) -> impl Iterator<Item = SoftRepulsion> {
+        let pair = a * self.species + b;
+        self.repulsions.iter().map(move |table| table[pair])
     }
 
-    /// Range of the force between two species, at most [`Self::cutoff`].
+    /// The number of soft repulsions that add up between the species that have most; one at least.
+    #[must_use]
+    pub fn repulsion_count(&self) -> usize {
+        self.repulsions.len()
+    }
+
+    /// Repulsion a between two species, the force at contact.
+    #[must_use]
+    pub fn repulsion(&self, a: usize, b: usize) -> f64 {
+        self.repulsions(a, b).map(|own| own.strength).sum()
+    }
+
+    /// Range of the forces between two species, at most [`Self::cutoff`].
     ///
     /// ```
     /// use mesoscope::{families::Model, scene};
@@ -153,43 +222,52 @@ impl PairForce {
     /// ```
     #[must_use]
     pub fn cutoff_between(&self, a: usize, b: usize) -> f64 {
-        self.cutoffs[a * self.species + b]
+        let rubs = self.bath.acts(self.friction(a, b)).then(|| self.friction_cutoff(a, b));
+        let acting = self.repulsions(a, b).filter(|own| own.strength != 0.0).map(|own| own.cutoff);
+        acting.chain(rubs).reduce(f64::max).unwrap_or(self.cutoff)
+    }
+
+    /// Range of friction and noise between two species.
+    #[must_use]
+    pub fn friction_cutoff(&self, a: usize, b: usize) -> f64 {
+        self.frictions[a * self.species + b].cutoff
     }
 
     /// Exponent of the friction weight ω = (1 - r/rc)^exponent of two species.
     #[must_use]
     pub fn weight_exponent(&self, a: usize, b: usize) -> f64 {
-        self.exponents[a * self.species + b]
+        self.frictions[a * self.species + b].exponent
     }
 
-    /// Whether forces of pairs of species have different ranges.
+    /// Whether some repulsion has another range than [`Self::cutoff`].
     #[must_use]
-    pub fn cutoffs_differ(&self) -> bool {
-        self.cutoffs.iter().any(|cutoff| *cutoff != self.cutoff)
+    pub fn repulsion_cutoffs_differ(&self) -> bool {
+        self.repulsions.iter().flatten().any(|own| own.cutoff != self.cutoff)
+    }
+
+    /// Whether some friction has another range than [`Self::cutoff`].
+    #[must_use]
+    pub fn friction_cutoffs_differ(&self) -> bool {
+        self.frictions.iter().any(|friction| friction.cutoff != self.cutoff)
     }
 
     /// The exponent of the friction weight that all pairs of species have, if they have one.
     #[must_use]
     pub fn common_weight_exponent(&self) -> Option<f64> {
-        let first = self.exponents.first().copied().unwrap_or(2.0);
-        self.exponents.iter().all(|exponent| *exponent == first).then_some(first)
+        let first = self.frictions.first().map_or(2.0, |friction| friction.exponent);
+        self.frictions.iter().all(|friction| friction.exponent == first).then_some(first)
     }
 
-    /// Volume of the sphere (disc, line) within the cutoff of two species.
+    /// Volume of the sphere (disc, line) within the range of the forces of two species.
     #[must_use]
     pub(crate) fn sphere(&self, a: usize, b: usize, dimension: usize) -> f64 {
-        let cutoff = self.cutoff_between(a, b);
-        match dimension {
-            1 => 2.0 * cutoff,
-            2 => PI * cutoff.powi(2),
-            _ => 4.0 / 3.0 * PI * cutoff.powi(3),
-        }
+        ball(self.cutoff_between(a, b), dimension)
     }
 
-    /// The friction weight ω of two species integrated over that sphere.
+    /// The friction weight ω of two species integrated over the sphere within its cutoff.
     #[must_use]
     pub(crate) fn weight_volume(&self, a: usize, b: usize, dimension: usize) -> f64 {
-        let (cutoff, exponent) = (self.cutoff_between(a, b), self.weight_exponent(a, b));
+        let (cutoff, exponent) = (self.friction_cutoff(a, b), self.weight_exponent(a, b));
         match dimension {
             1 => 2.0 * cutoff / (exponent + 1.0),
             2 => 2.0 * PI * cutoff.powi(2) / ((exponent + 1.0) * (exponent + 2.0)),
@@ -205,19 +283,21 @@ impl PairForce {
         let beta = (0..=dimension + 1).fold(1.0 / (exponent + 1.0), |beta, factor| {
             if factor == 0 { beta } else { beta * factor as f64 / (exponent + 1.0 + factor as f64) }
         });
-        dimension as f64 * self.sphere(a, b, dimension) * self.cutoff_between(a, b).powi(2) * beta
+        let cutoff = self.friction_cutoff(a, b);
+        dimension as f64 * ball(cutoff, dimension) * cutoff.powi(2) * beta
     }
 
-    /// rc |V''| of the conservative force between two species, at most.
+    /// The mean force constant per axis, times d, by which repulsions of a species at unit density hold a particle of another:
+    /// Σ |a| V(rc)/rc.
     #[must_use]
-    pub fn stiffness(&self, a: usize, b: usize) -> f64 {
-        self.repulsion(a, b).abs()
+    pub(crate) fn stiffness(&self, a: usize, b: usize, dimension: usize) -> f64 {
+        self.repulsions(a, b).map(|own| own.strength.abs() * ball(own.cutoff, dimension) / own.cutoff).sum()
     }
 
     /// Friction γ between two species.
     #[must_use]
     pub fn friction(&self, a: usize, b: usize) -> f64 {
-        self.friction[a * self.species + b]
+        self.frictions[a * self.species + b].coefficient
     }
 
     /// Whether the bath of pairs has a memory, and any effect.
@@ -230,7 +310,7 @@ impl PairForce {
     #[must_use]
     pub fn bath_step(&self, a: usize, b: usize, time_step: f64) -> BathStep {
         let step = BathStep::of(&self.bath, self.friction(a, b), time_step);
-        if self.uncoupled[a * self.species + b] { step.uncoupled() } else { step }
+        if self.frictions[a * self.species + b].uncoupled { step.uncoupled() } else { step }
     }
 
     /// Whether any pair of species has friction, with memory or without.
@@ -251,40 +331,62 @@ impl PairForce {
         self.largest_repulsion() > 0.0 || self.many_body.is_some()
     }
 
-    /// The largest magnitude of any repulsion.
+    /// The largest magnitude of the repulsions between two species.
     #[must_use]
     pub fn largest_repulsion(&self) -> f64 {
-        self.repulsion.iter().fold(0.0, |most: f64, a| most.max(a.abs()))
+        self.pairs().map(|[a, b]| self.repulsions(a, b).map(|own| own.strength.abs()).sum::<f64>()).fold(0.0, f64::max)
     }
 
-    /// The largest magnitude of a rc, twice the energy of two particles in one place.
+    /// Σ |a| rc between two species and what densities add, twice the largest energy of two particles in one place.
+    #[must_use]
+    pub fn energy_between(&self, a: usize, b: usize) -> f64 {
+        self.repulsions(a, b).map(|own| own.strength.abs() * own.cutoff).sum::<f64>() + self.many_body_energy()
+    }
+
+    /// The largest of it.
     #[must_use]
     pub fn largest_energy(&self) -> f64 {
-        let of_pairs =
-            self.repulsion.iter().zip(&self.cutoffs).fold(0.0, |most: f64, (a, cutoff)| most.max(a.abs() * cutoff));
-        of_pairs + self.many_body_energy()
+        self.pairs().map(|[a, b]| self.energy_between(a, b)).fold(self.many_body_energy(), f64::max)
     }
 
     /// The part of it that is due to the many-body repulsion.
-    pub(crate) fn many_body_energy(&self) -> f64 {
+    fn many_body_energy(&self) -> f64 {
         self.many_body.as_ref().map_or(0.0, |many_body| 4.0 * many_body.self_energy(many_body.contact_density()))
     }
 
-    /// The largest -a rcᵈ⁺¹ of pairs that attract each other in d dimensions; 0 if none do.
+    /// The largest -Σ a rcᵈ⁺¹ of pairs that attract each other in d dimensions; 0 if none do.
     pub(crate) fn largest_attraction(&self, dimension: usize) -> f64 {
-        let of_pair = |(a, cutoff): (&f64, &f64)| -a * cutoff.powi(dimension as i32 + 1);
-        self.repulsion.iter().zip(&self.cutoffs).map(of_pair).fold(0.0, f64::max)
+        let of_pair = |[a, b]: [usize; 2]| {
+            self.repulsions(a, b).map(|own| -own.strength * own.cutoff.powi(dimension as i32 + 1)).sum::<f64>()
+        };
+        self.pairs().map(of_pair).fold(0.0, f64::max)
     }
 
-    /// The smallest range of any pair of species that has a force.
+    /// The smallest range of any force.
     #[must_use]
     pub fn smallest_cutoff(&self) -> f64 {
-        self.cutoffs.iter().fold(self.cutoff, |least: f64, cutoff| least.min(*cutoff))
+        let of_repulsions = self.repulsions.iter().flatten().map(|own| own.cutoff);
+        of_repulsions.chain(self.frictions.iter().map(|friction| friction.cutoff)).fold(self.cutoff, f64::min)
     }
 
     /// The largest friction.
     #[must_use]
     pub fn largest_friction(&self) -> f64 {
-        self.friction.iter().fold(0.0, |most: f64, a| most.max(*a))
+        self.frictions.iter().map(|friction| friction.coefficient).fold(0.0, f64::max)
+    }
+
+    /// All pairs of species, in either order.
+    fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+        let species = self.species;
+        (0..species).flat_map(move |a| (0..species).map(move |b| [a, b]))
+    }
+}
+
+/// Volume of a sphere (disc, line) of a radius.
+fn ball(radius: f64, dimension: usize) -> f64 {
+    match dimension {
+        1 => 2.0 * radius,
+        2 => PI * radius.powi(2),
+        _ => 4.0 / 3.0 * PI * radius.powi(3),
     }
 }

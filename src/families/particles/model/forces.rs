@@ -20,10 +20,7 @@ pub(crate) fn momentum(scene: &Scene, species: &[Species], pair_force: Option<&P
     let mut most = pair_force.map_or(0.0, |force| {
         let mass = |a: usize| mobile_mass(species[a].mass, species[a].fixed, heaviest);
         let squares = (0..species.len()).flat_map(|a| (a..species.len()).map(move |b| [a, b]));
-        let squares = squares.map(|[a, b]| {
-            let energy = force.repulsion(a, b).abs() * force.cutoff_between(a, b) + force.many_body_energy();
-            moved([mass(a), mass(b)]) * energy
-        });
+        let squares = squares.map(|[a, b]| moved([mass(a), mass(b)]) * force.energy_between(a, b));
         let of_pairs = squares.fold(0.0, f64::max).sqrt();
         // Of a crowd all forces of half a step have to fit, though most of them cancel.
         of_pairs.max(force.many_body.map_or(0.0, |many_body| {

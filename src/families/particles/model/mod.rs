@@ -24,7 +24,7 @@ pub use body_force::{BodyForces, FixedImpulse};
 pub use bonds::{Bond, BondKind, Bonds};
 pub use chain_trio::{ChainTrios, Likeness, Strand};
 pub use coloured_noise::{ColouredNoise, Jump};
-pub use dpd::PairForce;
+pub use dpd::{PairForce, SoftRepulsion};
 pub use harmonic_chain::{HarmonicChain, SpringChain};
 pub use many_body::ManyBodyForce;
 pub use position::PositionBath;

@@ -43,7 +43,8 @@ impl Model {
 
     /// The largest frequency of particles in a fluid, and the species that has it.
     ///
-    /// Evenly spread neighbours hold a particle with ω² = Σ aρV(rc)/rc / (d·m), from the radial parts of their force constants a/rc.
+    /// Evenly spread neighbours hold a particle with ω² = Σ aρV(rc)/rc / (d·m), from the radial parts of their force constants a/rc,
+    /// which of several repulsions add up.
     /// The stiffest mode is that of a crowd of some tens of particles. For springs in random directions between z neighbours it
     /// is stiffer by (1 + √(2d/z))², the edge of the spectrum of Marchenko and Pastur, doi:10.1070/SM1967v001n04ABEH001994; repulsion
     /// makes the crowds fewer, and of the root a part is left.
@@ -55,14 +56,9 @@ impl Model {
                 return 0.0;
             }
             let crowded = 1.0 + CROWDING * (2.0 * dimension as f64 / neighbours).sqrt();
-            // V(rc)/rc in units of that of the species with itself.
-            let (unit, length) = (force.sphere(index, index, dimension), force.cutoff_between(index, index));
-            let of_pair = |(other, density): (usize, f64)| {
-                let relative = force.cutoff_between(index, other) / length;
-                force.stiffness(index, other) * density * relative.powi(dimension as i32 - 1)
-            };
+            let of_pair = |(other, density): (usize, f64)| force.stiffness(index, other, dimension) * density;
             let stiffness: f64 = self.densities(index).map(of_pair).sum();
-            let of_pairs = crowded * (stiffness * unit / (dimension as f64 * length * self.species[index].mass)).sqrt();
+            let of_pairs = crowded * (stiffness / (dimension as f64 * self.species[index].mass)).sqrt();
             of_pairs.hypot(self.many_body_stiffness(force).map_or(0.0, |[stiffness, neighbours]| {
                 let crowded = 1.0 + CROWDING * (2.0 * dimension as f64 / neighbours).sqrt();
                 crowded * (stiffness / self.species[index].mass).sqrt()

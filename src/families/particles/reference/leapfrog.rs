@@ -70,7 +70,7 @@ pub(super) fn half_kicks(
 
 /// φ(r) of two species, whose derivative is √ω within their cutoff; zero from there on.
 pub(super) fn coupling(force: &PairForce, [a, b]: [usize; 2], distance: f64) -> f64 {
-    let (cutoff, power) = (force.cutoff_between(a, b), force.weight_exponent(a, b) / 2.0 + 1.0);
+    let (cutoff, power) = (force.friction_cutoff(a, b), force.weight_exponent(a, b) / 2.0 + 1.0);
     -cutoff / power * (1.0 - distance / cutoff).max(0.0).powf(power)
 }
 

@@ -155,20 +155,18 @@ pub(super) struct Forces {
 }
 
 impl Forces {
-    /// The forces between two particles; none at all without a pair force, and beyond the cutoff of their species.
+    /// The forces between two particles; none at all without a pair force, and each within its own cutoff.
     pub fn between(model: &Model, species: &[u32], pair: &Pair) -> Self {
         let Some(force) = model.particles().pair_force.as_ref() else { return Self::default() };
         let [a, b] = [species[pair.first] as usize, species[pair.second] as usize];
-        let cutoff = force.cutoff_between(a, b);
+        let potential = Potential::of_pair(force, [a, b], pair.distance);
+        let (cutoff, exponent) = (force.friction_cutoff(a, b), force.weight_exponent(a, b));
         if pair.distance >= cutoff {
-            return Self::default();
+            return Self { potential, ..Self::default() };
         }
-        let (closeness, exponent) = (1.0 - pair.distance / cutoff, force.weight_exponent(a, b));
-        Self {
-            potential: Potential::of_pair(force, [a, b], pair.distance),
-            friction: force.friction(a, b),
-            weight: if exponent == 2.0 { closeness } else { closeness.powf(exponent / 2.0) },
-        }
+        let closeness = 1.0 - pair.distance / cutoff;
+        let weight = if exponent == 2.0 { closeness } else { closeness.powf(exponent / 2.0) };
+        Self { potential, friction: force.friction(a, b), weight }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::pairs::Pair;
 use crate::document::BondPotential;
-use crate::families::PairForce;
+use crate::families::{PairForce, SoftRepulsion};
 
 /// V, V' and V'' at a distance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -16,14 +16,22 @@ pub(super) struct Potential {
 }
 
 impl Potential {
-    /// The conservative force between particles of two species within their cutoff.
+    /// The conservative force between particles of two species: the sum of their repulsions, each within its cutoff.
     pub fn of_pair(force: &PairForce, [a, b]: [usize; 2], distance: f64) -> Self {
-        // V = a rc/2 (1 - r/rc)², so V' = -a (1 - r/rc) and V'' = a/rc.
-        let repulsion = force.repulsion(a, b);
-        let cutoff = force.cutoff_between(a, b);
+        let acting = force.repulsions(a, b).filter(|own| distance < own.cutoff);
+        acting.map(|own| Self::of_repulsion(own, distance)).fold(Self::default(), |sum, own| Self {
+            energy: sum.energy + own.energy,
+            slope: sum.slope + own.slope,
+            curvature: sum.curvature + own.curvature,
+        })
+    }
+
+    /// V = a rc/2 (1 - r/rc)², so V' = -a (1 - r/rc) and V'' = a/rc.
+    fn of_repulsion(repulsion: SoftRepulsion, distance: f64) -> Self {
+        let SoftRepulsion { strength, cutoff } = repulsion;
         let closeness = 1.0 - distance / cutoff;
-        let magnitude = repulsion * closeness;
-        Self { energy: 0.5 * cutoff * magnitude * closeness, slope: -magnitude, curvature: repulsion / cutoff }
+        let magnitude = strength * closeness;
+        Self { energy: 0.5 * cutoff * magnitude * closeness, slope: -magnitude, curvature: strength / cutoff }
     }
 
     /// Of a bond of some length; none for a length that is out of reach.

@@ -223,6 +223,7 @@ impl<'a> Builder<'a> {
             (Constant::Cutoff, cutoff),
             (Constant::WeightRootExponent, 0.5 * exponent),
             (Constant::Species, self.model.species.len() as f64),
+            (Constant::Repulsions, self.force.repulsion_count() as f64),
             (Constant::DisplacementLimit, self.model.physics().reach(self.model)),
             (Constant::PairEnergy, to_force * cutoff / (4.0 * pair_energy)),
             (Constant::PairVirial, to_force / (2.0 * pair_energy)),
@@ -272,7 +273,7 @@ impl<'a> Builder<'a> {
         Scales { model: self.model, species: self.species, quanta: self.plan.quanta }
     }
 
-    /// Impulses of half a step in momentum units: repulsion at contact, and without memory friction per unit velocity
+    /// Impulses of half a step in momentum units: the first repulsion at contact, and without memory friction per unit velocity
     /// (where all have one mass, momentum) and noise, with memory the response of the bath to its coupling function and
     /// its deviation at rest.
     fn impulses(&self, a: usize, b: usize) -> [f64; 3] {
@@ -280,15 +281,20 @@ impl<'a> Builder<'a> {
             return [0.0; 3];
         }
         let half = 0.5 * self.model.time_step;
-        let unit = self.model.units.momentum;
+        let first = self.force.repulsions(a, b).next().map_or(0.0, |own| own.strength);
+        let repulsion = first * self.repulsion_impulse();
         if self.force.remembers() {
             let step = self.force.bath_step(a, b, self.model.time_step);
-            let repulsion = self.force.repulsion(a, b) * half / unit;
             return [repulsion, step.response(), step.deviation(self.force.temperature)];
         }
-        let (repulsion, friction) = (self.force.repulsion(a, b), self.force.friction(a, b));
+        let friction = self.force.friction(a, b);
         let amplitude = (2.0 * friction * self.force.temperature / self.model.time_step).sqrt();
-        [repulsion * half / unit, friction * half / self.species.mass(), amplitude * half / unit]
+        [repulsion, friction * half / self.species.mass(), amplitude * half / self.model.units.momentum]
+    }
+
+    /// The impulse of half a step, in momentum units, of a unit force.
+    fn repulsion_impulse(&self) -> f64 {
+        0.5 * self.model.time_step / self.model.units.momentum
     }
 
     /// A kernel with a lane for each of some things.
@@ -608,7 +614,7 @@ impl<'a> Builder<'a> {
                     table.push(Species::inverse_mass(&self.model.species[b]) as f32);
                 }
             }
-            let ranges = ranges(self.force, count);
+            let ranges = ranges(self.force, count, self.repulsion_impulse());
             if self.relaxes_particles() {
                 table.extend(self.particle_entries());
             } else if own::bathes(self.model) {
