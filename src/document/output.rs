@@ -32,7 +32,7 @@ pub struct Output {
     /// Mean squared displacement and velocity autocorrelation of the particles that can move.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diffusion: Option<Diffusion>,
-    /// Sizes of chains: end-to-end distance and radius of gyration.
+    /// Sizes of chains and molecules: end-to-end distance and radius of gyration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chain_sizes: Option<ChainSizes>,
     /// Shear viscosity from the decay of transverse momentum waves.

@@ -41,7 +41,7 @@ pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, MOST_RELAXATION, Relax
 pub use particles::model::{
     Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
     HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SoftRepulsion,
-    SpringChain, Strand,
+    SpringChain, Strand, Walks,
 };
 pub(crate) use particles::surroundings;
 pub use particles::{Particles, combinations};

@@ -62,7 +62,7 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
         interactions.push(pairs);
     }
     if has(SeveralPairForces) {
-        interactions.push(json!({"type": "dpd", "repulsion": -6, "cutoff": 1.1}));
+        interactions.push(json!({"type": "dpd", "repulsion": -6, "cutoff": 0.8}));
     }
     if has(Langevin) {
         interactions.push(json!({"type": "langevin", "friction": 1.5}));

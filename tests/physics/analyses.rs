@@ -12,7 +12,7 @@ use mesoscope::run::{Outcome, Simulation};
 use mesoscope::scene::{self, AnalysisId, CorrelatedQuantity, CountedQuantity, Integrator, Scene, SceneError};
 use mesoscope::shaders::{Array, Constant};
 use mesoscope::table::Table;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::support::{
     COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, adapter, changed, engine, fluid, start,
@@ -262,6 +262,57 @@ fn surface_tension_belongs_to_the_distance_of_walls() {
     let expected = 0.5 * 6.0 * (pressure("zz") - 0.5 * (pressure("xx") + pressure("yy")));
     let found = number(&outcome, &["stress", "surface_tension", "mean"]);
     assert!((found / expected - 1.0).abs() < 1e-9, "{found}, expected {expected}");
+}
+
+/// Molecules, of which some branch, are measured along their bonds, however their beads are numbered.
+#[test]
+fn sizes_of_molecules() {
+    // The bead before each, which is bonded to it.
+    let star = [None, Some(0), Some(0), Some(2), Some(0)];
+    let chain = [None, Some(0), Some(1), Some(2)];
+    let scene = json!({
+        "title": "molecules", "space": {"box": [6, 6, 6]}, "time": {"step": 0.01, "steps": 100}, "temperature": 1,
+        "particles": [{"species": "A"}, {"species": "B"}],
+        "molecules": [
+            {"beads": ["A", "B", "B", "B", "B"], "bonds": [[0, 1], [0, 2], [2, 3], [0, 4]], "count": 20, "spacing": 0.6},
+            {"beads": ["B"], "count": 50},
+            {"beads": ["B", "B", "B", "B"], "bonds": [[0, 1], [1, 2], [2, 3]], "count": 30, "spacing": 0.6}],
+        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5},
+            {"type": "bonds", "potential": {"type": "harmonic", "stiffness": 30}}],
+        "integrator": {"type": "cotter-reich"},
+        "output": {"energies": {"every": 7}, "chain_sizes": {"every": 7}},
+    });
+    let scene = scene::parse("molecules", &scene.to_string(), &[]).unwrap();
+    let (found, reference) = last_sample_and_reference(&scene, 35);
+    let places = places(&reference);
+    let mut expected = Vec::new();
+    for (first, count, before, linear) in [(0, 20, &star[..], false), (150, 30, &chain[..], true)] {
+        let (mut ends, mut gyration) = (0.0, 0.0);
+        for molecule in places[first..first + count * before.len()].chunks_exact(before.len()) {
+            let mut beads = vec![[0.0; 3]; before.len()];
+            for (bead, before) in before.iter().enumerate().filter_map(|(bead, before)| Some((bead, (*before)?))) {
+                beads[bead] = std::array::from_fn(|axis| {
+                    let way = molecule[bead][axis] - molecule[before][axis];
+                    beads[before][axis] + way - 6.0 * (way / 6.0).round()
+                });
+            }
+            ends += (0..3).map(|axis| beads[before.len() - 1][axis].powi(2)).sum::<f64>();
+            for axis in 0..3 {
+                let mean = beads.iter().map(|bead| bead[axis]).sum::<f64>() / beads.len() as f64;
+                gyration += beads.iter().map(|bead| (bead[axis] - mean).powi(2)).sum::<f64>() / beads.len() as f64;
+            }
+        }
+        expected.extend([linear.then_some(ends), Some(gyration)]);
+    }
+    let quantum = engine(&scene, reference.state(), Options::default()).plan().quanta.length_squared;
+    assert_eq!(found.len(), expected.len());
+    for (sum, expected) in found.iter().zip(expected) {
+        let measured = *sum as f64 * quantum;
+        assert!(expected.is_none_or(|expected| (measured / expected - 1.0).abs() < 1e-4), "{measured}, {expected:?}");
+    }
+    let groups = Model::new(&scene).particles().chain_groups.clone();
+    let kinds: Vec<_> = groups.iter().map(|group| (group.name.as_str(), group.chains, group.linear)).collect();
+    assert_eq!(kinds, [("A + 4 B", 20, false), ("4 B", 30, true)]);
 }
 
 /// Chains in a box whose boundaries shear are measured from copy to copy, where the boundaries have displaced them.

@@ -928,6 +928,27 @@ fn bond_plans() -> Vec<(String, Plan)> {
             }
         }
     }
+    // Sizes of molecules, whose bonds are listed.
+    let molecules = r#"molecules=[{"beads":["A","A","A"],"bonds":[[0,1],[1,2]],"count":20}]"#;
+    let species = r#"particles=[{"species":"A"}]"#;
+    let sizes = r#"output={"chain_sizes":{"every":1}}"#;
+    for space in [
+        "space.box=[900]",
+        "space.box=[19,17]",
+        "space.box=[9,10,11]",
+        r#"space={"box":[900],"walls":{"x":{}}}"#,
+        r#"space={"box":[19,17],"walls":{"y":{}}}"#,
+        r#"space={"box":[9,10,11],"walls":{"y":{}}}"#,
+        r#"space={"box":[19,17],"shear":{"rate":0.2,"gradient":"y"}}"#,
+        r#"space={"box":[9,10,11],"shear":{"rate":0.2,"gradient":"y"}}"#,
+    ] {
+        let line = space.contains("900");
+        for integrator in INTEGRATORS.iter().filter(|integrator| !line || !integrator.contains("splitting")) {
+            let interactions = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
+            let changes = [species, molecules, interactions, space, *integrator, sizes, "time.steps=8"];
+            plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
+        }
+    }
     for bonds in &bonds {
         for other in others {
             for particles in groups {

@@ -167,7 +167,6 @@ pub const REFUSALS: &[Refusal] = &[
     missing(Molecules, &[Layers], "particles of layers follow all others, and are no beads"),
     missing(RadialDistribution, &[Shear], "pairs further than the cutoff are found round a box at rest"),
     missing(Diffusion, &[Shear], "displacements in a flow that carries copies past each other"),
-    missing(ChainSizes, &[Molecules], "sizes of molecules"),
     missing(
         Ranks,
         &[PairsWithMemory, LangevinWithMemory, MemoryOfBonds, ColouredNoise, HarmonicChain],

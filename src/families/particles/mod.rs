@@ -56,7 +56,7 @@ pub struct Particles {
     pub walls: Vec<PlaneWalls>,
     /// Boundaries that shear, if there are any.
     pub shear: Option<ShearedBox>,
-    /// Groups of chains.
+    /// Groups of chains; of molecules, where a scene measures their sizes.
     pub chain_groups: Vec<ChainGroup>,
     /// Bonds, if there are any.
     pub bonds: Option<Bonds>,
@@ -191,7 +191,7 @@ impl Particles {
             body_forces,
             walls: PlaneWalls::of(scene),
             shear,
-            chain_groups: topology::chain_groups(scene, |name| index_of(species, name)),
+            chain_groups: topology::chain_groups(scene),
             bonds: (bonds.count() > 0).then_some(bonds),
             angles: (angles.count() > 0).then_some(angles),
             chains,

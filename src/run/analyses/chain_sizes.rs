@@ -5,14 +5,16 @@ use super::{
     bytes, mean, printed_mean,
 };
 use crate::engine::Sample;
-use crate::families::{ChainGroup, Model};
+use crate::families::{ChainGroup, Model, Walks};
 use crate::measure::statistics::estimate;
 use crate::plan::{Need, Words};
 use crate::plot::{ChainKind, Chart, chain_sizes_chart};
 use crate::scene::{AnalysisId, Output, Scene};
+use crate::shaders::analyses::Walk;
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
+use std::sync::Arc;
 
 const END_TO_END: &str = "end_to_end_squared";
 const GYRATION: &str = "radius_of_gyration_squared";
@@ -34,13 +36,18 @@ impl Descriptor for ChainSizes {
         let groups = &planner.model.particles().chain_groups;
         let chains: u64 = groups.iter().map(|group| u64::from(group.chains)).sum();
         planner.plan.add_long_table(Array::ChainStarts, ChainTable(groups.clone()));
+        let walks = WalkTable(groups.clone());
+        let listed = walks.count() > 0;
+        if listed {
+            planner.plan.add_long_table(Array::ChainWalks, walks);
+        }
         let mut constants = planner.between();
         constants.push((Constant::Chains, chains as f64));
         constants.push((Constant::ChainLength, 1.0 / planner.plan.quanta.length_squared));
         planner.add_sums(&SumSampler {
             id: AnalysisId::ChainSizes,
             entry: Entry::MeasureChains,
-            choices: Choices::new(),
+            choices: Choices::new().with_if(listed, Walk::Listed),
             constants,
             renamed: Vec::new(),
             before: Vec::new(),
@@ -72,7 +79,8 @@ impl Descriptor for ChainSizes {
     }
 }
 
-/// The first particle of each chain, its length and the number of its group.
+/// The first particle of each chain, or the first step of its walk in the list, the number of steps, the number of its group, and that of
+/// its particles.
 #[derive(Debug, Clone, PartialEq)]
 struct ChainTable(Vec<ChainGroup>);
 
@@ -82,11 +90,43 @@ impl Words for ChainTable {
     }
 
     fn words(&self) -> Vec<u32> {
-        let of_group = |(number, group): (u32, &ChainGroup)| {
-            let group = *group;
-            (0..group.chains).flat_map(move |chain| [group.first + chain * group.beads, group.beads, number, 0])
-        };
-        (0..).zip(&self.0).flat_map(of_group).collect()
+        let mut words = Vec::with_capacity(self.count() as usize);
+        let mut listed = 0;
+        for (number, group) in (0..).zip(&self.0) {
+            let ChainGroup { chains, steps, beads, .. } = *group;
+            let first = match &group.walks {
+                Walks::Consecutive(first) => *first,
+                Walks::Listed(walks) => {
+                    listed += walks.len() as u32;
+                    listed - walks.len() as u32
+                }
+            };
+            words.extend((0..chains).flat_map(|chain| [first + chain * steps, steps, number, beads]));
+        }
+        words
+    }
+}
+
+/// The walks that are listed.
+#[derive(Debug, Clone, PartialEq)]
+struct WalkTable(Vec<ChainGroup>);
+
+impl WalkTable {
+    fn listed(&self) -> impl Iterator<Item = &Arc<[u32]>> {
+        self.0.iter().filter_map(|group| match &group.walks {
+            Walks::Consecutive(_) => None,
+            Walks::Listed(walks) => Some(walks),
+        })
+    }
+}
+
+impl Words for WalkTable {
+    fn count(&self) -> u64 {
+        self.listed().map(|walks| walks.len() as u64).sum()
+    }
+
+    fn words(&self) -> Vec<u32> {
+        self.listed().flat_map(|walks| walks.iter().copied()).collect()
     }
 }
 
@@ -102,8 +142,6 @@ fn chain_kind(result: &Value) -> ChainKind {
 /// Mean sizes of the chains of each group, sample by sample.
 struct Sizes {
     groups: Vec<ChainGroup>,
-    /// Name of each group's species.
-    names: Vec<String>,
     time_step: f64,
     scale: f64,
     /// A step, then two means for each group.
@@ -115,9 +153,6 @@ impl Sizes {
         let model = setting.model;
         Self {
             groups: model.particles().chain_groups.clone(),
-            names: (model.particles().chain_groups.iter())
-                .map(|group| model.species[group.species as usize].name.clone())
-                .collect(),
             time_step: model.time_step,
             scale: setting.plan.quanta.length_squared,
             rows: Vec::new(),
@@ -125,17 +160,17 @@ impl Sizes {
     }
 
     fn result(&self, number: usize) -> Value {
-        let group = self.groups[number];
+        let group = &self.groups[number];
         let column = |index: usize| -> Value {
             let series: Vec<f64> = self.rows.iter().map(|row| row[1 + 2 * number + index]).collect();
             json!(estimate(&series))
         };
         json!({
-            "species": self.names[number],
+            "species": group.name,
             "chains": group.chains,
             "beads": group.beads,
-            // The last bead of a ring is next to its first, and their distance that of a bond.
-            END_TO_END: if group.closed { Value::Null } else { column(0) },
+            // The last bead of a ring is next to its first, and their distance that of a bond; a branched molecule has more ends.
+            END_TO_END: if group.linear { column(0) } else { Value::Null },
             GYRATION: column(1),
         })
     }

@@ -628,7 +628,7 @@ pub fn features() -> Vec<Feature> {
             with: |scene| write(scene, "chain_sizes", json!({"every": 2})),
             without: |scene| write(scene, "chain_sizes", Value::Null),
             own: Some(&["chain_s"]),
-            more: &["chain_sizes", "record_sample", "chain_samples", "chain_starts", "chain_sums"],
+            more: &["chain_sizes", "record_sample", "chain_samples", "chain_starts", "chain_sums", "chain_walks"],
             instead: &[],
             always: true,
         },

@@ -62,12 +62,22 @@ pub(crate) fn check_scene(scene: &Scene, names: &SpeciesNames<'_>, problems: &mu
     if matches!(scene.integrator, Integrator::Splitting { .. }) {
         check_splitting(scene, problems);
     }
-    if scene.output.chain_sizes.is_some() && !scene.particles.iter().any(|group| group.chain.is_some()) {
-        let accepted = "a scene with chains: a `chain` in one of `particles`";
-        problems.push(Problem::new("output.chain_sizes", "found in a scene without chains", accepted));
+    if scene.output.chain_sizes.is_some() {
+        check_chain_sizes(scene, problems);
     }
     if let Some(asked) = &scene.output.stress {
         check_window_of_stress(asked, scene, problems);
+    }
+}
+
+/// There are chains or, where a start says which particles there are, bonds that make molecules of them.
+fn check_chain_sizes(scene: &Scene, problems: &mut Problems) {
+    let chained = scene.particles.iter().any(|group| group.chain.is_some());
+    let bonded = scene.start().map_or(scene.has_start(), |start| start.bonds.iter().any(|links| links.count() > 0));
+    if !chained && !bonded {
+        let accepted =
+            "a scene with chains, a `chain` in one of `particles`, or with bonds of `molecules` or of a file";
+        problems.push(Problem::new("output.chain_sizes", "found in a scene without chains", accepted));
     }
 }
 

@@ -34,5 +34,5 @@ pub use shear::ShearedBox;
 pub use thermal_start::thermal_start;
 pub(crate) use time_scales::FREQUENCY_LIMIT;
 pub(crate) use topology::Alike;
-pub use topology::ChainGroup;
+pub use topology::{ChainGroup, Walks};
 pub use walls::PlaneWalls;

@@ -1,6 +1,6 @@
 //! Which particles follow each other along chains: described, however many they are, and listed only where a run needs them.
 
-use crate::document::{FileLinks, Scene};
+use crate::document::{BondedMolecules, FileLinks, Scene, SpeciesNames};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
@@ -188,23 +188,34 @@ impl<const LENGTH: usize> Shape<LENGTH> {
     }
 }
 
-/// A group of chains of particles with consecutive numbers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Chains or molecules of one kind.
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChainGroup {
-    /// Number of its first particle.
-    pub first: u32,
-    /// Number of chains.
+    /// The species of chains; of molecules all of them, with numbers of particles.
+    pub name: String,
+    /// Number of chains or molecules.
     pub chains: u32,
-    /// Particles in a chain.
+    /// Particles in one of them.
     pub beads: u32,
-    /// Whether chains are rings.
-    pub closed: bool,
-    /// Index of the species.
-    pub species: u32,
+    /// Whether they have two ends.
+    pub linear: bool,
+    /// Steps of a walk along the bonds of one of them.
+    pub steps: u32,
+    /// These walks.
+    pub walks: Walks,
 }
 
-/// All groups of chains; `species` gives the index of a name.
-pub(crate) fn chain_groups(scene: &Scene, species: impl Fn(&str) -> Option<usize>) -> Vec<ChainGroup> {
+/// Walks from particle to particle along the bonds of each chain or molecule of a kind.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Walks {
+    /// Along consecutive numbers from that of the first particle of the first chain.
+    Consecutive(u32),
+    /// As [`BondedMolecules::walks`] lists them.
+    Listed(Arc<[u32]>),
+}
+
+/// All groups of chains, or all kinds of molecules.
+pub(crate) fn chain_groups(scene: &Scene) -> Vec<ChainGroup> {
     let mut groups = Vec::new();
     let mut first = 0_u64;
     for group in &scene.particles {
@@ -212,16 +223,40 @@ pub(crate) fn chain_groups(scene: &Scene, species: impl Fn(&str) -> Option<usize
         if let Some(chain) = &group.chain {
             let beads = chain.beads.max(1);
             groups.push(ChainGroup {
-                first: first as u32,
+                name: group.species.clone(),
                 chains: (count / u64::from(beads)) as u32,
                 beads,
-                closed: chain.closed && beads > 2,
-                species: species(&group.species).unwrap_or(0) as u32,
+                linear: !chain.closed || beads <= 2,
+                steps: beads,
+                walks: Walks::Consecutive(first as u32),
             });
         }
         first = first.saturating_add(count);
     }
+    // Nothing else needs to know them.
+    let measured = scene.start().filter(|_| scene.output.chain_sizes.is_some());
+    groups.extend(
+        measured.iter().flat_map(|start| start.molecules()).map(|molecules| ChainGroup::new(scene, &molecules)),
+    );
     groups
+}
+
+impl ChainGroup {
+    fn new(scene: &Scene, molecules: &BondedMolecules) -> Self {
+        let species = SpeciesNames::of(scene);
+        let part = |(place, count): (&usize, &u32)| {
+            let name = species.names().get(*place).copied().unwrap_or_default();
+            if *count == 1 { name.to_owned() } else { format!("{count} {name}") }
+        };
+        Self {
+            name: molecules.composition.iter().map(part).collect::<Vec<_>>().join(" + "),
+            chains: molecules.count(),
+            beads: molecules.beads(),
+            linear: molecules.linear,
+            steps: molecules.steps,
+            walks: Walks::Listed(Arc::clone(&molecules.walks)),
+        }
+    }
 }
 
 #[cfg(test)]
