@@ -37,6 +37,10 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
         if let Some(start) = scene.start() {
             state = from_file(start, velocities, model);
         }
+        for group in scene.particles.iter().filter(|group| group.is_frozen()) {
+            let count = group.resolved_count(&scene.space) as usize;
+            add_group(&mut state, group, count, model, 0.0);
+        }
         let moves = |id: &usize| !model.species[state.species[*id] as usize].fixed;
         if velocities == StateVelocities::Thermal {
             thermal.extend((0..state.len()).filter(moves));
@@ -48,17 +52,26 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
     for group in &scene.particles {
         let first = state.len();
         let count = group.resolved_count(&scene.space) as usize;
-        place(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
+        add_group(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
         lattice += usize::from(group.placement.is_lattice());
-        let ids = first..first + count;
-        model.physics().set_in_motion(&mut state, group, ids, model);
-        let species = model.species.iter().position(|species| species.name == group.species).unwrap_or(0);
-        state.species.resize(first + count, species as u32);
         if group.velocities == Velocities::Thermal && !group.is_held() {
             thermal.extend(first..first + count);
         }
     }
     complete(state, scene, model, &thermal)
+}
+
+/// Appends a group with its momenta.
+fn add_group(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, shift: f64) {
+    let first = state.len();
+    place(state, group, count, model, shift);
+    model.physics().set_in_motion(state, group, first..first + count, model);
+    let species = model.species.iter().position(|species| species.name == group.species).unwrap_or(0);
+    state.species.resize(first + count, species as u32);
+    // Times round the box that a file says.
+    if !state.images.is_empty() {
+        state.images.resize(first + count, [0; 3]);
+    }
 }
 
 /// What a run takes from the file that its particles are from, in words: where the noise begins, and what steps and times are counted from.

@@ -35,9 +35,25 @@ fn surfactant() -> Value {
     })
 }
 
+/// Between layers of frozen particles, and with a species that no bead has.
+fn confined() -> Value {
+    let mut scene = surfactant();
+    scene["space"]["walls"] = json!({"z": {}});
+    let layer = json!({"species": "wall", "number_density": 3, "placement": {"type": "behind-walls", "axis": "z", "thickness": 1}});
+    scene["particles"].as_array_mut().unwrap().extend([json!({"species": "oil"}), layer]);
+    scene["output"]["chain_sizes"] = json!({"every": 5});
+    scene["output"]["radial_distribution"] = json!({"every": 5, "range": 1});
+    scene
+}
+
 #[test]
 fn half_a_run_resumed_is_a_whole_run() {
-    let place = Place::of(surfactant());
+    half_is_whole(surfactant());
+    half_is_whole(confined());
+}
+
+fn half_is_whole(scene: Value) {
+    let place = Place::of(scene);
     place.run("whole", &["--quiet"]);
     place.run("parts", &["--quiet", "--steps", "20"]);
     succeeds(&["resume", &place.argument("parts"), "--steps", "40", "--quiet"]);

@@ -163,6 +163,19 @@ fn what_does_not_go_together() {
         &[r#"particles.0.velocities={"type":"rest"}"#],
         &["particles[0].velocities: found beside `molecules`", "Maxwell's distribution"],
     );
+    let layer = r#"{"species":"wall","count":90,"placement":{"type":"behind-walls","axis":"z","thickness":1}}"#;
+    let groups = |groups: &str| format!("particles=[{groups}]");
+    let (head, others) = (r#"{"species":"head"}"#, r#"{"species":"tail"},{"species":"water"}"#);
+    let walls = r#"space.walls={"z":{}}"#;
+    SURFACTANT.accepted(&[walls, &groups(&[head, others, layer].join(","))]);
+    SURFACTANT.refused_with(
+        &[walls, &groups(&[head, layer, others].join(","))],
+        &["particles[1]: found beside `molecules`", "layers after all other groups, the last of which is particles[3]"],
+    );
+    SURFACTANT.refused_with(
+        &[walls, &groups(&[head, others, layer].join(",")), r#"molecules.1.beads=["wall"]"#],
+        &["particles[3].species: `molecules` has ", "a species of its own for a layer"],
+    );
     SURFACTANT.refused_with(
         &[r#"particles.1.chain={"beads":2}"#],
         &["particles[1].chain: found beside `molecules`", "one is a molecule"],

@@ -260,11 +260,4 @@ fn what_takes_no_layers() {
     ] {
         assert!(problems.iter().any(|problem| problem.contains(expected)), "{expected}\n{problems:#?}");
     }
-    let problems =
-        CHANNEL.problems(&[&layer(&[]), "particles.0.count=null", "molecules=[{\"beads\":[\"water\"],\"count\":3}]"]);
-    assert!(
-        problems.iter().any(|problem| problem
-            .contains("molecules: found together with layers of frozen particles in particles[1].placement")),
-        "{problems:#?}"
-    );
 }

@@ -163,8 +163,6 @@ pub const REFUSALS: &[Refusal] = &[
     missing(Splitting, &[PairsWithMemory], "a split step that relaxes pairs with memory; `cotter-reich` takes them"),
     missing(Splitting, &[Line, HarmonicChain], "a split step of pairs in a list; `cotter-reich` takes them"),
     missing(Shear, &[Walls], "images of walls that boundaries carry along; walls that move make a shear flow too"),
-    missing(State, &[Layers], "particles of layers follow all others, and a file has no layers"),
-    missing(Molecules, &[Layers], "particles of layers follow all others, and are no beads"),
     missing(RadialDistribution, &[Shear], "pairs further than the cutoff are found round a box at rest"),
     missing(Diffusion, &[Shear], "displacements in a flow that carries copies past each other"),
     missing(

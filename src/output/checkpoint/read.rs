@@ -41,7 +41,11 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
         let place = sections.iter().position(|(name, _)| name == START);
         let start = place.map(|place| sections.remove(place).1);
         let start = start.as_deref().and_then(FileStart::from_bytes);
-        let fits = |start: &FileStart| start.particles() == state.len() as u64 && start.fits(&scene);
+        // Layers of frozen particles follow those of the start.
+        let frozen = scene.particles.iter().filter(|group| group.is_frozen());
+        let frozen: u64 = frozen.map(|group| group.resolved_count(&scene.space)).sum();
+        let fits =
+            |start: &FileStart| start.particles().saturating_add(frozen) == state.len() as u64 && start.fits(&scene);
         let start = start
             .filter(fits)
             .ok_or_else(|| malformed("what it keeps of the start of its particles makes no sense"))?;

@@ -27,10 +27,8 @@ const ENOUGH: u64 = 8192;
 /// What the kernel that counts pairs has to know.
 pub(super) struct PairHistogram<'a> {
     pub units: &'a Units,
-    /// A bit for each axis across which there are walls.
-    pub walled_axes: u32,
-    /// Particles from this id on are frozen, and not counted.
-    pub first_frozen: u64,
+    /// Whether there are walls.
+    pub walled: bool,
     pub grid: &'a Grid,
     pub options: Options,
     pub asked: &'a RadialDistribution,
@@ -46,10 +44,9 @@ impl PairHistogram<'_> {
         let shares = self.grid.rows() * segments * parts;
         let (dispatches, takes_long) = self.dispatches(plan.particles, spans);
         let dispatches = dispatches.min(shares);
-        let walled = self.walled_axes > 0;
         let choices = (ordered.choices.clone())
             .with_if(dispatches > 1, Dispatches::InTurn)
-            .with_if(walled, CountedPairs::BetweenWalls);
+            .with_if(self.walled, CountedPairs::BetweenWalls);
         let shares = shares.div_ceil(dispatches);
         let mut constants = vec![
             (Constant::Bins, bins as f64),
@@ -60,10 +57,6 @@ impl PairHistogram<'_> {
             (Constant::Segments, segments as f64),
             (Constant::Parts, parts as f64),
         ];
-        if walled {
-            constants.push((Constant::WalledAxes, f64::from(self.walled_axes)));
-            constants.push((Constant::FirstFrozen, self.first_frozen as f64));
-        }
         if dispatches > 1 {
             constants.push((Constant::Shares, shares as f64));
         }
@@ -141,7 +134,7 @@ mod tests {
     use super::*;
 
     fn histogram<'a>(units: &'a Units, grid: &'a Grid, asked: &'a RadialDistribution) -> PairHistogram<'a> {
-        PairHistogram { units, walled_axes: 0, first_frozen: u64::MAX, grid, options: Options::default(), asked }
+        PairHistogram { units, walled: false, grid, options: Options::default(), asked }
     }
 
     /// Over a thousand million pairs are shared; a batch may have many histograms of some millions each.

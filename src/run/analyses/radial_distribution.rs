@@ -36,8 +36,7 @@ impl Descriptor for RadialDistribution {
         let model = planner.model;
         let histogram = PairHistogram {
             units: &model.units,
-            walled_axes: model.particles().walls.iter().map(|walls| 1 << walls.axis).sum(),
-            first_frozen: planner.plan.particles - model.frozen_particles(),
+            walled: !model.particles().walls.is_empty(),
             grid: &ordered.grid,
             options: planner.options,
             asked,

@@ -11,7 +11,7 @@ use super::{
     FileStart, FileType, Integrator, Interaction, KeptStart, Origin, OutsidePositions, Placement, Problem, Problems,
     Scene, SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities, Velocities, Warning, nearest,
 };
-use crate::document::{FilePlaces, number_of_copies};
+use crate::document::{FilePlaces, ParticleGroup, number_of_copies};
 use crate::families::{self, Model};
 use crate::host_memory;
 use crate::numbers::counted;
@@ -174,6 +174,14 @@ fn check_scene(scene: &Scene, problems: &mut Problems) {
         Some(_) => ("found beside a `state`", "no `placement`: the file of `state` says where particles start"),
         None => ("found beside `molecules`", "no `placement`: molecules are placed along random walks"),
     };
+    let free = scene.particles.iter().rposition(|group| !group.is_frozen());
+    if let (Some(layer), Some(free)) = (scene.particles.iter().position(ParticleGroup::is_frozen), free)
+        && layer < free
+    {
+        let accepted =
+            format!("layers after all other groups, the last of which is particles[{free}]: their ids come last");
+        problems.push(Problem::new(format!("particles[{layer}]"), beside, accepted));
+    }
     for (index, group) in scene.particles.iter().enumerate() {
         if group.placement != Placement::Random && !group.is_frozen() {
             problems.push(Problem::new(format!("particles[{index}].placement"), beside, places));
@@ -406,6 +414,12 @@ impl Reader<'_> {
         }
         let mut found = vec![None; file.species.len()];
         for (place, kind) in types.iter().enumerate().filter_map(|(place, kind)| Some((place, (*kind)?))) {
+            let group = group_of(scene, names.names()[place]);
+            if counts[kind] > 0 && scene.particles[group].is_frozen() {
+                let accepted = "a species of its own for a layer, whose particles `behind-walls` places";
+                let text = format!("`{}` has {} of it", self.state.file, counted(counts[kind], "particle"));
+                self.push(format!("particles[{group}].species"), text, accepted);
+            }
             if let Some(other) = found[kind].replace(place as u8) {
                 let [first, second] = [other.into(), place].map(|place: usize| names.names()[place]);
                 let path = format!("particles[{}].type", group_of(scene, second));
@@ -507,6 +521,10 @@ impl Reader<'_> {
             }
         }
         for (name, count) in names.iter().zip(counts) {
+            // A layer is placed beside what is in the file.
+            if scene.particles[group_of(scene, name)].is_frozen() {
+                continue;
+            }
             let count = count.saturating_mul(copies);
             if count == 0 {
                 self.notices.push(format!("`{}` has no particles of `{name}`", self.state.file));
@@ -529,7 +547,7 @@ impl Reader<'_> {
                     format!("found `{name}` in {} groups", groups.len()),
                     accepted,
                 );
-            } else if given(&first) && sum != count && !scene.particles[first].is_frozen() {
+            } else if given(&first) && sum != count {
                 let key = if scene.particles[first].count.is_some() { "count" } else { "number_density" };
                 let accepted =
                     format!("{count}, the number of particles of `{name}` in `{}`, or no `{key}`", self.state.file);

@@ -92,7 +92,8 @@ impl Crowd<'_> {
         let neighbours: f64 = counts.iter().flatten().flatten().map(|count| f64::from(*count)).sum();
         let evenly: f64 = self.even.iter().sum();
         let densest = counts.iter().map(|counts| {
-            let mut densities = densities(counts, ball);
+            // Around no particle there is none.
+            let mut densities = if counts.is_empty() { vec![0.0; kinds] } else { densities(counts, ball) };
             for (density, even) in densities.iter_mut().zip(&self.even) {
                 *density += even;
             }
