@@ -2,8 +2,8 @@
 override CHAINS: u32;
 override CHAIN_LENGTH: f32; // squared length over its quantum
 
-// Slot analyses/walk: the particle at a step along the bonds of a chain, and whether it was there before. The plan chooses `listed` for
-// molecules. Default: consecutive numbers.
+// Slot analyses/walk: the particle at a step along the bonds of a chain, and whether it was there before. The plan
+// chooses `listed` for molecules. Default: consecutive numbers.
 fn particle_on_walk(step: u32) -> u32 { return step; }
 fn is_revisited(step: u32) -> bool { return false; }
 

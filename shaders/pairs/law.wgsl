@@ -16,7 +16,8 @@ struct Repulsion {
     laplacian: f32, // of the energy by the position of one particle, as an impulse per length
 }
 //
-// Slot pairs/further_repulsions: repulsions that a pair has beside its first. The plan chooses `from_table` if there are several.
+// Slot pairs/further_repulsions: repulsions that a pair has beside its first. The plan chooses `from_table` if there
+// are several.
 fn with_further_impulses(c: Coefficients, w: f32, impulse: f32) -> f32 { return impulse; }
 fn with_further_repulsions(c: Coefficients, contact: Contact, first: Repulsion) -> Repulsion { return first; }
 

@@ -9,11 +9,12 @@ use std::sync::Arc;
 pub struct BondedMolecules {
     /// Species and numbers of their particles, by the places of the species.
     pub composition: BTreeMap<usize, u32>,
-    /// Whether they are chains with two ends, at which walks begin and end.
+    /// True if they are chains with two ends, at which walks begin and end.
     pub linear: bool,
     /// Steps of a walk along the bonds of a molecule, from particle to particle, to all of them.
     pub steps: u32,
-    /// The walks, molecule by molecule: numbers of particles, with [`Self::REVISITED`] where a walk goes back over them.
+    /// The walks, molecule by molecule: numbers of particles, with [`Self::REVISITED`] where a walk goes back over
+    /// them.
     pub walks: Arc<[u32]>,
 }
 
@@ -35,7 +36,8 @@ impl BondedMolecules {
 }
 
 impl FileStart {
-    /// The molecules of its bonds, kind by kind in the order of their first particles. Particles without bonds are none.
+    /// The molecules of its bonds, kind by kind in the order of their first particles. Particles without bonds are
+    /// none.
     #[must_use]
     pub fn molecules(&self) -> Vec<BondedMolecules> {
         let neighbours = Neighbours::new(self);
@@ -60,7 +62,7 @@ impl FileStart {
     }
 }
 
-/// What molecules of a kind have in common: numbers of particles by species and number of bonds.
+/// The common properties of molecules of a kind: numbers of particles by species and number of bonds.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Kind {
     particles: BTreeMap<(usize, usize), u32>,
@@ -198,7 +200,8 @@ mod tests {
 
     #[test]
     fn bonds_join_molecules_of_kinds() {
-        // Two chains in either order, a particle by itself, a star whose centre is 7, a ring, and a star with a longer arm.
+        // Two chains in either order, a particle by itself, a star whose centre is 7, a ring, and a star with a longer
+        // arm.
         let species = [0, 1, 1, 1, 1, 0, 2, 0, 0, 0, 0, 0, 0, 0];
         let bonds = [[0, 1], [1, 2], [3, 4], [4, 5], [5, 4], [7, 8], [7, 9], [10, 7], [11, 12], [12, 13], [13, 11]];
         let molecules = start(&species, &bonds).molecules();

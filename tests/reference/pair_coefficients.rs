@@ -126,7 +126,8 @@ fn memory_and_position_baths_agree_with_the_reference() {
     }
 }
 
-/// An attraction further than the first repulsion, one of its own between unlike particles, and friction of a third interaction.
+/// An attraction further than the first repulsion, one of its own between unlike particles, and friction of a third
+/// interaction.
 fn several(exponent: f64) -> [Value; 3] {
     [
         json!({"type": "dpd", "repulsion": 25, "cutoff": 0.9}),
@@ -136,8 +137,8 @@ fn several(exponent: f64) -> [Value; 3] {
     ]
 }
 
-/// Several pair forces in all integrators, of two species and of one, which has a table then too; with a many-body repulsion, and with
-/// bonds whose ends none of them pushes apart.
+/// Several pair forces in all integrators, of two species and of one, which has a table then too; with a many-body
+/// repulsion, and with bonds whose ends none of them pushes apart.
 #[test]
 fn several_pair_forces_agree_with_the_reference() {
     let bonds = json!({"type": "bonds", "exclude_repulsion": true, "pairs": [[0, 1], [1, 2]],

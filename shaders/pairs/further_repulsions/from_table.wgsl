@@ -1,5 +1,6 @@
-// Soft repulsions beside the first of a pair, see repulsion/soft_of_pair: rows of the table of coefficients after those of ranges hold the
-// impulse at contact of each, and the largest cutoff over its own. A pair whose first repulsion is none, or excluded, has none of them.
+// Soft repulsions beside the first of a pair, see repulsion/soft_of_pair: rows of the table of coefficients after those
+// of ranges hold the impulse at contact of each, and the largest cutoff over its own. A pair whose first repulsion is
+// none, or excluded, has none of them.
 override REPULSIONS: u32; // with the first
 
 fn further_row(c: Coefficients, number: u32) -> vec4<f32> {

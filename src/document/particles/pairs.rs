@@ -49,7 +49,7 @@ impl DpdInteraction {
         self.pairs.iter().filter_map(|pair| pair.friction).chain([self.friction])
     }
 
-    /// Whether any pair has a bath.
+    /// True if any pair has a bath.
     pub(crate) fn has_bath(&self) -> bool {
         self.frictions().any(|friction| self.bath.acts(friction))
     }

@@ -79,8 +79,8 @@ impl Descriptor for ChainSizes {
     }
 }
 
-/// The first particle of each chain, or the first step of its walk in the list, the number of steps, the number of its group, and that of
-/// its particles.
+/// The first particle of each chain, or the first step of its walk in the list, the number of steps, the number of its
+/// group, and that of its particles.
 #[derive(Debug, Clone, PartialEq)]
 struct ChainTable(Vec<ChainGroup>);
 
@@ -169,7 +169,8 @@ impl Sizes {
             "species": group.name,
             "chains": group.chains,
             "beads": group.beads,
-            // The last bead of a ring is next to its first, and their distance that of a bond; a branched molecule has more ends.
+            // The last bead of a ring is next to its first, and their distance that of a bond; a branched molecule has
+            // more ends.
             END_TO_END: if group.linear { column(0) } else { Value::Null },
             GYRATION: column(1),
         })

@@ -27,7 +27,7 @@ const ENOUGH: u64 = 8192;
 /// What the kernel that counts pairs has to know.
 pub(super) struct PairHistogram<'a> {
     pub units: &'a Units,
-    /// Whether there are walls.
+    /// True if there are walls.
     pub walled: bool,
     pub grid: &'a Grid,
     pub options: Options,

@@ -72,8 +72,8 @@ pub(super) fn largest_cutoff(scene: &Scene, species: &SpeciesNames<'_>) -> f64 {
     scene.pair_interactions().map(|(_, dpd)| of_interaction(dpd)).fold(0.0, f64::max)
 }
 
-/// Checks what several `dpd` interactions have to have in common: their repulsions add up, but a pair of species has one friction, and
-/// all have one bath.
+/// Checks what several `dpd` interactions have to have in common: their repulsions add up, but a pair of species has
+/// one friction, and all have one bath.
 pub(super) fn check_together(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut Problems) {
     let mut densities = scene.pair_interactions().filter(|(_, dpd)| dpd.acting_many_body().is_some());
     if let Some((first, _)) = densities.next() {

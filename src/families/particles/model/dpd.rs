@@ -43,7 +43,7 @@ struct PairFriction {
     uncoupled: bool,
 }
 
-/// What a `dpd` interaction gives a pair of species.
+/// The coefficients of a pair of species in a `dpd` interaction.
 #[derive(Debug, Clone, Copy)]
 struct Coefficients {
     repulsion: SoftRepulsion,
@@ -77,8 +77,8 @@ impl Coefficients {
 }
 
 impl PairForce {
-    /// The force that `dpd` interactions make together: repulsions add up, and a pair of species has the friction of the interaction
-    /// that gives it one. The bath is that of interactions with friction. None without an interaction.
+    /// The force that `dpd` interactions make together: repulsions add up, and a pair of species has the friction of
+    /// the interaction that gives it one. The bath is that of interactions with friction. None without an interaction.
     pub(crate) fn new(
         interactions: &[&DpdInteraction],
         species: &[Species],
@@ -119,7 +119,8 @@ impl PairForce {
         Some(force)
     }
 
-    /// Finds the largest cutoff of all forces that there are, and gives it to pairs of species without friction, which need none.
+    /// Finds the largest cutoff of all forces that there are, and gives it to pairs of species without friction, which
+    /// need none.
     fn find_largest_cutoff(&mut self, repulsions: &[Vec<SoftRepulsion>]) {
         let rubs = |friction: &PairFriction| self.bath.acts(friction.coefficient);
         let of_frictions = self.frictions.iter().filter(|friction| rubs(friction)).map(|friction| friction.cutoff);
@@ -177,7 +178,8 @@ impl PairForce {
         0.5 * (self.skin - copies).max(0.0)
     }
 
-    /// The soft repulsions of two species, whose forces add up; those without strength stand for a pair that has fewer than another.
+    /// The soft repulsions of two species, whose forces add up; those without strength stand for a pair that has fewer
+    /// than another.
     ///
     /// ```
     /// use mesoscope::{families::Model, scene};
@@ -239,13 +241,13 @@ impl PairForce {
         self.frictions[a * self.species + b].exponent
     }
 
-    /// Whether some repulsion has another range than [`Self::cutoff`].
+    /// True if some repulsion has another range than [`Self::cutoff`].
     #[must_use]
     pub fn repulsion_cutoffs_differ(&self) -> bool {
         self.repulsions.iter().flatten().any(|own| own.cutoff != self.cutoff)
     }
 
-    /// Whether some friction has another range than [`Self::cutoff`].
+    /// True if some friction has another range than [`Self::cutoff`].
     #[must_use]
     pub fn friction_cutoffs_differ(&self) -> bool {
         self.frictions.iter().any(|friction| friction.cutoff != self.cutoff)
@@ -287,8 +289,8 @@ impl PairForce {
         dimension as f64 * ball(cutoff, dimension) * cutoff.powi(2) * beta
     }
 
-    /// The mean force constant per axis, times d, by which repulsions of a species at unit density hold a particle of another:
-    /// Σ |a| V(rc)/rc.
+    /// The mean force constant per axis, times d, by which repulsions of a species at unit density hold a particle of
+    /// another: Σ |a| V(rc)/rc.
     #[must_use]
     pub(crate) fn stiffness(&self, a: usize, b: usize, dimension: usize) -> f64 {
         self.repulsions(a, b).map(|own| own.strength.abs() * ball(own.cutoff, dimension) / own.cutoff).sum()

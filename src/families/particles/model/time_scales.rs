@@ -43,11 +43,11 @@ impl Model {
 
     /// The largest frequency of particles in a fluid, and the species that has it.
     ///
-    /// Evenly spread neighbours hold a particle with ω² = Σ aρV(rc)/rc / (d·m), from the radial parts of their force constants a/rc,
-    /// which of several repulsions add up.
-    /// The stiffest mode is that of a crowd of some tens of particles. For springs in random directions between z neighbours it
-    /// is stiffer by (1 + √(2d/z))², the edge of the spectrum of Marchenko and Pastur, doi:10.1070/SM1967v001n04ABEH001994; repulsion
-    /// makes the crowds fewer, and of the root a part is left.
+    /// Evenly spread neighbours hold a particle with ω² = Σ aρV(rc)/rc / (d·m), from the radial parts of their force
+    /// constants a/rc, which of several repulsions add up. The stiffest mode is that of a crowd of some tens of
+    /// particles. For springs in random directions between z neighbours it is stiffer by (1 + √(2d/z))², the edge of
+    /// the spectrum of Marchenko and Pastur, doi:10.1070/SM1967v001n04ABEH001994; repulsion makes the crowds fewer, and
+    /// of the root a part is left.
     pub(crate) fn largest_repulsion_frequency(&self, force: &PairForce) -> (f64, usize) {
         let dimension = self.units.dimension;
         self.largest(|index| {

@@ -197,7 +197,7 @@ pub struct ChainGroup {
     pub chains: u32,
     /// Particles in one of them.
     pub beads: u32,
-    /// Whether they have two ends.
+    /// True if they have two ends.
     pub linear: bool,
     /// Steps of a walk along the bonds of one of them.
     pub steps: u32,

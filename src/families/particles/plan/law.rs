@@ -21,15 +21,15 @@ pub(super) fn law(force: &PairForce) -> Choices {
         }))
 }
 
-/// Whether a repulsion has a range of its own, or is one of several.
+/// True if a repulsion has a range of its own, or is one of several.
 fn repulsions_differ(force: &PairForce) -> bool {
     force.repulsion_cutoffs_differ() || force.repulsion_count() > 1
 }
 
-/// Rows of the table of coefficients with what each pair of species has of its own: the largest cutoff over that of its friction, half
-/// the exponent of its weight, and the largest cutoff over that of its repulsion; then, for every further repulsion, its impulse at
-/// contact, of which one of unit strength has `impulse`, and the largest cutoff over its own. They follow one row for every pair and one
-/// for every species. None where all pairs have the same.
+/// Rows of the table of coefficients with what each pair of species has of its own: the largest cutoff over that of its
+/// friction, half the exponent of its weight, and the largest cutoff over that of its repulsion; then, for every
+/// further repulsion, its impulse at contact, of which one of unit strength has `impulse`, and the largest cutoff over
+/// its own. They follow one row for every pair and one for every species. None where all pairs have the same.
 pub(super) fn ranges(force: &PairForce, species: usize, impulse: f64) -> Vec<f32> {
     if !have_ranges(force) {
         return Vec::new();
@@ -50,8 +50,8 @@ pub(super) fn ranges(force: &PairForce, species: usize, impulse: f64) -> Vec<f32
     rows.into_iter().map(|value| value as f32).collect()
 }
 
-/// Whether pairs of species differ in their cutoff or the exponent of their weight, friction and repulsion have different cutoffs, or
-/// there are several repulsions.
+/// True if pairs of species differ in their cutoff or the exponent of their weight, friction and repulsion have
+/// different cutoffs, or there are several repulsions.
 pub(super) fn have_ranges(force: &PairForce) -> bool {
     force.friction_cutoffs_differ() || force.common_weight_exponent().is_none() || repulsions_differ(force)
 }

@@ -11,7 +11,7 @@ pub(crate) struct Species {
     count: usize,
     /// The mass that all particles have; nothing if they differ or some are held.
     mass: Option<f64>,
-    /// Whether pairs of species have cutoffs or exponents of their own, or several repulsions.
+    /// True if pairs of species have cutoffs or exponents of their own, or several repulsions.
     ranges: bool,
     /// Whether particles may be copies that shear gives another velocity.
     sheared: bool,
@@ -29,7 +29,8 @@ impl Species {
         Self { count: model.species.len(), mass, ranges, sheared, held }
     }
 
-    /// Whether there is a table: all coefficients of a single species that can move are constants, unless it has several cutoffs.
+    /// True if there is a table: all coefficients of a single species that can move are constants, unless it has
+    /// several cutoffs.
     pub fn have_table(self) -> bool {
         self.count > 1 || self.mass.is_none() || self.ranges
     }

@@ -273,9 +273,9 @@ impl<'a> Builder<'a> {
         Scales { model: self.model, species: self.species, quanta: self.plan.quanta }
     }
 
-    /// Impulses of half a step in momentum units: the first repulsion at contact, and without memory friction per unit velocity
-    /// (where all have one mass, momentum) and noise, with memory the response of the bath to its coupling function and
-    /// its deviation at rest.
+    /// Impulses of half a step in momentum units: the first repulsion at contact, and without memory friction per unit
+    /// velocity (where all have one mass, momentum) and noise, with memory the response of the bath to its coupling
+    /// function and its deviation at rest.
     fn impulses(&self, a: usize, b: usize) -> [f64; 3] {
         if self.model.species.is_empty() {
             return [0.0; 3];
