@@ -47,8 +47,9 @@ pub fn adapter() -> AdapterChoice {
 pub fn requirements() -> Requirements {
     static MET: OnceLock<Requirements> = OnceLock::new();
     *MET.get_or_init(|| {
-        let most = Requirements { storage_buffers: 12, ..Requirements::default() };
-        if Gpu::open(&adapter(), most).is_ok() { most } else { Requirements::default() }
+        let mut counts =
+            (9..=12).rev().map(|storage_buffers| Requirements { storage_buffers, ..Requirements::default() });
+        counts.find(|requirements| Gpu::open(&adapter(), *requirements).is_ok()).unwrap_or_default()
     })
 }
 
