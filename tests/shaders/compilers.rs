@@ -142,15 +142,17 @@ fn tint_takes_every_kernel_of_plans_for_any_adapter() {
         Err(error) => return skip(test, &format!("`node` does not start: {error}")),
     }
     let kernels = portable_kernels();
-    for (number, kernel) in kernels.iter().enumerate() {
-        std::fs::write(folder.path().join(format!("{number}.wgsl")), text(kernel)).unwrap();
+    // Some hundred at a time: the process of Node.js keeps all that it has judged.
+    let mut refused = Vec::new();
+    for share in kernels.chunks(400) {
+        let folder = tempfile::tempdir().unwrap();
+        for (number, kernel) in share.iter().enumerate() {
+            std::fs::write(folder.path().join(format!("{number}.wgsl")), text(kernel)).unwrap();
+        }
+        let output = run(folder.path()).unwrap();
+        if !output.status.success() {
+            refused.extend([output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned()));
+        }
     }
-    let output = run(folder.path()).unwrap();
-    assert!(
-        output.status.success(),
-        "of {} kernels Tint refuses some: {}{}",
-        kernels.len(),
-        String::from_utf8_lossy(&output.stdout),
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(refused.is_empty(), "of {} kernels Tint refuses some: {}", kernels.len(), refused.concat());
 }
