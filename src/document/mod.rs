@@ -3,7 +3,6 @@
 //! Families check such scenes and make models of them; [`crate::scene`] reads one from a file, with all of that.
 
 mod bath;
-mod bonded;
 mod error;
 mod file_start;
 mod files;
@@ -27,7 +26,6 @@ mod walls;
 
 pub use crate::noise::Generator;
 pub use bath::{Bath, BathScheme};
-pub use bonded::BondedMolecules;
 pub(crate) use error::did_you_mean;
 pub use error::{Problem, SceneError, Warning};
 pub use file_start::{EarlierRun, FileLinks, FilePlaces, FileStart, KeptStart, Origin, Surroundings};

@@ -81,7 +81,8 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
         bonds.as_object_mut().unwrap().extend(own.as_object().unwrap().clone());
         bonds
     };
-    if any(&[Bonds, Exclusion]) {
+    // Molecules are what bonds join.
+    if any(&[Bonds, Exclusion]) || has(ChainSizes) && has(Molecules) {
         let mut own = json!({"potential": {"type": "harmonic", "stiffness": 20, "length": 0.5}});
         if has(Exclusion) {
             own["exclude_repulsion"] = json!(true);

@@ -611,6 +611,26 @@ fn a_run_between_walls_is_read_back() {
         let anew = found.walls.iter().all(|wall| wall.momentum() == [0; 3]);
         assert!(if file == "before" { found.walls == last.walls } else { anew }, "{file}: what walls took up");
     }
+    // A layer follows the particles of the file, which are where they were, though the space behind the walls is wider.
+    let layer =
+        json!({"species": "wall", "count": 90, "placement": {"type": "behind-walls", "axis": "z", "thickness": 1}});
+    for file in ["before", "before/trajectory.gsd"] {
+        let mut asked = with_state(&text, json!({"file": file}));
+        asked["space"] = text["space"].clone();
+        asked["particles"].as_array_mut().unwrap().push(layer.clone());
+        let (model, found) = start(&load(&directory, &asked).0);
+        assert_eq!((found.len(), last.len(), &found.species[150..]), (240, 150, &[2; 90][..]), "{file}");
+        let (before, _) = start(&scene::parse("before", &text.to_string(), &[]).unwrap());
+        for (id, place) in found.positions.iter().enumerate() {
+            let place = model.units.position(*place);
+            let inside = (0.0..6.7).contains(&place[2]);
+            assert_eq!(inside, id < 150, "{file}: particle {id} at {place:?}");
+            if let Some(old) = last.positions.get(id) {
+                let old = before.units.position(*old);
+                assert!((0..3).all(|axis| (old[axis] - place[axis]).abs() < 3e-6), "{file}: {old:?} {place:?}");
+            }
+        }
+    }
     // Without walls the same places are in a box that is periodic, where its ends are next to each other.
     let mut asked = with_state(&text, json!({"file": "before/trajectory.gsd"}));
     asked["interactions"].as_array_mut().unwrap().truncate(1);

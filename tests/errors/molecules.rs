@@ -176,6 +176,22 @@ fn what_does_not_go_together() {
         &[walls, &groups(&[head, others, layer].join(",")), r#"molecules.1.beads=["wall"]"#],
         &["particles[3].species: `molecules` has ", "a species of its own for a layer"],
     );
+    let sizes = r#"output.chain_sizes={"every":2}"#;
+    SURFACTANT.accepted(&[sizes]);
+    SURFACTANT.refused_with(
+        &[sizes, r#"interactions=[{"type":"dpd"}]"#],
+        &["output.chain_sizes: found in a scene without chains", "or with `bonds` of `molecules` or of a file"],
+    );
+    let chain = |beads: u32| {
+        let bonds: Vec<[u32; 2]> = (1..beads).map(|bead| [bead - 1, bead]).collect();
+        json!({"beads": vec!["tail"; beads as usize], "bonds": bonds, "count": 1})
+    };
+    let two = r#"interactions=[{"type":"dpd"},{"type":"bonds","potential":{"type":"harmonic","stiffness":4}}]"#;
+    let kinds: Vec<Value> = (2..259).map(chain).collect();
+    SURFACTANT.refused_with(
+        &[sizes, "space.box=[40,40,40]", &format!("molecules={}", Value::from(kinds)), two],
+        &["output.chain_sizes: found 257 kinds of molecules", "at most 256"],
+    );
     SURFACTANT.refused_with(
         &[r#"particles.1.chain={"beads":2}"#],
         &["particles[1].chain: found beside `molecules`", "one is a molecule"],

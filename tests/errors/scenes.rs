@@ -175,6 +175,13 @@ fn species_and_pairs() {
         "interactions[1].friction: friction between `water` and `oil`, which they have in interactions[0] too; accepted: the",
         "interactions[2].bath: another bath than that of interactions[0]; accepted: the `bath` of interactions[0]",
     ];
+    // Attraction outweighs repulsion in contact, or further away.
+    let both = |second: &str| {
+        let pairs = format!(r#"interactions=[{{"type":"dpd","repulsion":25}},{{"type":"dpd",{second}}}]"#);
+        FLUID.warnings(&[&pairs]).join(" ").contains("collapse")
+    };
+    assert!(both(r#""repulsion":-30,"cutoff":0.9"#) && both(r#""repulsion":-6,"cutoff":1.5"#));
+    assert!(!both(r#""repulsion":-4,"cutoff":1.5"#));
     let found = FLUID.problems(&[twice]);
     assert_eq!(found.len(), mistakes.len(), "{found:#?}");
     for (found, expected) in found.iter().zip(mistakes) {

@@ -944,7 +944,8 @@ fn bond_plans() -> Vec<(String, Plan)> {
     ] {
         let line = space.contains("900");
         for integrator in INTEGRATORS.iter().filter(|integrator| !line || !integrator.contains("splitting")) {
-            let interactions = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#;
+            let interactions = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+                {"type":"bonds","potential":{"type":"harmonic","stiffness":9}}]"#;
             let changes = [species, molecules, interactions, space, *integrator, sizes, "time.steps=8"];
             plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
         }

@@ -2,9 +2,9 @@
 // table of pairs of species, the position baths of the species, and then what each pair has of its own.
 struct Coefficients { repulsion: f32, friction: f32, noise: f32 }
 
-// Of the pair whose coefficients were looked up last: the largest cutoff over that of its friction, half the exponent
-// of its weight, and the largest cutoff over that of its repulsion. Symmetric, so that both ends of a pair have the
-// same.
+// The ranges of the pair whose coefficients were looked up last: the largest cutoff over that of its friction, half the
+// exponent of its weight, and the largest cutoff over that of its repulsion. Symmetric, so that both ends of a pair
+// have the same.
 var<private> pair_range: vec4<f32>;
 // Its row in tables of pairs of species.
 var<private> pair_row: u32;

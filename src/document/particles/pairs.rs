@@ -37,7 +37,7 @@ pub struct DpdInteraction {
     pub bath: Bath,
     /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, beside a coloured
     /// noise, or on a line. With a wide margin the list is rebuilt less often and holds more pairs; no result but the
-    /// noise depends on it.
+    /// noise depends on it. Of several `dpd` the largest holds.
     #[serde(default = "default_skin")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub skin: f64,

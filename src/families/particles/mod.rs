@@ -191,7 +191,7 @@ impl Particles {
             body_forces,
             walls: PlaneWalls::of(scene),
             shear,
-            chain_groups: topology::chain_groups(scene),
+            chain_groups: topology::chain_groups(scene, &bonds),
             bonds: (bonds.count() > 0).then_some(bonds),
             angles: (angles.count() > 0).then_some(angles),
             chains,
@@ -354,6 +354,9 @@ impl Physics for Particles {
         }
         if self.relaxes_bonds(model) {
             checks::check_rounds(self, problems);
+        }
+        if scene.output.chain_sizes.is_some() {
+            checks::check_kinds(self, problems);
         }
         if let Some(forces) = &self.body_forces {
             checks::body_force::check_impulses(scene, model, forces, problems);

@@ -279,11 +279,11 @@ fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
 fn warn_of_attraction(model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
     let mut species = model.species.iter().enumerate().filter(|_| force.many_body.is_none());
     if let Some((_, species)) =
-        species.find(|(index, species)| species.count > 1 && force.repulsion(*index, *index) < 0.0)
+        species.find(|(index, species)| species.count > 1 && force.attract(*index, *index, model.units.dimension))
     {
         let message = format!(
-            "with a negative repulsion particles of `{}` attract each other, the more the closer they are: unless something \
-             else holds them apart they collapse, however short the step",
+            "particles of `{}` attract each other more than they repel: unless something else holds them apart they \
+             collapse, however short the step",
             species.name
         );
         warn(warnings, "interactions", message);

@@ -73,11 +73,24 @@ pub(crate) fn check_scene(scene: &Scene, names: &SpeciesNames<'_>, problems: &mu
 /// There are chains or, where a start says which particles there are, bonds that make molecules of them.
 fn check_chain_sizes(scene: &Scene, problems: &mut Problems) {
     let chained = scene.particles.iter().any(|group| group.chain.is_some());
-    let bonded = scene.start().map_or(scene.has_start(), |start| start.bonds.iter().any(|links| links.count() > 0));
+    let bonded =
+        scene.has_start() && scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Bonds(_)));
     if !chained && !bonded {
         let accepted =
-            "a scene with chains, a `chain` in one of `particles`, or with bonds of `molecules` or of a file";
+            "a scene with chains, a `chain` in one of `particles`, or with `bonds` of `molecules` or of a file";
         problems.push(Problem::new("output.chain_sizes", "found in a scene without chains", accepted));
+    }
+}
+
+/// Molecules of a file may all differ.
+pub(super) fn check_kinds(particles: &Particles, problems: &mut Problems) {
+    const MOST: usize = 256;
+    let kinds = particles.chain_groups.len();
+    if kinds > MOST {
+        let found =
+            format!("found {} kinds of molecules, which differ in their particles or bonds", grouped(kinds as u64));
+        let accepted = format!("at most {MOST}; `output.trajectory` has all of them");
+        problems.push(Problem::new("output.chain_sizes", found, accepted));
     }
 }
 

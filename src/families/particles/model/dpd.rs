@@ -364,6 +364,16 @@ impl PairForce {
         self.pairs().map(of_pair).fold(0.0, f64::max)
     }
 
+    /// True if the soft repulsions of two species attract more than they repel, in contact or over all distances: many
+    /// particles then have the lower an energy the closer they are, as the integral of a stable potential is not negative
+    /// (Fisher and Ruelle, J. Math. Phys. 7, 260, 1966).
+    pub(crate) fn attract(&self, a: usize, b: usize, dimension: usize) -> bool {
+        let sum = |power: usize| -> f64 {
+            self.repulsions(a, b).map(|own| own.strength * own.cutoff.powi(power as i32)).sum()
+        };
+        sum(1) < 0.0 || sum(dimension + 1) < 0.0
+    }
+
     /// The smallest range of any force.
     #[must_use]
     pub fn smallest_cutoff(&self) -> f64 {

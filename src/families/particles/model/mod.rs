@@ -9,6 +9,7 @@ mod dpd;
 pub(crate) mod forces;
 mod harmonic_chain;
 mod many_body;
+mod molecules;
 mod position;
 mod pulse;
 mod relaxation;

@@ -1,6 +1,8 @@
 //! Which particles follow each other along chains: described, however many they are, and listed only where a run needs them.
 
-use crate::document::{BondedMolecules, FileLinks, Scene, SpeciesNames};
+use super::Bonds;
+use super::molecules::{BondedMolecules, molecules};
+use crate::document::{FileLinks, Scene, SpeciesNames};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
@@ -210,12 +212,12 @@ pub struct ChainGroup {
 pub enum Walks {
     /// Along consecutive numbers from that of the first particle of the first chain.
     Consecutive(u32),
-    /// As [`BondedMolecules::walks`] lists them.
+    /// As they are listed, one after the other, with the highest bit at particles to which a walk goes back.
     Listed(Arc<[u32]>),
 }
 
-/// All groups of chains, or all kinds of molecules.
-pub(crate) fn chain_groups(scene: &Scene) -> Vec<ChainGroup> {
+/// All groups of chains, or all kinds of molecules that the bonds of a start make.
+pub(crate) fn chain_groups(scene: &Scene, bonds: &Bonds) -> Vec<ChainGroup> {
     let mut groups = Vec::new();
     let mut first = 0_u64;
     for group in &scene.particles {
@@ -233,11 +235,29 @@ pub(crate) fn chain_groups(scene: &Scene) -> Vec<ChainGroup> {
         }
         first = first.saturating_add(count);
     }
-    // Nothing else needs to know them.
-    let measured = scene.start().filter(|_| scene.output.chain_sizes.is_some());
-    groups.extend(
-        measured.iter().flat_map(|start| start.molecules()).map(|molecules| ChainGroup::new(scene, &molecules)),
-    );
+    if groups.is_empty() {
+        groups = molecule_groups(scene, bonds);
+    }
+    groups
+}
+
+/// All kinds of molecules, where a scene measures them: nothing else needs to know them.
+fn molecule_groups(scene: &Scene, bonds: &Bonds) -> Vec<ChainGroup> {
+    let Some(start) = scene.start().filter(|_| scene.output.chain_sizes.is_some()) else { return Vec::new() };
+    let species = |particle: u32| start.species_of(particle).unwrap_or(0);
+    let kinds = molecules(bonds.iter().map(|bond| bond.ends), start.particles() as u32, species);
+    let mut groups: Vec<ChainGroup> = Vec::with_capacity(kinds.len());
+    let mut known: HashMap<String, u32> = HashMap::new();
+    for kind in kinds {
+        let mut group = ChainGroup::new(scene, &kind);
+        // Molecules of the same particles, otherwise joined.
+        let number = known.entry(group.name.clone()).or_insert(0);
+        *number += 1;
+        if *number > 1 {
+            group.name = format!("{} ({number})", group.name);
+        }
+        groups.push(group);
+    }
     groups
 }
 

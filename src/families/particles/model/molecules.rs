@@ -1,7 +1,6 @@
-//! Molecules: particles that the bonds of a file, or of the molecules of a scene, join.
+//! Molecules: particles that bonds join.
 
-use super::FileStart;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::sync::Arc;
 
 /// Molecules of one kind: with as many particles of every species, and as many bonds at each.
@@ -35,31 +34,32 @@ impl BondedMolecules {
     }
 }
 
-impl FileStart {
-    /// The molecules of its bonds, kind by kind in the order of their first particles. Particles without bonds are
-    /// none.
-    #[must_use]
-    pub fn molecules(&self) -> Vec<BondedMolecules> {
-        let neighbours = Neighbours::new(self);
-        let mut is_known = vec![false; self.particles() as usize];
-        let mut kinds: Vec<(Kind, Vec<Vec<u32>>)> = Vec::new();
-        let mut places: BTreeMap<Kind, usize> = BTreeMap::new();
-        for particle in 0..self.particles() as u32 {
-            if is_known[particle as usize] || neighbours.of(particle).is_empty() {
-                continue;
-            }
-            let members = neighbours.joined(particle, &mut is_known);
-            let kind = Kind::new(self, &neighbours, &members);
-            let end = members.iter().filter(|member| neighbours.of(**member).len() == 1).min();
-            let walk = neighbours.walk(end.copied().unwrap_or(particle));
-            let place = *places.entry(kind.clone()).or_insert_with(|| {
-                kinds.push((kind, Vec::new()));
-                kinds.len() - 1
-            });
-            kinds[place].1.push(walk);
+/// The molecules that bonds make of so many particles, kind by kind in the order of their first particles. Particles
+/// without bonds are none.
+pub(super) fn molecules(
+    bonds: impl Iterator<Item = [u32; 2]>,
+    particles: u32,
+    species: impl Fn(u32) -> usize,
+) -> Vec<BondedMolecules> {
+    let neighbours = Neighbours::new(bonds, particles);
+    let mut is_known = vec![false; particles as usize];
+    let mut kinds: Vec<(Kind, Vec<Vec<u32>>)> = Vec::new();
+    let mut places: BTreeMap<Kind, usize> = BTreeMap::new();
+    for particle in 0..particles {
+        if is_known[particle as usize] || neighbours.of(particle).is_empty() {
+            continue;
         }
-        kinds.into_iter().map(|(kind, walks)| kind.molecules(&walks)).collect()
+        let members = neighbours.joined(particle, &mut is_known);
+        let kind = Kind::new(&neighbours, &members, &species);
+        let end = members.iter().filter(|member| neighbours.of(**member).len() == 1).min();
+        let walk = neighbours.walk(end.copied().unwrap_or(particle));
+        let place = *places.entry(kind.clone()).or_insert_with(|| {
+            kinds.push((kind, Vec::new()));
+            kinds.len() - 1
+        });
+        kinds[place].1.push(walk);
     }
+    kinds.into_iter().map(|(kind, walks)| kind.molecules(&walks)).collect()
 }
 
 /// The common properties of molecules of a kind: numbers of particles by species and number of bonds.
@@ -69,11 +69,10 @@ struct Kind {
 }
 
 impl Kind {
-    fn new(start: &FileStart, neighbours: &Neighbours, members: &[u32]) -> Self {
+    fn new(neighbours: &Neighbours, members: &[u32], species: impl Fn(u32) -> usize) -> Self {
         let mut particles = BTreeMap::new();
         for member in members {
-            let species = start.species_of(*member).unwrap_or(0);
-            *particles.entry((species, neighbours.of(*member).len())).or_insert(0) += 1;
+            *particles.entry((species(*member), neighbours.of(*member).len())).or_insert(0) += 1;
         }
         Self { particles }
     }
@@ -111,16 +110,12 @@ struct Neighbours {
 }
 
 impl Neighbours {
-    fn new(start: &FileStart) -> Self {
-        let mut bonds: Vec<[u32; 2]> = Vec::new();
-        for links in &start.bonds {
-            bonds.extend((0..links.count()).map(|index| links.link(index)).flat_map(|[a, b]| [[a, b], [b, a]]));
-        }
+    fn new(bonds: impl Iterator<Item = [u32; 2]>, particles: u32) -> Self {
+        let mut bonds: Vec<[u32; 2]> = bonds.flat_map(|[a, b]| [[a, b], [b, a]]).collect();
         bonds.retain(|[a, b]| a != b);
         bonds.sort_unstable();
         bonds.dedup();
-        let particles = 0..=start.particles() as u32;
-        let starts = particles.map(|particle| bonds.partition_point(|[a, _]| *a < particle)).collect();
+        let starts = (0..=particles).map(|particle| bonds.partition_point(|[a, _]| *a < particle)).collect();
         Self { starts, all: bonds.into_iter().map(|[_, b]| b).collect() }
     }
 
@@ -148,7 +143,7 @@ impl Neighbours {
     /// A walk to all particles that are joined with one, which goes back where a branch ends.
     fn walk(&self, from: u32) -> Vec<u32> {
         let mut walk = vec![from];
-        let mut visited = std::collections::HashSet::from([from]);
+        let mut visited = HashSet::from([from]);
         // The way from the first particle to the last, and the place of the next bond at each.
         let mut way = vec![(from, 0)];
         let mut steps = 1;
@@ -173,30 +168,8 @@ impl Neighbours {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::document::FileLinks;
 
     const BACK: u32 = BondedMolecules::REVISITED;
-
-    fn start(species: &[u8], bonds: &[[u32; 2]]) -> FileStart {
-        let links = FileLinks {
-            name: "bond".to_owned(),
-            members: bonds.to_vec(),
-            shifts: Vec::new(),
-            copies: [1; 3],
-            particles: species.len() as u32,
-            spans: BTreeMap::new(),
-        };
-        FileStart {
-            copies: [1; 3],
-            species: species.to_vec(),
-            fastest: Vec::new(),
-            bonds: vec![Arc::new(links)],
-            angles: Vec::new(),
-            surroundings: None,
-            origin: None,
-            places: None,
-        }
-    }
 
     #[test]
     fn bonds_join_molecules_of_kinds() {
@@ -204,7 +177,7 @@ mod tests {
         // arm.
         let species = [0, 1, 1, 1, 1, 0, 2, 0, 0, 0, 0, 0, 0, 0];
         let bonds = [[0, 1], [1, 2], [3, 4], [4, 5], [5, 4], [7, 8], [7, 9], [10, 7], [11, 12], [12, 13], [13, 11]];
-        let molecules = start(&species, &bonds).molecules();
+        let molecules = molecules(bonds.into_iter(), 14, |particle| species[particle as usize]);
         assert_eq!(molecules.len(), 3);
         let [chains, stars, rings] = [&molecules[0], &molecules[1], &molecules[2]];
         assert!(chains.linear && !stars.linear && !rings.linear);
@@ -218,11 +191,11 @@ mod tests {
     fn walks_of_a_kind_have_as_many_steps() {
         // The same tree twice: the longer arm comes last, and before another.
         let bonds = [[0, 1], [1, 2], [1, 3], [3, 4], [5, 6], [6, 7], [7, 8], [6, 9]];
-        let molecules = start(&[0; 10], &bonds).molecules();
-        assert_eq!(molecules.len(), 1);
-        assert_eq!((molecules[0].steps, molecules[0].count(), molecules[0].beads()), (7, 2, 5));
+        let found = molecules(bonds.into_iter(), 10, |_| 0);
+        assert_eq!(found.len(), 1);
+        assert_eq!((found[0].steps, found[0].count(), found[0].beads()), (7, 2, 5));
         let [first, second] = [[0, 1, 2, 1 | BACK, 3, 4, 4 | BACK], [5, 6, 7, 8, 7 | BACK, 6 | BACK, 9]];
-        assert_eq!(&molecules[0].walks[..], [first, second].concat());
-        assert!(start(&[0; 3], &[]).molecules().is_empty());
+        assert_eq!(&found[0].walks[..], [first, second].concat());
+        assert!(molecules(std::iter::empty(), 3, |_| 0).is_empty());
     }
 }
