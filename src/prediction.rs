@@ -4,7 +4,7 @@
 //! six bits, and five of an exponent that they have in common. So it takes no more memory than one without prediction,
 //! and each component of the shift is known to 1/32 of the largest or better. As friction is a pair impulse, momentum
 //! stays exact all the same, and as the shift alone is rounded, nothing depends on how fast the fluid moves.
-//! `shaders/space/particle/predicted.wgsl` does the same on the device.
+//! `shaders/space/particle.wgsl` does the same on the device.
 
 const BITS: u32 = 6;
 const EXPONENT_BITS: u32 = 5;

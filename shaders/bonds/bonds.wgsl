@@ -44,8 +44,14 @@ fn change_of_length(kind: BondKind, me: Particle, other: Particle) -> f32 {
     return select(0.0, change / lengths, lengths > 0.0);
 }
 
-// Slot baths/seen: see couplings/own. Default: the change of the length itself.
-fn change_seen(kind: BondKind, me: Particle, other: Particle) -> f32 { return change_of_length(kind, me, other); }
+// The change of length that friction without memory sees: see `drift_seen`.
+fn change_seen(kind: BondKind, me: Particle, other: Particle) -> f32 {
+    if (FRICTION_SEES == 0u) { return change_of_length(kind, me, other); }
+    let mine = Vector(friction_momentum(me)) * drift_of_end(me);
+    let theirs = Vector(friction_momentum(other)) * drift_of_end(other);
+    let relative = mine - theirs - Vector(copy_drift(me.position, other.position)) * unit_lengths();
+    return dot(contact_of(separation(me.position, other.position)).direction, relative);
+}
 
 // Adds the impulses of one bond.
 fn visit_bond(bond: u32) {
@@ -67,15 +73,35 @@ fn visit_bond(bond: u32) {
     raise(select(FAILURE_IMPULSE, 0u, is_within(magnitude, IMPULSE_LIMIT)));
 }
 
-// Slot bonds/potential: the potential of a bond at a length, even under exchange.
-// Default: off, bonds without a potential. The plan chooses `harmonic`, or `fene` if any kind limits the extension.
+// The potential of a bond at a length, even under exchange.
+override BOND_POTENTIAL: u32; // the cheapest that holds those of all bonds: 0 is none, 1 harmonic, 2 one that limits the extension
+
 struct Stretch {
     force: f32,     // impulse of half a step away from each other
     energy: f32,    // in the unit of impulse and length
     curvature: f32, // second derivative of the energy
     possible: bool, // whether the bond can be as long as this
 }
-fn stretch_of(kind: BondKind, distance: f32) -> Stretch { return Stretch(0.0, 0.0, 0.0, true); }
+fn stretch_of(kind: BondKind, distance: f32) -> Stretch {
+    if (BOND_POTENTIAL == 0u) { return Stretch(0.0, 0.0, 0.0, true); }
+    let extension = distance - kind.length;
+    let pull = kind.stiffness * extension;
+    // Harmonic bonds, of any extension.
+    if (BOND_POTENTIAL == 1u) { return Stretch(-pull, 0.5 * pull * extension, kind.stiffness, true); }
+    // Finitely extensible bonds, doi:10.1063/1.458541; where nothing limits the extension they are harmonic.
+    let part = extension * kind.inverse_extent;
+    let possible = part * part < 1.0;
+    // An impossible bond ends the run; until then its values remain numbers.
+    let square = select(0.0, part * part, possible);
+    let rest = 1.0 / (1.0 - square);
+    return Stretch(-pull * rest, 0.5 * pull * extension * logarithmic_growth(square),
+        kind.stiffness * (1.0 + square) * rest * rest, possible);
+}
+// -ln(1 - x)/x, without cancellation where x is small.
+fn logarithmic_growth(x: f32) -> f32 {
+    let series = 1.0 + x * (1.0 / 2.0 + x * (1.0 / 3.0 + x * (1.0 / 4.0 + x * (1.0 / 5.0))));
+    return select(-log(1.0 - x) / x, series, x < 0.03);
+}
 
 // Slot baths/bonds: friction and noise of a bond, an impulse of half a step away from each other, even under exchange;
 // `prepare_bonds` comes first. Default: off. The plan chooses `memory` if any bath has one, else `white`;
@@ -83,10 +109,20 @@ fn stretch_of(kind: BondKind, distance: f32) -> Stretch { return Stretch(0.0, 0.
 fn prepare_bonds() {}
 fn bond_bath(bond: u32, kind: BondKind, me: Particle, other: Particle) -> f32 { return 0.0; }
 
-// Slot baths/bond_noise: a standard Gaussian number for a bond.
-// Default: off, no bath of a bond has a temperature. The plan chooses `gaussian` if any has.
-fn prepare_bond_noise() {}
-fn bond_noise(bond: u32) -> f32 { return 0.0; }
+// Noise of the baths of bonds: a standard Gaussian number for each.
+override BOND_BATHS_NOISY: u32; // 1 where any has a temperature
+override BOND_STREAM_X: u32;    // key of the stream over all steps
+override BOND_STREAM_Y: u32;
+var<private> bond_key: vec2<u32>;
+
+// Slot baths/bond_noise: the plan chooses `silent` where no bath has a temperature and nothing else needs the clock.
+fn prepare_bond_noise() {
+    if (BOND_BATHS_NOISY == 1u) { bond_key = threefry2x32(clock_step(), vec2<u32>(BOND_STREAM_X, BOND_STREAM_Y)); }
+}
+fn bond_noise(bond: u32) -> f32 {
+    if (BOND_BATHS_NOISY == 0u) { return 0.0; }
+    return gaussian_of(pair_words(bond_key, vec2<u32>(bond, 0u)));
+}
 
 // Slot baths/bond_report: what is done with the new value of a bath.
 // Default: kept for the next step. The plan chooses `observed` for reports.

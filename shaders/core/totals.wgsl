@@ -12,7 +12,7 @@ override SUM_CONSERVATIVE_VIRIAL: u32;
 override SUM_SQUARED_FORCE: u32;        // of the conservative force on each particle
 override SUM_CURVATURE: u32;            // Laplacian of the potential
 override SUM_FIRST_STAGE_VIRIAL: u32;   // of the first of two stages of friction
-override SUM_BATH_ENERGY: u32;          // of baths with memory
+override SUM_BATH_ENERGY: u32 = 0u;     // of baths with memory
 override SUM_BATH_SQUARE: u32;          // of their variables
 override SUM_BATH_COUNT: u32;           // of the baths that are counted
 override SUM_BATH_MOMENTUM: u32;        // bath times momentum, of oscillators
@@ -60,7 +60,9 @@ fn reduce_totals(group: u32, lane: u32, first: u32, last: u32) {
 fn reduce_motion(group: u32, lane: u32) { reduce_totals(group, lane, SUM_KINETIC_ENERGY, SUM_MOMENTUM + 2u); }
 fn reduce_configuration(group: u32, lane: u32) { reduce_totals(group, lane, SUM_POTENTIAL_ENERGY, SUM_CURVATURE); }
 
-// Slot core/bath_totals: the same of baths that remember, for the motion at the report of a split step. The plan of
-// particles chooses `apart` if there are any.
-// Default: there are none.
-fn reduce_baths(group: u32, lane: u32) {}
+// The motion at the report of a split step has the sums of baths that remember, and leaves those of the configuration.
+override BATHS_REMEMBER: u32; // 1 where any do
+
+fn reduce_baths(group: u32, lane: u32) {
+    if (BATHS_REMEMBER == 1u) { reduce_totals(group, lane, SUM_BATH_ENERGY, OWN_SUMS - 1u); }
+}

@@ -12,19 +12,17 @@ fn add_kick(slot: u32, kick: Steps) {}
 fn gathered_kick(slot: u32) -> Steps { return Steps(0); }
 fn take_gathered_kick(slot: u32) -> Steps { return Steps(0); }
 
-// Slot external/profile: the impulse of half a step that body forces give a particle, in integer momentum units. Variants uniform,
-// opposed, sinusoidal, with external/body_force; the plan follows the scene.
-// Default: off, no body force.
-fn external_kick(me: Particle) -> Steps { return Steps(0); }
-
 // Two particles of a pair or a bond, and their slots.
 struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
 
 // Slot couplings/conservative: the conservative part of the impulse that couplings have added to a sorted particle
-// before a report, which is cleared. The plan of particles chooses `apart` if any of them has friction, and `none` if
-// they have nothing else.
-// Default: all of it.
-fn conservative_kick(slot: u32, all: Steps) -> Steps { return all; }
+// before a report, which is cleared. The plan of particles chooses `apart` if there is friction beside it.
+// Default: all of it, or nothing.
+override COUPLINGS_CONSERVE: u32; // 0 where couplings are friction alone
+fn conservative_kick(slot: u32, all: Steps) -> Steps {
+    if (COUPLINGS_CONSERVE == 0u) { return Steps(0); }
+    return all;
+}
 
 // Slot couplings/forces: adds the conservative impulse of half a step for a report. Variants plane, volume; the plan follows
 // the box.

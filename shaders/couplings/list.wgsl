@@ -11,6 +11,8 @@ const NEIGHBOUR_MASK: u32 = 0x7fffffffu;
 // larger if it is even, so that all own about as many.
 fn owns(id: u32, other: u32) -> bool { return (id < other) == (((id + other) & 1u) == 1u) && id != other; }
 
+override EXCLUSIONS: u32 = 0u; // partners in a row of those from whose repulsion a particle is excluded
+
 // Slot couplings/exclusions: `excluded` gives the bit that marks a pair without repulsion; `unless_excluded`
 // (couplings/pairs) reads it. Default: off. The plan chooses `listed` if bonds exclude pairs.
 fn excluded(id: u32, other: u32) -> u32 { return 0u; }

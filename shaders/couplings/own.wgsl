@@ -32,10 +32,13 @@ fn position_impulse(bath: Vector) -> Vector { return bath; }
 fn keep_position_bath(id: u32, bath: Vector) {}
 fn kept_position_bath(id: u32) -> Vector { return Vector(0.0); }
 
-// Slot baths/seen: the drift that friction without memory sees of a particle, and the change of length that it sees of
-// a bond (bonds/bonds). The plan chooses `velocity` for the integrator `groot-warren`.
-// Default: the drift of the last step.
-fn drift_seen(me: Particle) -> Vector { return Vector(drift_steps(me.momentum)) * unit_lengths(); }
+override FRICTION_SEES: u32; // without memory: 0 the drift of the last step, 1 velocities, predicted ones where the integrator predicts them
+
+// The drift that friction without memory sees of a particle.
+fn drift_seen(me: Particle) -> Vector {
+    if (FRICTION_SEES == 1u) { return Vector(friction_momentum(me)) * drift_of(species_of(me)); }
+    return Vector(drift_steps(me.momentum)) * unit_lengths();
+}
 
 // Slot baths/flow: what baths on particles take for rest: the drift of the mean flow in a step, and its momentum. The
 // plan chooses `peculiar` in a sheared box, unless friction is that of the laboratory.
@@ -43,10 +46,21 @@ fn drift_seen(me: Particle) -> Vector { return Vector(drift_steps(me.momentum)) 
 fn flow_of_drift(me: Particle) -> Vector { return Vector(0.0); }
 fn flow_of_particle(me: Particle) -> Vector { return Vector(0.0); }
 
-// Slot baths/position_noise: noise of the position bath of a coordinate, in its unit.
-// Default: off, the position baths of this scene have no temperature. The plan chooses `gaussian` if they have.
-fn prepare_position_noise() {}
-fn position_noise(id: u32, species: i32, axis: u32) -> f32 { return 0.0; }
+// Noise of the position bath of a coordinate, in its unit: a Gaussian number for each coordinate of a particle.
+override POSITION_BATHS_NOISY: u32 = 0u;   // 1 where they have a temperature
+override PARTICLE_STREAM_X: u32 = 0u; // key of the stream over all steps
+override PARTICLE_STREAM_Y: u32 = 0u;
+var<private> position_key: vec2<u32>;
+
+fn prepare_position_noise() {
+    if (POSITION_BATHS_NOISY == 1u) {
+        position_key = threefry2x32(clock_step(), vec2<u32>(PARTICLE_STREAM_X, PARTICLE_STREAM_Y));
+    }
+}
+fn position_noise(id: u32, species: i32, axis: u32) -> f32 {
+    if (POSITION_BATHS_NOISY == 0u) { return 0.0; }
+    return position_deviation(species) * gaussian_of(pair_words(position_key, vec2<u32>(id, axis)));
+}
 
 // Slot baths/position_report: adds the energy of a position bath to a report.
 // Default: off, such baths have none. The plan chooses `observed` if they have memory.

@@ -6,7 +6,7 @@
 
 // Visits the pairs that a particle owns: first finds those in contact, then computes their impulses.
 fn visit_pairs_of(slot: u32) {
-    prepare_noise();
+    prepare_pair_noise();
     let me = stored_particle(slot);
     begin_visit(0u, me);
     let count = neighbour_word(slot);
@@ -42,9 +42,11 @@ fn visit_pairs_of(slot: u32) {
     raise(select(FAILURE_IMPULSE, 0u, sound));
 }
 
-// Slot couplings/exclusions: the coefficients of a listed pair, without repulsion where it is excluded; see couplings/list.
-// Default: off, every listed pair repels.
-fn unless_excluded(neighbour: u32, c: Coefficients) -> Coefficients { return c; }
+// The coefficients of a listed pair, without repulsion where it is excluded: see couplings/list.
+fn unless_excluded(neighbour: u32, c: Coefficients) -> Coefficients {
+    if (EXCLUSIONS == 0u) { return c; }
+    return Coefficients(select(c.repulsion, 0.0, (neighbour & ~NEIGHBOUR_MASK) != 0u), c.friction, c.noise);
+}
 
 // Slot couplings/pair_report: `note_pair` gets each pair with its coefficients and the impulse of all forces, `finish_pairs` ends the
 // workgroup. Default: off, a step without a report. The plan chooses `observed` for reports,

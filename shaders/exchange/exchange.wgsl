@@ -24,8 +24,7 @@ struct Side {
 
 // Slots exchange/twist and exchange/form: how pressures act. `twist` is the way from the middle between the cells to that of the
 // face, over their distance: even under exchange. Default: off, no pressure acts in this part of the step. Variants of
-// exchange/form: gradient (constant mass), exchange (mass crosses the faces), whose rate and density are those of slot
-// exchange/turning: consistent, paper. The plan follows the form of the scene.
+// exchange/form: gradient (constant mass), exchange (mass crosses the faces). The plan follows the form of the scene.
 fn twist_of(face: Face, facet: Facet) -> Vector { return Vector(0.0); }
 fn transferred_mass(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> f32 { return 0.0; }
 fn pressing(facet: Facet, twist: Vector, mine: Side, theirs: Side) -> Vector { return Vector(0.0); }

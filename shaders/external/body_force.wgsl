@@ -1,10 +1,28 @@
 // Body forces: the same for all particles of a species at one place. Everything that gives a particle its impulse is done in
 // integers, so that every kernel finds the same impulse on any compiler.
 //
-// Slot external/profile, see couplings/kicks: `external_kick_at` is the impulse of half a step for a particle of a species at a place
-// in a step.
+override PROFILE: u32;         // 0 where there are none; 1 is uniform, 2 opposed, 3 a sine
+override FORCE_AXIS: u32 = 0u; // along which the force varies
+override WAVES: u32 = 1u;      // of the sine, a whole number
 
-override FORCE_AXIS: u32; // along which the force varies
+// Slot external/profile: the plan chooses `none` where there are no body forces and nothing else may need the table of species.
+// Default: the impulse of half a step, in integer momentum units, for a particle, and for one of a species at a place in a step.
+fn external_kick(me: Particle) -> Steps {
+    if (PROFILE == 0u) { return Steps(0); }
+    return external_kick_at(fraction_of(me.position), species_of(me), clock_step().x);
+}
+fn external_kick_at(fraction: Fraction, species: i32, step: u32) -> Steps {
+    let impulse = external_impulse_of(species);
+    if (PROFILE == 3u) {
+        let angle = fraction[FORCE_AXIS] * WAVES;
+        let sine = sine_of_half_turn(angle & 0x7fffffffu);
+        let kick = impulse_in_step(part_of_impulse(impulse, sine), step);
+        return select(kick, -kick, angle >= 0x80000000u);
+    }
+    let kick = impulse_in_step(impulse, step);
+    // In the second half of the box the opposite of that in the first.
+    return select(kick, -kick, PROFILE == 2u && fraction[FORCE_AXIS] >= 0x80000000u);
+}
 
 // An impulse in units of momentum: whole ones, and 2^-32 of one beyond.
 struct Impulse { whole: Steps, rest: Fraction }

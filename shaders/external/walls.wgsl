@@ -2,9 +2,9 @@
 // and the last, so that a reflected place is a place again: k steps behind the lower wall is the place k - 1. Behind the walls
 // there is a gap, wider than the cutoff, that no particle enters: pairs need to know nothing of walls.
 
-override WALL_X: u32; // places between the walls across an axis; 0 without any
-override WALL_Y: u32;
-override WALL_Z: u32;
+override WALL_X: u32 = 0u; // places between the walls across an axis; 0 without any
+override WALL_Y: u32 = 0u;
+override WALL_Z: u32 = 0u;
 override SLIDE_X: i32; // what walls across an axis make of a unit of momentum along them: 1 or -1
 override SLIDE_Y: i32;
 override SLIDE_Z: i32;
@@ -90,10 +90,30 @@ fn fly_all(start: Flight, species: i32) -> Flight {
     return flight;
 }
 
-// Slot external/wall_motion: the momentum that a particle of a species gains from the motion of a wall that reverses it, in integer
-// momentum units. Variant moving; the plan follows the scene.
-// Default: off, all walls are at rest.
-fn wall_push(axis: u32, upper: bool, species: i32) -> Steps { return Steps(0); }
+override WALLS_MOVE: u32; // 1 where any does
+// Twice the velocity of each wall, as momentum of a unit of mass: of the lower and of the upper wall across an axis, along each other axis.
+override LOWER_X_Y: f32;
+override LOWER_X_Z: f32;
+override LOWER_Y_X: f32;
+override LOWER_Y_Z: f32;
+override LOWER_Z_X: f32;
+override LOWER_Z_Y: f32;
+override UPPER_X_Y: f32;
+override UPPER_X_Z: f32;
+override UPPER_Y_X: f32;
+override UPPER_Y_Z: f32;
+override UPPER_Z_X: f32;
+override UPPER_Z_Y: f32;
+
+// The momentum that a particle of a species gains from the motion of a wall that reverses it, in integer momentum units.
+fn wall_push(axis: u32, upper: bool, species: i32) -> Steps {
+    if (WALLS_MOVE == 0u) { return Steps(0); }
+    let x = select(vec3<f32>(0.0, LOWER_X_Y, LOWER_X_Z), vec3<f32>(0.0, UPPER_X_Y, UPPER_X_Z), upper);
+    let y = select(vec3<f32>(LOWER_Y_X, 0.0, LOWER_Y_Z), vec3<f32>(UPPER_Y_X, 0.0, UPPER_Y_Z), upper);
+    let z = select(vec3<f32>(LOWER_Z_X, LOWER_Z_Y, 0.0), vec3<f32>(UPPER_Z_X, UPPER_Z_Y, 0.0), upper);
+    let push = select(select(z, y, axis == 1u), x, axis == 0u);
+    return steps_of(vec4<i32>(vec4<f32>(round(push / inverse_mass_of(species)), 0.0)));
+}
 
 // Whether what happens to a particle is booked.
 var<private> is_booked: bool;

@@ -1,5 +1,5 @@
 // The geometry of a pair. Every term is odd or even under exchange of its particles, so both ends find the same bits
-// however a compiler contracts; so must every law that both ends compute: the rule is in pairs/friction/relaxation.wgsl.
+// however a compiler contracts; so must every law that both ends compute: the rule is in pairs/friction.wgsl.
 override CUTOFF: f32;
 
 struct Contact {
@@ -17,9 +17,12 @@ fn way_between(position: vec4<u32>, other: vec4<u32>) -> Steps {
 }
 fn copy_drift(position: vec4<u32>, other: vec4<u32>) -> Steps { return Steps(0); }
 
-// Slot pairs/separation: the same as a length. The plan chooses `noted` if forces depend on local densities.
-// Default: nothing else is done.
+// The ids of the pair whose separation was taken last: local densities are found by them, and compilers remove them where nothing is.
+var<private> pair_ids: vec2<u32>;
+
+// The same as a length.
 fn separation(position: vec4<u32>, other: vec4<u32>) -> Vector {
+    pair_ids = vec2<u32>(position.w, other.w);
     return Vector(way_between(position, other)) * unit_lengths();
 }
 fn contact_of(d: Vector) -> Contact {

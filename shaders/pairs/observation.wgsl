@@ -7,7 +7,7 @@ fn no_pairs() -> PairSums {
     let zero = Sum64(0u);
     return PairSums(zero, zero, zero, zero, Steps(0));
 }
-// Energy, virial, curvature and force of the repulsion of a pair: slot pairs/repulsion, see pairs/law.
+// Energy, virial, curvature and force of the repulsion of a pair, see pairs/law.
 fn observe_conservative(sums: ptr<function, PairSums>, repulsion: Repulsion, contact: Contact) {
     (*sums).energy = sum64_add((*sums).energy, sum64_of_f32(repulsion.energy * PAIR_ENERGY));
     (*sums).conservative_virial =

@@ -31,9 +31,10 @@ fn inner_of_row(row: u32) -> vec2<u32> {
 // Particles of a row that are visited: some of the sorted ones, without others between them.
 struct Visited { begin: u32, end: u32, left_out: vec2<u32> }
 
-// Slot pairs/visited: which they are. The plan of particles chooses `edges` for the first turn.
-// Default: the inner ones.
+override EDGES: u32; // 1 in the first turn, of all but the inner ones
+
 fn visited_of_row(row: u32) -> Visited {
+    if (EDGES == 1u) { return Visited(row_begin(row), row_end(row), inner_of_row(row)); }
     let inner = inner_of_row(row);
     return Visited(inner.x, inner.y, inner.yy);
 }

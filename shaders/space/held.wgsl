@@ -2,10 +2,12 @@
 // momentum that they have, which no impulse changes.
 //
 // Slot space/held: `held_momentum` is the momentum that a particle keeps of a new one, `held_kick` the impulse that it
-// keeps of one; `mobile_part` is 1 for a particle that can move and 0 for one that is held. The others are for reports,
-// see pairs/observation: held particles have no motion of their own and no part in virials, half of which belong to the
-// other particle of a pair. `is_measured` says which particles, by id, analyses of single particles average over: held
-// particles have no motion of their own there either. The plan chooses `by_species` if any species is held.
+// keeps of one. The others are for reports, see pairs/observation: held particles have no motion of their own and no
+// part in virials, half of which belong to the other particle of a pair. The plan chooses `by_species` if masses differ
+// or any species is held.
+// Slot space/measured: `mobile_part` is 1 for a particle that can move and 0 for one that is held; `is_measured` says
+// which particles, by id, analyses of single particles average over: held particles have no motion of their own there
+// either. The plan chooses `mobile` if any species is held.
 // Default: all particles can move.
 fn held_momentum(me: Particle, momentum: Steps) -> Steps { return momentum; }
 fn held_kick(me: Particle, kick: Steps) -> Steps { return kick; }
@@ -24,9 +26,29 @@ fn is_held(me: Particle) -> bool { return yielding_of(species_of(me)) == 0.0; }
 // The part of what two particles have in common that belongs to those that can move.
 fn mobile_share(me: Particle, other: Particle) -> f32 { return 0.5 * (mobile_part(me) + mobile_part(other)); }
 
-// Slot external/absorbed: absorbs the impulses on held particles, and reports them. The plan chooses `by_walls` if
-// particles are frozen behind walls.
-// Default: nothing, they are fixed in space.
-fn absorb(me: Particle, impulse: Steps) {}
-fn report_absorbed(me: Particle, impulse: Steps) {}
-fn reduce_absorbed(group: u32, lane: u32) {}
+// Walls absorb the impulses on the particles that are frozen behind them, see external/layers; others are fixed in space.
+override FROZEN: u32;           // 1 where some are frozen
+override FROZEN_SUMS: u32 = 0u; // the place of the sums of their walls in a report: three components for the lower wall, then the upper one
+var<private> absorbed: array<vec2<u32>, 6>; // of each invocation
+
+fn absorb(me: Particle, impulse: Steps) {
+    if (FROZEN == 0u) { return; }
+    is_booked = is_own(me.position);
+    let place = fraction_of(me.position);
+    let axis = wall_behind(place);
+    if (axis < DIMENSION && any(impulse != Steps(0))) { note_reflection(axis, is_behind_upper(place, axis), impulse); }
+}
+// The momentum that a frozen particle would have gained at the report point counts as absorbed by its wall.
+fn report_absorbed(me: Particle, impulse: Steps) {
+    if (FROZEN == 0u) { return; }
+    let place = fraction_of(me.position);
+    let axis = wall_behind(place);
+    if (axis == DIMENSION) { return; }
+    let gained = momentum_word(impulse, 0);
+    let first = select(0u, 3u, is_behind_upper(place, axis));
+    for (var k = 0u; k < 3u; k++) { absorbed[first + k] = sum64_add(absorbed[first + k], sum64_of_i32(gained[k])); }
+}
+fn reduce_absorbed(group: u32, lane: u32) {
+    if (FROZEN == 0u) { return; }
+    for (var k = 0u; k < 6u; k++) { reduce_quantity(FIRST_GROUP + group, lane, FROZEN_SUMS + k, absorbed[k]); }
+}

@@ -3,7 +3,7 @@
 override SPECIES: u32;
 
 // Slot space/coefficients: the coefficients of a pair, `coefficients_of`, and what species have of their own. The plan
-// of particles chooses `single`, `table` or `ranges`. Default: species have it from the table.
+// of particles chooses `single` or `table`. Default: species have it from the table.
 
 // The species of a sorted particle, without the rest of it.
 fn other_species(index: u32) -> i32 { return species_in(momentum_at(index)); }
@@ -14,7 +14,7 @@ fn position_deviation(species: i32) -> f32 { return position_entry(species).y; }
 fn position_energy(species: i32) -> f32 { return position_entry(species).z; }
 
 // Of body forces an entry an axis: halves of the whole units of an impulse of half a step, then of the 2^-32 of a unit.
-override BODY_ENTRIES: u32; // entries before them
+override BODY_ENTRIES: u32 = 0u; // entries before them
 
 fn external_impulse_of(species: i32) -> Impulse {
     let first = BODY_ENTRIES + 3u * u32(species);

@@ -1,9 +1,7 @@
 //! Kernels: an entry point with chosen variants, constants and a size.
 
 use super::Plan;
-use crate::document::Distribution;
 use crate::noise::Generator;
-use crate::shaders::noise::Deviate;
 use crate::shaders::{self, Array, Choices, Constant, Entry};
 use std::collections::BTreeSet;
 
@@ -54,7 +52,7 @@ impl Kernel {
     /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
     /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
     /// let step = &plan.kernels[plan.advance[0]];
-    /// assert!(step.files()?.contains("pairs/friction/relaxation"));
+    /// assert!(step.files()?.contains("pairs/pass/relax"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -104,20 +102,9 @@ impl Kernel {
     }
 }
 
-/// The shader of the noise of a pair or a mesh node.
-pub(crate) fn deviate(distribution: Distribution) -> Deviate {
-    match distribution {
-        Distribution::Uniform => Deviate::Uniform,
-        Distribution::Gaussian => Deviate::Gaussian,
-    }
-}
-
-/// The shader that draws random words.
-pub(crate) fn words(generator: Generator) -> shaders::noise::Generator {
-    match generator {
-        Generator::Pcg4d => shaders::noise::Generator::Pcg4d,
-        Generator::Threefry2x32 => shaders::noise::Generator::Threefry,
-    }
+/// The constant that says what draws random words: `shaders/noise/generators.wgsl`.
+pub(crate) fn generator(generator: Generator) -> (Constant, f64) {
+    (Constant::Generator, if generator == Generator::Threefry2x32 { 0.0 } else { 1.0 })
 }
 
 /// Folds a number of workgroups into two dimensions of at most 65 535; a few of them may find nothing to do.

@@ -10,10 +10,10 @@ impl Choice {
     /// Path below `shaders`, without the extension.
     ///
     /// ```
-    /// use mesoscope::shaders::{Choice, pairs::Friction};
+    /// use mesoscope::shaders::{Choice, baths::Positions};
     ///
-    /// assert_eq!(Choice::from(Friction::Velocity).path(), "pairs/friction/velocity");
-    /// assert_eq!(Choice::from(Friction::Velocity).slot(), "pairs/friction");
+    /// assert_eq!(Choice::from(Positions::White).path(), "baths/positions/white");
+    /// assert_eq!(Choice::from(Positions::White).slot(), "baths/positions");
     /// ```
     #[must_use]
     pub fn path(self) -> &'static str {
@@ -35,11 +35,11 @@ impl Choice {
 /// At most one variant of every slot.
 ///
 /// ```
-/// use mesoscope::shaders::{Choices, pairs::Friction};
+/// use mesoscope::shaders::{Choices, baths::Positions};
 ///
-/// let choices = Choices::new().with(Friction::Velocity).with(Friction::DiscreteGradient);
-/// assert_eq!(choices.paths().collect::<Vec<_>>(), ["pairs/friction/discrete_gradient"]);
-/// assert!(choices.has(Friction::DiscreteGradient) && !choices.has(Friction::Velocity));
+/// let choices = Choices::new().with(Positions::White).with(Positions::Memory);
+/// assert_eq!(choices.paths().collect::<Vec<_>>(), ["baths/positions/memory"]);
+/// assert!(choices.has(Positions::Memory) && !choices.has(Positions::White));
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Choices(Vec<Choice>);

@@ -527,7 +527,7 @@ fn check_prints_the_plan() {
         "--set",
         "output.radial_distribution=null",
     ]);
-    assert!(!said.contains("pairs/repulsion") && !said.contains("pair_histogram"), "{said}");
+    assert!(said.contains("REPULSIVE = 0") && !said.contains("pair_histogram"), "{said}");
     assert!(said.contains("warning: space.box[2]"), "{said}");
 }
 

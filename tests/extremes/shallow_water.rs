@@ -328,8 +328,7 @@ fn a_cold_bath_takes_energy_and_holds_no_noise() {
         let mut engine = engine(&scene, &state, Options::default());
         for kernel in &engine.plan().kernels {
             let files = kernel.files().unwrap();
-            let noisy =
-                files.iter().any(|file| file.starts_with("noise/generator") || file.starts_with("noise/deviate"));
+            let noisy = files.iter().any(|file| file.starts_with("noise/generators"));
             assert!(!noisy, "`{}` of a cold scene holds noise: {:?}", kernel.name, files);
         }
         engine.advance(400, 100).unwrap();

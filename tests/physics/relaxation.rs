@@ -148,7 +148,7 @@ fn strong_friction_keeps_temperatures_where_no_rule_is_named() {
     ] {
         let mut run = Device::new(&scene);
         run.step(200);
-        let series = run.series(5, 400);
+        let series = run.series(5, 600);
         let [kinetic, configurational, _] = equilibrium(&series);
         kinetic.assert(&format!("kinetic temperature, {what}"), 1.0, 0.006, 0.0048);
         configurational.assert(&format!("configurational temperature, {what}"), 1.0, 0.01, 0.008);

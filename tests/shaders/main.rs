@@ -8,6 +8,7 @@ mod canonical;
 mod compilers;
 mod elementary;
 mod index;
+mod random_scenes;
 mod required;
 mod unchanged;
 mod variants;

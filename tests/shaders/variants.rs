@@ -16,10 +16,10 @@ use mesoscope::run;
 use mesoscope::scene::Scene;
 use mesoscope::shaders::baths::Positions;
 use mesoscope::shaders::external::Jump;
-use mesoscope::shaders::space::Coefficients;
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
 
+use crate::canonical::hash_of_kernel;
 use crate::support::{COTTER_REICH, INTEGRATORS, MIXTURE, MIXTURE_FORCE, SPLITTING, STAGED, cells, fluid, water};
 
 /// WebGPU's core limits.
@@ -1156,6 +1156,16 @@ pub fn shader(kernel: &Kernel) -> &'static LinkedShader {
     linked()[text(kernel)].as_ref().expect("every_kernel_links lists what does not link")
 }
 
+/// A text that is no part of the list, parsed and validated.
+pub fn validated(entry: Entry, linked: &LinkedText) -> LinkedShader {
+    validate(entry.name(), entry.name(), linked).unwrap()
+}
+
+/// Hashes of all kernels of the list.
+pub fn hashes() -> BTreeSet<u64> {
+    linked().values().map(|shader| hash_of_kernel(&shader.as_ref().unwrap().module)).collect()
+}
+
 /// Fails with all complaints, each once and with the first scene that caused it.
 pub fn report(complaints: &BTreeMap<String, String>) {
     let list: Vec<String> =
@@ -1529,7 +1539,8 @@ fn host_structs_lie_as_in_the_shaders() {
                     found.map_or(1, |(_, value)| *value as u64)
                 };
                 let species = constant(Constant::Species);
-                let ranges = plan.kernels.iter().any(|kernel| kernel.choices.has(Coefficients::Ranges));
+                let ranges =
+                    constant(Constant::Ranged) == 1 && plan.constants.iter().any(|own| own.0 == Constant::Ranged);
                 let of_species = ranges || plan.kernels.iter().any(has_rows_of_species);
                 let rows = species * species * if ranges { 1 + constant(Constant::Repulsions) } else { 1 };
                 // Body forces have one an axis and a species, shear one a species.

@@ -1,6 +1,6 @@
 // The stress of the first of two stages of relaxation, at the report of a split step; the rest is that of the second.
 fn pass_begin(me: Particle) -> PairStresses {
-    prepare_noise();
+    prepare_pair_noise();
     return no_pair_stresses();
 }
 fn pass_pair(sums: ptr<function, PairStresses>, me: Particle, other_index: u32) {

@@ -1,6 +1,6 @@
 // The stress at the report of a leapfrog step: of the impulses of the half kick that closes it.
 fn pass_begin(me: Particle) -> PairStresses {
-    prepare_noise();
+    prepare_pair_noise();
     return no_pair_stresses();
 }
 fn pass_pair(sums: ptr<function, PairStresses>, me: Particle, other_index: u32) {

@@ -2,7 +2,7 @@
 struct Sums { impulse: Steps, virial: Sum64 }
 
 fn pass_begin(me: Particle) -> Sums {
-    prepare_noise();
+    prepare_pair_noise();
     return Sums(Steps(0), Sum64(0u));
 }
 fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {

@@ -2,7 +2,7 @@
 struct Sums { kick: Steps, pairs: PairSums }
 
 fn pass_begin(me: Particle) -> Sums {
-    prepare_noise();
+    prepare_pair_noise();
     begin_force();
     return Sums(Steps(0), no_pairs());
 }

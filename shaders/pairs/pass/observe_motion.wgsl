@@ -2,7 +2,7 @@
 struct Sums { impulse: Steps, virial: Sum64 }
 
 fn pass_begin(me: Particle) -> Sums {
-    prepare_noise();
+    prepare_pair_noise();
     begin_force();
     return Sums(Steps(0), Sum64(0u));
 }

@@ -2,7 +2,7 @@
 struct Sums { kick: Steps, impulse: Steps, strain: f32 }
 
 fn pass_begin(me: Particle) -> Sums {
-    prepare_noise();
+    prepare_pair_noise();
     return Sums(Steps(0), Steps(0), 0.0);
 }
 fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {

@@ -1,7 +1,7 @@
 // The stress at the report of a split step: of two half kicks and the relaxation between them, over the whole step. Before the first
 // step there is no relaxation.
 fn pass_begin(me: Particle) -> PairStresses {
-    prepare_noise();
+    prepare_pair_noise();
     return no_pair_stresses();
 }
 fn pass_pair(sums: ptr<function, PairStresses>, me: Particle, other_index: u32) {

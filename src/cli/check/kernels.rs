@@ -82,7 +82,7 @@ impl Shared {
         for kernel in &plan.kernels {
             let choices = kernel_choices(kernel)?;
             // The others do not see particles.
-            if !space::Particle::ALL.iter().any(|variant| choices.contains(&(*variant).into())) {
+            if !space::MassOfParticle::ALL.iter().any(|variant| choices.contains(&(*variant).into())) {
                 continue;
             }
             let constants = gpu::link(kernel.name, kernel.entry, &kernel.choices)?.constants;

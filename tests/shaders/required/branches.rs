@@ -8,6 +8,37 @@ use naga::{Block, Expression, Function, Handle, Module, Statement};
 /// baths change their sign from step to step; and quarters of a turn, which are a number of the scene and no feature.
 pub const KNOWN: [&str; 6] = ["CELLS_X", "CELLS_Y", "CELLS_Z", "CLOSES", "PERSISTENCE", "QUARTER_TURNS"];
 
+/// Laws that are arithmetic alone and bind nothing of their own: one module stands for all of them, and a constant of its pipelines says
+/// which it is. What is not chosen costs nothing: `crates/kernel-statistics/tests/hardware.txt` has the same numbers of registers and
+/// instructions as when each was a variant.
+pub const LAWS: [&str; 25] = [
+    "AS_PRINTED",
+    "BATHS_REMEMBER",
+    "BOND_BATHS_NOISY",
+    "BOND_POTENTIAL",
+    "COUPLINGS_CONSERVE",
+    "DISTRIBUTION",
+    "EDGES",
+    "EXCLUSIONS",
+    "FORCES_BEGUN",
+    "FRICTION_LAW",
+    "FRICTION_SEES",
+    "FROZEN",
+    "GENERATOR",
+    "GYRATES",
+    "HELD",
+    "HOLD_PROCESS",
+    "ONE_MASS",
+    "POSITION_BATHS_NOISY",
+    "PREDICTION",
+    "PROFILE",
+    "RANGED",
+    "REPULSIVE",
+    "TURN_SINE",
+    "WALLS_MOVE",
+    "WEIGHT_ROOT_EXPONENT",
+];
+
 /// The constants that conditions of branches and selections depend on, where they depend on nothing else.
 pub fn on_constants(module: &Module) -> BTreeSet<String> {
     let mut found = BTreeSet::new();

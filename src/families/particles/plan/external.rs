@@ -4,7 +4,7 @@
 use crate::document::ForceProfile;
 use crate::families::{FixedImpulse, Model};
 use crate::plan::{Kernel, Plan};
-use crate::shaders::{Array, Choices, Constant, Entry, external};
+use crate::shaders::{Array, Choices, Constant, Entry};
 
 /// Sums in a row of the account, see `shaders/external/body_force.wgsl`.
 const ACCOUNT: u64 = 8;
@@ -12,15 +12,6 @@ const ACCOUNT: u64 = 8;
 /// reads as many as this, for adding up the lanes of a workgroup takes longer.
 const ROWS: u64 = 256;
 const PARTICLES_OF_LANE: u64 = 8;
-
-/// The profile of the body forces, if there are any.
-pub(super) fn profile(model: &Model) -> Option<external::Profile> {
-    model.particles().body_forces.as_ref().map(|forces| match forces.profile {
-        ForceProfile::Uniform => external::Profile::Uniform,
-        ForceProfile::Opposed => external::Profile::Opposed,
-        ForceProfile::Sinusoidal => external::Profile::Sinusoidal,
-    })
-}
 
 /// Rows of the account of workgroups of a size; none without body forces.
 pub(super) fn rows(model: &Model, workgroup: u64) -> u64 {
@@ -34,14 +25,20 @@ pub(super) fn rows(model: &Model, workgroup: u64) -> u64 {
 
 /// The constants of the impulses; without a table of species those of the only one.
 pub(super) fn add_constants(model: &Model, entries_before: Option<usize>, plan: &mut Plan) {
-    let Some(forces) = model.particles().body_forces.as_ref() else { return };
-    match forces.profile {
-        ForceProfile::Uniform => {}
-        ForceProfile::Opposed => plan.constants.push((Constant::ForceAxis, forces.axis as f64)),
-        ForceProfile::Sinusoidal => plan
-            .constants
-            .extend([(Constant::ForceAxis, forces.axis as f64), (Constant::Waves, f64::from(forces.waves))]),
-    }
+    let Some(forces) = model.particles().body_forces.as_ref() else {
+        plan.constants.push((Constant::Profile, 0.0));
+        return;
+    };
+    let profile = match forces.profile {
+        ForceProfile::Uniform => 1.0,
+        ForceProfile::Opposed => 2.0,
+        ForceProfile::Sinusoidal => 3.0,
+    };
+    plan.constants.extend([
+        (Constant::Profile, profile),
+        (Constant::ForceAxis, forces.axis as f64),
+        (Constant::Waves, f64::from(forces.waves)),
+    ]);
     if let Some(entries) = entries_before {
         plan.constants.push((Constant::BodyEntries, entries as f64));
         return;

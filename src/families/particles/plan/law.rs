@@ -1,24 +1,43 @@
-//! The law of pairs: which variants of `shaders/pairs` a pair force gets, in every plan that has pairs.
+//! The law of pairs, as `shaders/pairs/law.wgsl` has it, in every plan that has pairs.
 
-use crate::families::PairForce;
-use crate::shaders::{Choices, pairs};
+use crate::document::{Distribution, Integrator};
+use crate::families::{Model, PairForce};
+use crate::shaders::{Choices, Constant, pairs};
 
-/// The conservative force and the weight of friction and noise.
+/// The repulsion that needs the local densities, if there is one.
 pub(super) fn law(force: &PairForce) -> Choices {
-    Choices::new()
-        .with(match (force.friction_cutoffs_differ(), force.common_weight_exponent()) {
-            (false, Some(2.0)) => pairs::Weight::Standard,
-            (false, Some(_)) => pairs::Weight::General,
-            (true, Some(2.0)) => pairs::Weight::StandardOfPair,
-            _ => pairs::Weight::GeneralOfPair,
-        })
-        .with_if(force.repulsion_count() > 1, pairs::FurtherRepulsions::FromTable)
-        .with_any(force.is_conservative().then_some(match (force.many_body.is_some(), repulsions_differ(force)) {
-            (false, false) => pairs::Repulsion::Soft,
-            (false, true) => pairs::Repulsion::SoftOfPair,
-            (true, false) => pairs::Repulsion::ManyBody,
-            (true, true) => pairs::Repulsion::ManyBodyOfPair,
-        }))
+    Choices::new().with_if(force.many_body.is_some(), pairs::ManyBody::OfDensities)
+}
+
+/// Whether pairs have a random force.
+pub(super) fn is_noisy(force: &PairForce) -> bool {
+    force.has_friction() && force.temperature > 0.0
+}
+
+/// The constants that say which repulsion, weight, friction and noise pairs have: compilers leave out the others.
+pub(super) fn constants(model: &Model, force: &PairForce) -> [(Constant, f64); 6] {
+    let friction = match model.integrator {
+        _ if force.largest_friction() == 0.0 => 0.0,
+        Integrator::GrootWarren { .. } => 1.0,
+        Integrator::CotterReich {} => 2.0,
+        _ if !model.particles().relaxes_in_two_stages(model) => 3.0,
+        _ => 4.0,
+    };
+    let distribution = match model.distribution {
+        _ if !is_noisy(force) => 0.0,
+        // A bath that remembers keeps the shape of its noise: only a Gaussian one has the right law.
+        Distribution::Uniform if !force.remembers() => 1.0,
+        _ => 2.0,
+    };
+    let is = |condition: bool| f64::from(u8::from(condition));
+    [
+        (Constant::Repulsive, is(force.is_conservative())),
+        (Constant::Ranged, is(have_ranges(force))),
+        (Constant::WeightRootExponent, 0.5 * force.common_weight_exponent().unwrap_or(0.0)),
+        (Constant::FrictionLaw, friction),
+        (Constant::Distribution, distribution),
+        (Constant::Repulsions, force.repulsion_count() as f64),
+    ]
 }
 
 /// True if a repulsion has a range of its own, or is one of several.

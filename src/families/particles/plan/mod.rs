@@ -17,8 +17,8 @@ use super::layout::PARTICLE;
 use crate::document::Integrator;
 use crate::families::Model;
 use crate::plan::{
-    Grid, Hardware, Kernel, Measured, Need, Options, PhysicsPlan, Plan, Quanta, Texture, Traversal, deviate,
-    prefix_sum, serial_memory, words,
+    Grid, Hardware, Kernel, Measured, Need, Options, PhysicsPlan, Plan, Quanta, Texture, Traversal, generator,
+    prefix_sum, serial_memory,
 };
 use crate::shaders::{Array, pairs};
 

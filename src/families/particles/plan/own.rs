@@ -42,19 +42,9 @@ pub(super) fn sees_flow(model: &Model) -> bool {
 pub(super) fn choices(model: &Model) -> Choices {
     let mut choices = Choices::new().with_if(acts(model), couplings::Own::Acting);
     if let Some(bath) = bath(model) {
-        choices = choices
-            .with(if bath.memory { baths::Positions::Memory } else { baths::Positions::White })
-            .with_if(bath.temperature > 0.0, baths::PositionNoise::Gaussian);
+        choices = choices.with(if bath.memory { baths::Positions::Memory } else { baths::Positions::White });
     }
-    if let Some(noise) = &model.particles().coloured_noise {
-        choices = choices.with(baths::ColouredNoise::Held).with(match noise.process {
-            NoiseProcess::Kangaroo => baths::Jump::Kangaroo,
-            NoiseProcess::KangarooExponential => baths::Jump::KangarooExponential,
-            NoiseProcess::Short => baths::Jump::Short,
-            NoiseProcess::Literal => baths::Jump::Literal,
-        });
-    }
-    choices
+    choices.with_if(model.particles().coloured_noise.is_some(), baths::ColouredNoise::Held)
 }
 
 /// What kernels choose beside that report.
@@ -118,7 +108,14 @@ fn add_noise(scales: &Scales<'_>, plan: &mut Plan) {
     let Some(noise) = model.particles().coloured_noise.as_ref() else { return };
     let half_step = 0.5 * model.time_step;
     let key = noise::seed_key(model.seed, stream::JUMP);
+    let process = match noise.process {
+        NoiseProcess::Kangaroo => 0.0,
+        NoiseProcess::KangarooExponential => 1.0,
+        NoiseProcess::Short => 2.0,
+        NoiseProcess::Literal => 3.0,
+    };
     plan.constants.extend([
+        (Constant::HoldProcess, process),
         (Constant::HoldImpulse, scales.impulse()),
         (Constant::HoldForce, noise.strength.sqrt()),
         (Constant::HoldTime, (noise.time / half_step).min(LONGEST_TIME)),

@@ -2,8 +2,8 @@
 
 use super::law::have_ranges;
 use crate::families::{self, Model};
-use crate::shaders::Choices;
-use crate::shaders::space::{Coefficients, Held, Mass, MassOfParticle, RelativeMotion};
+use crate::shaders::space::{Coefficients, Held, Mass, MassOfParticle, Measured, RelativeMotion};
+use crate::shaders::{Choices, Constant};
 
 /// Where kernels find the coefficients of pairs and the masses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,23 +57,18 @@ impl Species {
 
     /// Where kernels find masses and coefficients, and who moves.
     pub fn choices(self) -> Choices {
-        let coefficients = match (self.have_table(), self.ranges) {
-            (false, _) => Coefficients::Single,
-            (true, false) => Coefficients::Table,
-            (true, true) => Coefficients::Ranges,
-        };
-        let motion = match (self.have_one_mass(), self.sheared) {
-            (true, false) => RelativeMotion::Momenta,
-            (true, true) => RelativeMotion::ShearedMomenta,
-            (false, false) => RelativeMotion::Velocities,
-            (false, true) => RelativeMotion::ShearedVelocities,
-        };
-        let mass = match (self.have_one_mass(), self.held) {
-            (_, true) => Mass::BesideHeld,
-            (true, false) => Mass::One,
-            (false, false) => Mass::BySpecies,
-        };
-        let choices = Choices::new().with(motion).with(mass).with(MassOfParticle::OfSpecies).with(coefficients);
-        choices.with_if(self.held, Held::BySpecies)
+        Choices::new()
+            .with_if(self.sheared, RelativeMotion::Sheared)
+            .with(if self.have_one_mass() { Mass::One } else { Mass::BySpecies })
+            .with(MassOfParticle::OfSpecies)
+            .with(if self.have_table() { Coefficients::Table } else { Coefficients::Single })
+            .with_if(!self.have_one_mass(), Held::BySpecies)
+            .with_if(self.held, Measured::Mobile)
+    }
+
+    /// The constants that say whose masses differ, and whether some particles do not move.
+    pub fn constants(self) -> [(Constant, f64); 2] {
+        let is = |condition: bool| f64::from(u8::from(condition));
+        [(Constant::OneMass, is(self.have_one_mass())), (Constant::Held, is(self.held))]
     }
 }

@@ -14,11 +14,7 @@ pub(crate) fn count(model: &Model) -> usize {
 /// What kernels choose that move particles between walls, if there are any.
 pub(super) fn choices(model: &Model) -> Choices {
     let walls = !model.particles().walls.is_empty();
-    Choices::new()
-        .with_if(walls, space::Travel::BetweenWalls)
-        .with_if(model.has_frozen_particles(), external::Absorbed::ByWalls)
-        .with_if(walls, external::Drifted::BetweenWalls)
-        .with_if(model.particles().walls_move(), external::WallMotion::Moving)
+    Choices::new().with_if(walls, space::Travel::BetweenWalls).with_if(walls, external::Drifted::BetweenWalls)
 }
 
 /// What kernels choose beside, whose reflections are those of the particles.
@@ -28,6 +24,7 @@ pub(super) fn booking(model: &Model) -> Choices {
 
 /// Adds the constants of the walls.
 pub(super) fn add_constants(model: &Model, plan: &mut Plan) {
+    plan.constants.push((Constant::Frozen, f64::from(u8::from(model.has_frozen_particles()))));
     let walls = &model.particles().walls;
     if walls.is_empty() {
         return;
@@ -50,23 +47,20 @@ pub(super) fn add_constants(model: &Model, plan: &mut Plan) {
         (Constant::SlideX, slide(0)),
         (Constant::SlideY, slide(1)),
         (Constant::SlideZ, slide(2)),
+        (Constant::WallsMove, f64::from(u8::from(model.particles().walls_move()))),
+        (Constant::LowerXY, push(0, 0, 1)),
+        (Constant::LowerXZ, push(0, 0, 2)),
+        (Constant::LowerYX, push(1, 0, 0)),
+        (Constant::LowerYZ, push(1, 0, 2)),
+        (Constant::LowerZX, push(2, 0, 0)),
+        (Constant::LowerZY, push(2, 0, 1)),
+        (Constant::UpperXY, push(0, 1, 1)),
+        (Constant::UpperXZ, push(0, 1, 2)),
+        (Constant::UpperYX, push(1, 1, 0)),
+        (Constant::UpperYZ, push(1, 1, 2)),
+        (Constant::UpperZX, push(2, 1, 0)),
+        (Constant::UpperZY, push(2, 1, 1)),
     ]);
-    if model.particles().walls_move() {
-        plan.constants.extend([
-            (Constant::LowerXY, push(0, 0, 1)),
-            (Constant::LowerXZ, push(0, 0, 2)),
-            (Constant::LowerYX, push(1, 0, 0)),
-            (Constant::LowerYZ, push(1, 0, 2)),
-            (Constant::LowerZX, push(2, 0, 0)),
-            (Constant::LowerZY, push(2, 0, 1)),
-            (Constant::UpperXY, push(0, 1, 1)),
-            (Constant::UpperXZ, push(0, 1, 2)),
-            (Constant::UpperYX, push(1, 1, 0)),
-            (Constant::UpperYZ, push(1, 1, 2)),
-            (Constant::UpperZX, push(2, 1, 0)),
-            (Constant::UpperZY, push(2, 1, 1)),
-        ]);
-    }
 }
 
 /// The place of the sums of the walls that have layers.

@@ -9,7 +9,7 @@ pub(crate) use steps::plan;
 
 use crate::plan::{
     Buffer, Contents, Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal,
-    prefix_sum, words,
+    generator, prefix_sum,
 };
 
 /// Bytes of a particle or tracer.

@@ -6,14 +6,13 @@
 use super::prefix_sum::PrefixSum;
 use super::smoothing::{self, smoothing};
 use super::{
-    Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal, WATER, words,
+    Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal, WATER, generator,
 };
 use crate::document::Integrator;
 use crate::families::shallow_water::{Bins, WaterLayout, observables};
 use crate::families::{Model, ShallowWater};
 use crate::noise;
 use crate::plan::ProductQuanta;
-use crate::shaders::noise::Deviate;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, grid, mesh, water};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -198,6 +197,7 @@ impl Builder<'_> {
             (Constant::FirstTracer, carriers),
             (Constant::KickX, kick(0)),
             (Constant::KickY, kick(1)),
+            (Constant::Gyrates, f64::from(u8::from(self.gyrates()))),
             (Constant::ChordX, chord * fraction(0)),
             (Constant::ChordY, chord * fraction(1)),
             (Constant::SagittaX, sagitta * fraction(0)),
@@ -222,6 +222,8 @@ impl Builder<'_> {
         ]);
         if let Some(bath) = &water.bath {
             constants.extend([
+                generator(self.model.generator),
+                (Constant::Distribution, 2.0),
                 (Constant::BathPersistence, bath.persistence),
                 (Constant::BathResponse, bath.response() * water.mass_unit),
                 (Constant::BathNoise, bath.noise(self.model.temperature) / water.wave_speed),
@@ -263,8 +265,6 @@ impl Builder<'_> {
                 2 => mesh::Nodes::Quadratic,
                 _ => mesh::Nodes::Cubic,
             })
-            .with(if self.gyrates() { water::Drift::Gyro } else { water::Drift::Rotate })
-            .with_if(self.water.rotation != 0.0, water::Turn::Coriolis)
             .with_if(self.water.bath.is_some(), mesh::Surface::Bath)
             .with_if(self.texels, arrays::Order::Texture);
         match self.storage {
@@ -348,10 +348,7 @@ impl Builder<'_> {
         self.plan.before_report.extend(smoothing.order.iter().map(|kernel| first + kernel));
         let Some(bath) = &self.water.bath else { return };
         let noisy = bath.noise(self.model.temperature) > 0.0;
-        let noise = Choices::new()
-            .with_if(noisy, mesh::BathNoise::Gaussian)
-            .with_if(noisy, Deviate::Gaussian)
-            .with(words(self.model.generator));
+        let noise = Choices::new().with_if(noisy, mesh::BathNoise::Gaussian);
         let bath = self.kernel("mesh_bath", Entry::StepMeshBath, &noise, nodes);
         self.plan.before_report.push(bath);
     }

@@ -18,8 +18,8 @@ use crate::families::particles::plan::quanta;
 use crate::families::voronoi::CellLayout;
 use crate::families::{Model, Voronoi};
 use crate::noise::stream;
-use crate::plan::{Grid, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, words};
-use crate::shaders::exchange::{Form, Limit, Sweep, SweptEnergy, TurnBound, Turning, Twist};
+use crate::plan::{Grid, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, generator};
+use crate::shaders::exchange::{Form, Limit, Sweep, SweptEnergy, TurnBound, Twist};
 use crate::shaders::{Array, Choices, Constant, Entry, grid, space, voronoi};
 
 /// Makes the plan of a model of Voronoi cells.
@@ -59,7 +59,7 @@ fn quanta(model: &Model) -> Quanta {
 
 /// The plane and the cells in it.
 fn plane() -> Choices {
-    Choices::new().with(space::Dimension::Two).with(space::Particle::Plain).with(space::MassOfParticle::Own)
+    Choices::new().with(space::Dimension::Two).with(space::MassOfParticle::Own)
 }
 
 /// Buffers that may be held in textures.
@@ -82,6 +82,8 @@ impl Builder<'_> {
         let (units, cells) = (self.model.units, self.cells);
         let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
         self.plan.constants = vec![
+            generator(self.model.generator),
+            (Constant::AsPrinted, f64::from(u8::from(cells.form == VoronoiForm::Paper))),
             (Constant::UnitX, unit(0)),
             (Constant::UnitY, unit(1)),
             (Constant::CellsX, f64::from(self.grid.cells[0])),
@@ -135,27 +137,21 @@ impl Builder<'_> {
         things.div_ceil(self.options.workgroup()).max(1)
     }
 
-    /// What is chosen for every kernel: the plane, the grid in it, what cells are, and who draws random words.
+    /// What is chosen for every kernel: the plane, the grid in it, and what cells are.
     fn choices(&self) -> Choices {
-        plane()
-            .with(grid::Dimension::Plane)
-            .with(grid::Rows::Plain)
-            .with(if self.cells.keeps_energy() { voronoi::Gas::Energy } else { voronoi::Gas::Isothermal })
-            .with(words(self.model.generator))
+        plane().with(grid::Dimension::Plane).with(grid::Rows::Plain).with(if self.cells.keeps_energy() {
+            voronoi::Gas::Energy
+        } else {
+            voronoi::Gas::Isothermal
+        })
     }
 
     /// The form of pressures and mass exchange.
     fn form(&self) -> Choices {
         let keeps_energy = self.cells.keeps_energy();
         let turned = Choices::new().with(Twist::OfFaces);
-        let exchanging = |turning: Turning| {
-            turned
-                .clone()
-                .with(Form::Exchange)
-                .with(turning)
-                .with_if(keeps_energy, SweptEnergy::Limited)
-                .with(Limit::Counted)
-        };
+        let exchanging =
+            || turned.clone().with(Form::Exchange).with_if(keeps_energy, SweptEnergy::Limited).with(Limit::Counted);
         match self.cells.form {
             VoronoiForm::Gradient if self.has_limits() => turned
                 .with(Form::Gradient)
@@ -163,8 +159,7 @@ impl Builder<'_> {
                 .with(if keeps_energy { Sweep::Limited } else { Sweep::Bounded })
                 .with(Limit::Counted),
             VoronoiForm::Gradient => turned.with(Form::Gradient),
-            VoronoiForm::Consistent => exchanging(Turning::Consistent),
-            VoronoiForm::Paper => exchanging(Turning::Paper),
+            VoronoiForm::Consistent | VoronoiForm::Paper => exchanging(),
         }
     }
 

@@ -11,7 +11,7 @@ pub(super) fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
     let (species, kinds) = (scales.model.species.len(), bonds.kinds.len());
     let key = noise::seed_key(scales.model.seed, stream::BOND);
     let relaxes = scales.model.particles().relaxes_bonds(scales.model);
-    let conservative = Choices::new().with_any(potential(bonds));
+    let conservative = Choices::new();
     let forces = if relaxes { conservative.clone() } else { choices(scales.model, bonds) };
     let report = |part, scales| {
         let choices = forces.clone().with(part).with_if(bonds.have_memory(), baths::BondReport::Observed);
@@ -41,6 +41,8 @@ pub(super) fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
             (Constant::Bonds, bonds.count() as f64),
             (Constant::FirstKind, species as f64),
             (Constant::FirstBond, (species + 2 * kinds) as f64),
+            potential(bonds),
+            (Constant::BondBathsNoisy, f64::from(u8::from(are_noisy(bonds)))),
             (Constant::BondStreamX, f64::from(key[0])),
             (Constant::BondStreamY, f64::from(key[1])),
         ],
@@ -94,33 +96,29 @@ pub(in crate::families::particles::plan) fn first_relaxed(model: &Model, bonds: 
     (model.species.len() + 2 * bonds.kinds.len()) as u64 + bonds.count()
 }
 
-/// The cheapest potential that holds those of all bonds.
-fn potential(bonds: &Bonds) -> Option<bonds::Potential> {
+/// The constant that says which potential is the cheapest that holds those of all bonds: `shaders/bonds/bonds.wgsl`.
+fn potential(bonds: &Bonds) -> (Constant, f64) {
     let any = |what: fn(&BondKind) -> bool| bonds.kinds.iter().any(what);
-    if any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. }))) {
-        Some(bonds::Potential::Fene)
-    } else if any(|kind| kind.potential.is_some()) {
-        Some(bonds::Potential::Harmonic)
-    } else {
-        None
-    }
+    let potential = match () {
+        () if any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. }))) => 2.0,
+        () => f64::from(u8::from(any(|kind| kind.potential.is_some()))),
+    };
+    (Constant::BondPotential, potential)
 }
 
-/// The noise of baths of bonds, if any has a temperature.
-pub(in crate::families::particles::plan) fn noise(bonds: &Bonds) -> Choices {
-    let thermal = bonds.kinds.iter().any(|kind| kind.bath.is_some() && kind.temperature > 0.0);
-    Choices::new().with_if(thermal, baths::BondNoise::Gaussian)
+/// Whether baths of bonds draw random numbers.
+fn are_noisy(bonds: &Bonds) -> bool {
+    bonds.kinds.iter().any(|kind| kind.bath.is_some() && kind.temperature > 0.0)
 }
 
-/// The cheapest potential and bath that hold those of all bonds.
+/// The cheapest bath that holds those of all bonds.
 fn choices(model: &Model, bonds: &Bonds) -> Choices {
     let bath = if bonds.have_memory() { baths::Bonds::Memory } else { baths::Bonds::White };
     let reflected = bonds.have_memory() && !model.particles().walls.is_empty();
     Choices::new()
-        .with_any(potential(bonds))
         .with_if(bonds.have_friction(), bath)
+        .with_if(!are_noisy(bonds) && !bonds.have_memory(), baths::BondNoise::Silent)
         .with_if(reflected, bonds::Way::BetweenWalls)
-        .and(&noise(bonds))
 }
 
 /// Words about species and kinds, then the ends and the kind of each bond; where bonds relax those with friction once

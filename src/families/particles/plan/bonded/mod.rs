@@ -4,7 +4,7 @@ mod angles;
 mod bonds;
 mod exclusions;
 
-pub(in crate::families::particles::plan) use bonds::{first_relaxed, noise as noise_of_bonds};
+pub(in crate::families::particles::plan) use bonds::first_relaxed;
 
 use super::species::Species;
 use crate::document::BondPotential;

@@ -2,7 +2,7 @@
 
 use super::{Builder, Masks};
 use crate::families::particles::plan::bonded;
-use crate::plan::{Need, Traversal, words};
+use crate::plan::{Need, Traversal};
 use crate::shaders::{Array, Choices, Constant, Entry, pairs};
 
 impl Builder<'_> {
@@ -19,11 +19,7 @@ impl Builder<'_> {
             let pass = Choices::new().with(pairs::Pass::ForgetForces).with(pairs::ReportedForce::Kept);
             kernels.push(self.traversal("forget_forces", Traversal::Alone, Masks::Unkept, &pass));
         }
-        let choices = self
-            .choices()
-            .and(&bonded::noise_of_bonds(bonds))
-            .with(words(self.model.generator))
-            .with_if(needs_forces, pairs::ReportedForce::Added);
+        let choices = self.choices().with_if(needs_forces, pairs::ReportedForce::Kept);
         let longest = self.longest_bond();
         let mut first = bonded::first_relaxed(self.model, bonds);
         for round in bonds.rounds() {
@@ -31,6 +27,7 @@ impl Builder<'_> {
             let kernel = self.kernel("relax_bonds", Entry::RelaxBonds, choices.clone(), count);
             let own = [(Constant::FirstRelaxed, first as f64), (Constant::Relaxed, count as f64)];
             self.plan.kernels[kernel].constants.extend(own.into_iter().chain(longest));
+            self.adds_forces(kernel, true);
             kernels.push(kernel);
             first += count;
             self.plan.operations_per_particle += 120.0 * count as f64 / self.particles.max(1) as f64;

@@ -45,17 +45,17 @@ impl Builder<'_> {
 
     /// The conservative part of gathered impulses, for a report.
     pub(super) fn conservative(&self) -> Option<couplings::Conservative> {
-        self.gathers_friction().then_some(if self.model.has_potential() {
-            couplings::Conservative::Apart
-        } else {
-            couplings::Conservative::None
-        })
+        (self.gathers_friction() && self.model.has_potential()).then_some(couplings::Conservative::Apart)
+    }
+
+    /// Whether gathered impulses have a conservative part.
+    pub(super) fn gathers_conservative(&self) -> bool {
+        !self.gathers_friction() || self.model.has_potential()
     }
 
     /// Gathers conservative forces at a report beside all others, if both are there.
     pub(super) fn conservative_forces(&self) -> Option<couplings::Forces> {
-        let apart = self.conservative() == Some(couplings::Conservative::Apart);
-        apart.then_some(match self.model.units.dimension {
+        self.conservative().map(|_| match self.model.units.dimension {
             3 => couplings::Forces::Volume,
             _ => couplings::Forces::Plane,
         })

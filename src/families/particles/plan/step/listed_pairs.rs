@@ -2,13 +2,12 @@
 
 use super::gathered::GatheringKernels;
 use super::{Builder, Order};
-use crate::document::{Bath, Integrator};
+use crate::document::Bath;
 use crate::families::BathStep;
 use crate::families::particles::plan::law::law;
 use crate::families::particles::plan::{shear, stress};
-use crate::plan::deviate;
 use crate::shaders::noise::Deviate;
-use crate::shaders::{Choices, Constant, Entry, baths, couplings, pairs};
+use crate::shaders::{Choices, Constant, Entry, baths, couplings};
 
 /// Arithmetic of a pair in the list, and of one within the cutoff with and without memory.
 const LISTED: f64 = 12.0;
@@ -53,19 +52,10 @@ impl Builder<'_> {
         let force = self.force;
         let thermal = force.has_friction() && force.temperature > 0.0;
         let memory = force.remembers();
-        let friction = match self.model.integrator {
-            Integrator::GrootWarren { .. } => pairs::Friction::Velocity,
-            _ => pairs::Friction::DiscreteGradient,
-        };
-        // A bath that remembers keeps the shape of its noise: only a Gaussian one has the right law.
-        let noise = if memory { Deviate::Gaussian } else { deviate(self.model.distribution) };
         law(force)
-            .with_if(self.leaves_pairs_out(), couplings::Exclusions::Listed)
+            .with_if(!thermal, Deviate::Silent)
             .with(if memory { baths::Pairs::Memory } else { baths::Pairs::White })
             .with_if(memory && thermal, baths::PairNoise::Thermal)
-            .with_if(!memory && force.has_friction(), friction)
-            .with_if(!memory && thermal, pairs::Random::Thermal)
-            .with_if(thermal, noise)
     }
 
     /// Whether some listed pairs are excluded from their repulsion.

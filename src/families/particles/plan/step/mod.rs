@@ -15,7 +15,7 @@ mod tethers;
 
 use super::bonded::Scales;
 use super::external;
-use super::law::{law, ranges};
+use super::law::{self, law, ranges};
 use super::own;
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::quanta::quanta;
@@ -24,14 +24,15 @@ use super::shear;
 use super::species::Species;
 use super::walls;
 use super::{
-    Grid, Hardware, Kernel, Measured, Need, Options, PARTICLE, PhysicsPlan, Plan, Quanta, Texture, Traversal, deviate,
-    predicted, texture_candidates, words,
+    Grid, Hardware, Kernel, Measured, Need, Options, PARTICLE, PhysicsPlan, Plan, Quanta, Texture, Traversal,
+    generator, predicted, texture_candidates,
 };
 use crate::document::Integrator;
 use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
 use crate::families::{Bonds, Model, PairForce};
 use crate::noise;
 use crate::plan::{Cells, Layout};
+use crate::shaders::external::Profile;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, baths, couplings, grid, pairs, space};
 
 /// Cells up to which a step ends with the prefix sum for the next one, where lanes are taken one after the other. With 1 000 cells
@@ -207,7 +208,6 @@ impl<'a> Builder<'a> {
         let cutoff = self.force.cutoff;
         let Quanta { energy, pair_energy, force_squared, curvature, .. } = self.plan.quanta;
         let to_force = units.momentum / half;
-        let exponent = self.force.common_weight_exponent().unwrap_or(0.0);
         let capacity = self.frame_capacity();
         let mut constants = self.grid.constants(&units).to_vec();
         constants.extend([
@@ -221,9 +221,7 @@ impl<'a> Builder<'a> {
             (Constant::Workgroup, self.workgroup_size() as f64),
             (Constant::Capacity, (self.slots + capacity) as f64),
             (Constant::Cutoff, cutoff),
-            (Constant::WeightRootExponent, 0.5 * exponent),
             (Constant::Species, self.model.species.len() as f64),
-            (Constant::Repulsions, self.force.repulsion_count() as f64),
             (Constant::DisplacementLimit, self.model.physics().reach(self.model)),
             (Constant::PairEnergy, to_force * cutoff / (4.0 * pair_energy)),
             (Constant::PairVirial, to_force / (2.0 * pair_energy)),
@@ -236,9 +234,16 @@ impl<'a> Builder<'a> {
         if self.model.has_memory() {
             constants.push((Constant::BathSquare, own::inverse(self.plan.quanta.bath_squared)));
         }
-        if let Integrator::GrootWarren { lambda } = self.model.integrator {
-            constants.push((Constant::Prediction, 2.0 * lambda - 1.0));
-        }
+        let (sees, lambda) =
+            if let Integrator::GrootWarren { lambda } = self.model.integrator { (1.0, lambda) } else { (0.0, 0.5) };
+        constants.extend([(Constant::FrictionSees, sees), (Constant::Prediction, 2.0 * lambda - 1.0)]);
+        constants.extend([
+            (Constant::BathsRemember, f64::from(u8::from(self.model.has_memory()))),
+            (Constant::CouplingsConserve, f64::from(u8::from(self.gathers_conservative()))),
+        ]);
+        constants.push(generator(self.model.generator));
+        constants.extend(law::constants(self.model, self.force));
+        constants.extend(self.species.constants());
         let mass = self.species.mass();
         constants.extend([
             (Constant::Drift, self.model.time_step * units.momentum / mass),
@@ -306,26 +311,30 @@ impl<'a> Builder<'a> {
     fn choices(&self) -> Choices {
         self.space()
             .and(&self.species.choices())
-            .with(words(self.model.generator))
             .with_if(self.splits(), space::Drift::Halves)
             .with_if(self.texels, arrays::Sorted::Apart)
             .with_if(self.texels, grid::Sorted::Apart)
             .with_if(self.keeps_probes(), grid::Probes::Kept)
             .with_if(self.gathers(), couplings::Gathered::Kept)
             .with_any(self.conservative())
-            .with_if(matches!(self.model.integrator, Integrator::GrootWarren { .. }), baths::Seen::Velocity)
             .with_if(own::sees_flow(self.model), baths::Flow::Peculiar)
             .with_if(self.is_bonded() && self.order == Order::EveryStep, couplings::Slots::Kept)
-            .with_any(external::profile(self.model))
+            .with_if(self.can_do_without_table(), Profile::None)
             .and(&walls::choices(self.model))
             .and(&shear::choices(self.model, self.species.have_table()))
             .and(&self.of_order())
             .and(&self.of_rank())
     }
 
-    /// The vector space, the grid in it and the stored particle.
+    /// Whether kernels that drift particles need no table of species: it has neither masses nor body forces.
+    fn can_do_without_table(&self) -> bool {
+        let driven = self.model.particles().body_forces.is_some();
+        self.species.have_table() && self.species.have_one_mass() && !driven
+    }
+
+    /// The vector space and the grid in it.
     fn space(&self) -> Choices {
-        let choices = match self.model.units.dimension {
+        match self.model.units.dimension {
             3 => Choices::new()
                 .with(space::Dimension::Three)
                 .with(grid::Dimension::Volume)
@@ -334,9 +343,7 @@ impl<'a> Builder<'a> {
                 .with(if dimension == 1 { space::Dimension::One } else { space::Dimension::Two })
                 .with(grid::Dimension::Plane)
                 .with(pairs::Prefilter::Plane),
-        };
-        let predicted = predicted(self.model);
-        choices.with(if predicted { space::Particle::Predicted } else { space::Particle::Plain })
+        }
     }
 
     /// What kernels choose by the order of particles.
@@ -450,30 +457,13 @@ impl<'a> Builder<'a> {
 
     /// The pair force.
     fn law(&self) -> Choices {
-        let force = self.force;
-        let frictional = force.largest_friction() > 0.0;
-        let choices = law(force)
-            .with_if(force.many_body.is_some(), pairs::Separation::Noted)
-            .with(if self.is_sheared() {
-                pairs::PrefilterSource::Sheared
-            } else if self.keeps_probes() {
-                pairs::PrefilterSource::Words
-            } else {
-                pairs::PrefilterSource::Positions
-            })
-            .with_any(frictional.then_some(match self.model.integrator {
-                Integrator::Splitting { .. } if self.relaxes_in_two_stages() => pairs::Friction::Stages,
-                Integrator::Splitting { .. } | Integrator::Gyro {} | Integrator::Rotate {} | Integrator::Euler {} => {
-                    pairs::Friction::Relaxation
-                }
-                Integrator::CotterReich {} => pairs::Friction::DiscreteGradient,
-                Integrator::GrootWarren { .. } => pairs::Friction::Velocity,
-            }));
-        if frictional && force.temperature > 0.0 {
-            choices.with(pairs::Random::Thermal).with(deviate(self.model.distribution))
+        law(self.force).with(if self.is_sheared() {
+            pairs::PrefilterSource::Sheared
+        } else if self.keeps_probes() {
+            pairs::PrefilterSource::Words
         } else {
-            choices
-        }
+            pairs::PrefilterSource::Positions
+        })
     }
 
     /// A kernel that visits all pairs.

@@ -145,8 +145,12 @@ impl Builder<'_> {
         };
         // Copies are forgotten at the end of the step.
         let own = part.domains.first().map_or(cells, |own| own.cells_around(self.grid.cells));
-        let edges = self.rows_of_part(edges, own, masks, &pass.clone().with(pairs::Visited::Edges));
-        vec![edges, self.rows_of_part(inner, cells, masks, pass)]
+        let edges = self.rows_of_part(edges, own, masks, pass);
+        let inner = self.rows_of_part(inner, cells, masks, pass);
+        for (kernel, is_first) in [(edges, 1.0), (inner, 0.0)] {
+            self.plan.kernels[kernel].constants.push((Constant::Edges, is_first));
+        }
+        vec![edges, inner]
     }
 
     /// A kernel that visits the pairs of particles in some rows of cells.

@@ -3,7 +3,7 @@
 use super::{Builder, Masks};
 use crate::families::particles::plan::position_bath;
 use crate::plan::{Need, Traversal};
-use crate::shaders::{Choices, Constant, baths, pairs};
+use crate::shaders::{Choices, Constant, pairs};
 
 impl Builder<'_> {
     /// The kernel that relaxes the momenta of particles, if they have a bath; it leaves its part of the forces where an
@@ -12,15 +12,13 @@ impl Builder<'_> {
         if !self.relaxes_particles() {
             return Vec::new();
         }
-        let thermal = self.model.particles().position_bath.as_ref().is_some_and(|bath| bath.temperature > 0.0);
         let pass = Choices::new()
             .with(pairs::Pass::RelaxParticles)
-            .with(crate::plan::words(self.model.generator))
-            .with_if(thermal, baths::PositionNoise::Gaussian)
-            .with_if(self.measured.needs(Need::Forces), pairs::ReportedForce::Kept)
-            .with_if(self.reports_own_forces(), pairs::ReportedForce::Added);
+            .with_if(self.measured.needs(Need::Forces), pairs::ReportedForce::Kept);
         self.plan.operations_per_particle += 60.0;
-        vec![self.traversal("relax_particles", Traversal::Alone, Masks::Unkept, &pass)]
+        let kernel = self.traversal("relax_particles", Traversal::Alone, Masks::Unkept, &pass);
+        self.adds_forces(kernel, self.reports_own_forces());
+        vec![kernel]
     }
 
     /// The constants of that kernel; where there is a table, the rest of them are its entries.

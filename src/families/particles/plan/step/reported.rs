@@ -3,7 +3,7 @@
 use super::{Builder, Order};
 use crate::families::particles::plan::shear;
 use crate::plan::{Need, Ordered, Reported};
-use crate::shaders::{Array, pairs, space};
+use crate::shaders::{Array, pairs};
 
 impl Builder<'_> {
     /// The particles of a report.
@@ -13,8 +13,6 @@ impl Builder<'_> {
         Reported {
             choices: self
                 .space()
-                // What is reported aside has no predicted momentum.
-                .with_if(aside, space::Particle::Plain)
                 .and(&self.species.choices())
                 .and(&shear::of_species(self.model, self.species.have_table()))
                 .with_if(sheared, pairs::Apart::Sheared),

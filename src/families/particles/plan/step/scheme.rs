@@ -6,7 +6,7 @@ use crate::families::particles::sums::sums;
 use crate::plan::{Need, Traversal};
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, pairs};
 
-/// Friction and noise of the two stages of a relaxation: shaders/pairs/friction/stages.wgsl.
+/// Friction and noise of the two stages of a relaxation: shaders/pairs/friction.wgsl.
 ///
 /// (1 - α₁h)(1 - α₂h) = 1 - h + bh² for a mode of eigenvalue h, which has the noise β₁(1 - α₂h) + β₂ = 1 - (1 + 2b)h/4
 /// times √(2kT h). Its temperature is kT (1 - .298h)²/(1 - .595h + .095h² - .0045h³): within 1.1 % up to h = 2.
@@ -105,15 +105,10 @@ impl Builder<'_> {
         let relax_to_report = self.traversal("relax_to_report", last, Masks::Kept, &to_the_report);
         self.plan.kernels[relax_to_report].constants.push((Constant::Halves, 1.0));
         let earlier = self.relaxes_in_two_stages() || self.leaves_forces();
-        let added = (earlier && kept.has(pairs::ReportedForce::Kept)).then_some(pairs::ReportedForce::Added);
         let remembered = if own::remembers(self.model) { own::report_choices(self.model) } else { Choices::new() };
-        let seen = kept
-            .clone()
-            .with_any(added)
-            .with(pairs::Pass::ObserveMotion)
-            .and(&remembered)
-            .with_if(self.model.has_memory(), core::BathTotals::Apart);
+        let seen = kept.clone().with(pairs::Pass::ObserveMotion).and(&remembered);
         let motion = self.observation("report_motion", 0, seen);
+        self.adds_forces(motion, earlier);
         let configuration = self.observation("report_configuration", 0, with(pairs::Pass::ObserveConfiguration));
         let choices = self.choices().and(&walls::booking(self.model));
         let rest = self.kernel("drift_rest", Entry::DriftRest, choices, self.slots);
@@ -176,6 +171,13 @@ impl Builder<'_> {
         self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model) || self.reports_own_forces()
     }
 
+    /// Says whether a kernel of a report adds its forces to those that an earlier one has left.
+    pub(super) fn adds_forces(&mut self, kernel: usize, adds: bool) {
+        if adds && self.measured.needs(Need::Forces) {
+            self.plan.kernels[kernel].constants.push((Constant::ForcesBegun, 1.0));
+        }
+    }
+
     /// Makes the first of two stages of friction, which leaves momenta for these kernels, those of the second; and its
     /// report.
     fn first_stage(&mut self, second: &[usize], kept: &Choices) -> [usize; 2] {
@@ -185,9 +187,9 @@ impl Builder<'_> {
             .with_if(self.texels, pairs::Staged::Apart)
             .with_if(self.texels, arrays::StagedMomenta::Texture);
         let first = self.traversal("relax_first", self.traversal, Masks::Kept, &pass);
-        let later = self.leaves_forces() && kept.has(pairs::ReportedForce::Kept);
-        let kept = kept.clone().with_if(later, pairs::ReportedForce::Added);
-        let report = self.observation("report_first_stage", 0, kept.with(pairs::Pass::ObserveFirstStage));
+        let seen = kept.clone().with(pairs::Pass::ObserveFirstStage);
+        let report = self.observation("report_first_stage", 0, seen);
+        self.adds_forces(report, self.leaves_forces());
         let [first_stage, second_stage] = stages();
         for kernel in [first, report] {
             self.plan.kernels[kernel].constants.extend(first_stage);

@@ -1,0 +1,2 @@
+// Baths of bonds draw nothing.
+fn prepare_bond_noise() {}

@@ -1,0 +1,2 @@
+// Pairs draw nothing.
+fn prepare_pair_noise() {}
