@@ -9,7 +9,6 @@
 // - mesh/spline: order of the splines, 1 to 3, with moments and polynomials. Variants linear, quadratic, cubic.
 // - mesh/nodes: the surface on the nodes under a cell's splines. mesh/spread: the masses of the nodes from those of a cell.
 //   Variants by order; cubic_of_eight shares loads and stores among the cells of a strip.
-// - water/drift: `closed` and `opened`, the step of a free particle. Variants rotate, gyro; the plan follows the integrator.
 
 // Slot water/sorted: begins a step that no sort has begun.
 // Default: the step begins here. The plan chooses `by_sort` where particles are sorted.

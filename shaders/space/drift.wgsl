@@ -3,16 +3,12 @@
 // Slots of space, none of which has a default:
 // - space/dimension: the types `Fraction` (position, 2^-32 of the box), `Steps` (integer momentum or displacement) and `Vector`
 //   (real numbers), and conversions between them and stored words. Variants one, two, three; plans follow the box of the scene.
-// - space/particle: the stored particle. Variants plain, predicted (friction sees a predicted momentum: lambda other than 1/2).
 // - space/mass: masses, and what depends on them in a pair: `inverse_mass_of` belongs to the velocity of a particle, `yielding_of` to
-//   the impulses on it; `pair_rate` is even under exchange to the last bit. Variants one, by_species, beside_held; chosen by
+//   the impulses on it; `pair_rate` is even under exchange to the last bit. Variants one, by_species; chosen by
 //   src/families/particles/plan/species.rs.
-// - space/relative_motion: the velocity of a pair relative to each other, odd under exchange to the last bit; where all have one mass, their
-//   momentum. Variants momenta, velocities, and sheared_momenta, sheared_velocities if the scene has shear; chosen by the same.
 // - space/mass_of_particle: the inverse mass for analyses. Variants of_species; own (Voronoi cells).
 // - space/coefficients: repulsion, friction and noise of a pair, even under exchange, the position bath of a species and the body
-//   force on it, all in integer momentum units. Variants single, table, ranges (pairs of species with cutoffs or exponents of their
-//   own); chosen by src/plan/species.rs.
+//   force on it, all in integer momentum units. Variants single, table; chosen by src/families/particles/plan/species.rs.
 
 // What the sums of impulses hold.
 const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27 units: several of them still fit

@@ -102,6 +102,11 @@ impl Kernel {
     }
 }
 
+/// A constant of a law that is there or not: compilers leave out what is not.
+pub(crate) fn switch(constant: Constant, on: bool) -> (Constant, f64) {
+    (constant, if on { 1.0 } else { 0.0 })
+}
+
 /// The constant that says what draws random words: `shaders/noise/generators.wgsl`.
 pub(crate) fn generator(generator: Generator) -> (Constant, f64) {
     (Constant::Generator, if generator == Generator::Threefry2x32 { 0.0 } else { 1.0 })

@@ -24,7 +24,7 @@ pub use compared::Compared;
 pub use failure::{Failure, FailureKind};
 pub use grid::Grid;
 pub use kernel::Kernel;
-pub(crate) use kernel::{folded, generator};
+pub(crate) use kernel::{folded, generator, switch};
 pub(crate) use layout::content;
 pub use layout::{Layout, Length, Misfit, Places, StateLayout};
 pub use options::{Hardware, Options, Storage, Traversal};

@@ -2,6 +2,7 @@
 
 use crate::document::{Distribution, Integrator};
 use crate::families::{Model, PairForce};
+use crate::plan::switch;
 use crate::shaders::{Choices, Constant, pairs};
 
 /// The repulsion that needs the local densities, if there is one.
@@ -29,10 +30,9 @@ pub(super) fn constants(model: &Model, force: &PairForce) -> [(Constant, f64); 6
         Distribution::Uniform if !force.remembers() => 1.0,
         _ => 2.0,
     };
-    let is = |condition: bool| f64::from(u8::from(condition));
     [
-        (Constant::Repulsive, is(force.is_conservative())),
-        (Constant::Ranged, is(have_ranges(force))),
+        switch(Constant::Repulsive, force.is_conservative()),
+        switch(Constant::Ranged, have_ranges(force)),
         (Constant::WeightRootExponent, 0.5 * force.common_weight_exponent().unwrap_or(0.0)),
         (Constant::FrictionLaw, friction),
         (Constant::Distribution, distribution),

@@ -2,6 +2,7 @@
 
 use crate::families::Model;
 use crate::noise::{self, stream};
+use crate::plan::switch;
 use crate::shaders::Constant;
 
 /// The key of their stream over all steps, and whether they draw any.
@@ -9,7 +10,7 @@ pub(super) fn stream(model: &Model) -> [(Constant, f64); 3] {
     let key = noise::seed_key(model.seed, stream::PARTICLE);
     let noisy = model.particles().position_bath.as_ref().is_some_and(|bath| bath.temperature > 0.0);
     [
-        (Constant::PositionBathsNoisy, f64::from(u8::from(noisy))),
+        switch(Constant::PositionBathsNoisy, noisy),
         (Constant::ParticleStreamX, f64::from(key[0])),
         (Constant::ParticleStreamY, f64::from(key[1])),
     ]

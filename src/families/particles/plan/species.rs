@@ -2,6 +2,7 @@
 
 use super::law::have_ranges;
 use crate::families::{self, Model};
+use crate::plan::switch;
 use crate::shaders::space::{Coefficients, Held, Mass, MassOfParticle, Measured, RelativeMotion};
 use crate::shaders::{Choices, Constant};
 
@@ -68,7 +69,6 @@ impl Species {
 
     /// The constants that say whose masses differ, and whether some particles do not move.
     pub fn constants(self) -> [(Constant, f64); 2] {
-        let is = |condition: bool| f64::from(u8::from(condition));
-        [(Constant::OneMass, is(self.have_one_mass())), (Constant::Held, is(self.held))]
+        [switch(Constant::OneMass, self.have_one_mass()), switch(Constant::Held, self.held)]
     }
 }

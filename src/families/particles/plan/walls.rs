@@ -3,7 +3,7 @@
 
 use crate::document::Reflection;
 use crate::families::{Model, PlaneWalls};
-use crate::plan::{Kernel, Plan, Sums};
+use crate::plan::{Kernel, Plan, Sums, switch};
 use crate::shaders::{Array, Choices, Constant, Entry, Sum, external, space};
 
 /// What a model has that takes up momentum: its walls, and boundaries that shear as one.
@@ -24,7 +24,7 @@ pub(super) fn booking(model: &Model) -> Choices {
 
 /// Adds the constants of the walls.
 pub(super) fn add_constants(model: &Model, plan: &mut Plan) {
-    plan.constants.push((Constant::Frozen, f64::from(u8::from(model.has_frozen_particles()))));
+    plan.constants.push(switch(Constant::Frozen, model.has_frozen_particles()));
     let walls = &model.particles().walls;
     if walls.is_empty() {
         return;
@@ -47,7 +47,7 @@ pub(super) fn add_constants(model: &Model, plan: &mut Plan) {
         (Constant::SlideX, slide(0)),
         (Constant::SlideY, slide(1)),
         (Constant::SlideZ, slide(2)),
-        (Constant::WallsMove, f64::from(u8::from(model.particles().walls_move()))),
+        switch(Constant::WallsMove, model.particles().walls_move()),
         (Constant::LowerXY, push(0, 0, 1)),
         (Constant::LowerXZ, push(0, 0, 2)),
         (Constant::LowerYX, push(1, 0, 0)),

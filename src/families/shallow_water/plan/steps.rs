@@ -12,7 +12,7 @@ use crate::document::Integrator;
 use crate::families::shallow_water::{Bins, WaterLayout, observables};
 use crate::families::{Model, ShallowWater};
 use crate::noise;
-use crate::plan::ProductQuanta;
+use crate::plan::{ProductQuanta, switch};
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, grid, mesh, water};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -197,7 +197,7 @@ impl Builder<'_> {
             (Constant::FirstTracer, carriers),
             (Constant::KickX, kick(0)),
             (Constant::KickY, kick(1)),
-            (Constant::Gyrates, f64::from(u8::from(self.gyrates()))),
+            switch(Constant::Gyrates, self.gyrates()),
             (Constant::ChordX, chord * fraction(0)),
             (Constant::ChordY, chord * fraction(1)),
             (Constant::SagittaX, sagitta * fraction(0)),

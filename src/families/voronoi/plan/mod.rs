@@ -18,7 +18,7 @@ use crate::families::particles::plan::quanta;
 use crate::families::voronoi::CellLayout;
 use crate::families::{Model, Voronoi};
 use crate::noise::stream;
-use crate::plan::{Grid, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, generator};
+use crate::plan::{Grid, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, generator, switch};
 use crate::shaders::exchange::{Form, Limit, Sweep, SweptEnergy, TurnBound, Twist};
 use crate::shaders::{Array, Choices, Constant, Entry, grid, space, voronoi};
 
@@ -83,7 +83,7 @@ impl Builder<'_> {
         let unit = |axis: usize| units.lengths[axis] / 4_294_967_296.0;
         self.plan.constants = vec![
             generator(self.model.generator),
-            (Constant::AsPrinted, f64::from(u8::from(cells.form == VoronoiForm::Paper))),
+            switch(Constant::AsPrinted, cells.form == VoronoiForm::Paper),
             (Constant::UnitX, unit(0)),
             (Constant::UnitY, unit(1)),
             (Constant::CellsX, f64::from(self.grid.cells[0])),

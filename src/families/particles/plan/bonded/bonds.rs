@@ -4,7 +4,7 @@ use super::{Bonded, Observed, Scales};
 use crate::document::BondPotential;
 use crate::families::{BondKind, Bonds, Model};
 use crate::noise::{self, stream};
-use crate::plan::{Plan, Words};
+use crate::plan::{Plan, Words, switch};
 use crate::shaders::{Array, Choices, Constant, Entry, baths, bonds};
 
 pub(super) fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
@@ -42,7 +42,7 @@ pub(super) fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
             (Constant::FirstKind, species as f64),
             (Constant::FirstBond, (species + 2 * kinds) as f64),
             potential(bonds),
-            (Constant::BondBathsNoisy, f64::from(u8::from(are_noisy(bonds)))),
+            switch(Constant::BondBathsNoisy, are_noisy(bonds)),
             (Constant::BondStreamX, f64::from(key[0])),
             (Constant::BondStreamY, f64::from(key[1])),
         ],
@@ -99,9 +99,12 @@ pub(in crate::families::particles::plan) fn first_relaxed(model: &Model, bonds: 
 /// The constant that says which potential is the cheapest that holds those of all bonds: `shaders/bonds/bonds.wgsl`.
 fn potential(bonds: &Bonds) -> (Constant, f64) {
     let any = |what: fn(&BondKind) -> bool| bonds.kinds.iter().any(what);
-    let potential = match () {
-        () if any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. }))) => 2.0,
-        () => f64::from(u8::from(any(|kind| kind.potential.is_some()))),
+    let potential = if any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. }))) {
+        2.0
+    } else if any(|kind| kind.potential.is_some()) {
+        1.0
+    } else {
+        0.0
     };
     (Constant::BondPotential, potential)
 }

@@ -31,7 +31,7 @@ use crate::document::Integrator;
 use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
 use crate::families::{Bonds, Model, PairForce};
 use crate::noise;
-use crate::plan::{Cells, Layout};
+use crate::plan::{Cells, Layout, switch};
 use crate::shaders::external::Profile;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, baths, couplings, grid, pairs, space};
 
@@ -238,8 +238,8 @@ impl<'a> Builder<'a> {
             if let Integrator::GrootWarren { lambda } = self.model.integrator { (1.0, lambda) } else { (0.0, 0.5) };
         constants.extend([(Constant::FrictionSees, sees), (Constant::Prediction, 2.0 * lambda - 1.0)]);
         constants.extend([
-            (Constant::BathsRemember, f64::from(u8::from(self.model.has_memory()))),
-            (Constant::CouplingsConserve, f64::from(u8::from(self.gathers_conservative()))),
+            switch(Constant::BathsRemember, self.model.has_memory()),
+            switch(Constant::CouplingsConserve, self.gathers_conservative()),
         ]);
         constants.push(generator(self.model.generator));
         constants.extend(law::constants(self.model, self.force));
