@@ -1,6 +1,6 @@
 #!/bin/sh
-# Lines of `src` that are neither blank, comments nor tests, and lines of shaders that are neither blank nor comments: what a change adds or
-# takes away. `sh .ci/lines.sh [DIRECTORY]`
+# Counts lines of `src` that are neither blank, comments nor tests, and lines of shaders that are neither blank nor
+# comments: the size of a change is the difference. `sh .ci/lines.sh [DIRECTORY]`
 cd "${1:-$(dirname "$0")/..}" || exit 1
 
 # An item under `#[cfg(test)]` ends with a line that closes it at the indentation at which it begins.

@@ -74,7 +74,7 @@ fn visit_bond(bond: u32) {
 }
 
 // The potential of a bond at a length, even under exchange.
-override BOND_POTENTIAL: u32; // the cheapest that holds those of all bonds: 0 is none, 1 harmonic, 2 one that limits the extension
+override BOND_POTENTIAL: u32; // the cheapest that holds all: 0 is none, 1 harmonic, 2 limits the extension
 
 struct Stretch {
     force: f32,     // impulse of half a step away from each other

@@ -32,7 +32,7 @@ fn position_impulse(bath: Vector) -> Vector { return bath; }
 fn keep_position_bath(id: u32, bath: Vector) {}
 fn kept_position_bath(id: u32) -> Vector { return Vector(0.0); }
 
-override FRICTION_SEES: u32; // without memory: 0 the drift of the last step, 1 velocities, predicted ones where there are any
+override FRICTION_SEES: u32; // without memory: 0 the drift of the last step, 1 velocities, predicted if there are any
 
 // The drift that friction without memory sees of a particle.
 fn drift_seen(me: Particle) -> Vector {

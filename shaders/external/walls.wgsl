@@ -91,7 +91,8 @@ fn fly_all(start: Flight, species: i32) -> Flight {
 }
 
 override WALLS_MOVE: u32; // 1 where any does
-// Twice the velocity of each wall, as momentum of a unit of mass: of the lower and of the upper wall across an axis, along each other axis.
+// Twice the velocity of each wall, as momentum of a unit of mass: of the lower and of the upper wall across an axis,
+// along each other axis.
 override LOWER_X_Y: f32;
 override LOWER_X_Z: f32;
 override LOWER_Y_X: f32;
@@ -105,7 +106,8 @@ override UPPER_Y_Z: f32;
 override UPPER_Z_X: f32;
 override UPPER_Z_Y: f32;
 
-// The momentum that a particle of a species gains from the motion of a wall that reverses it, in integer momentum units.
+// The momentum that a particle of a species gains from the motion of a wall that reverses it, in integer momentum
+// units.
 fn wall_push(axis: u32, upper: bool, species: i32) -> Steps {
     if (WALLS_MOVE == 0u) { return Steps(0); }
     let x = select(vec3<f32>(0.0, LOWER_X_Y, LOWER_X_Z), vec3<f32>(0.0, UPPER_X_Y, UPPER_X_Z), upper);

@@ -1,5 +1,5 @@
-// The key of the random words that an invocation draws in this step. It is read once an invocation: the compiler cannot cache a buffer
-// that is also written.
+// The key of the random words that an invocation draws in this step. It is read once an invocation: the compiler cannot
+// cache a buffer that is also written.
 var<private> noise_key: vec2<u32>;
 
 // Slot voronoi/noise_key: `prepare_noise` loads it for faces of Voronoi cells, chosen by the plans of that family.

@@ -17,7 +17,8 @@ fn way_between(position: vec4<u32>, other: vec4<u32>) -> Steps {
 }
 fn copy_drift(position: vec4<u32>, other: vec4<u32>) -> Steps { return Steps(0); }
 
-// The ids of the pair whose separation was taken last: local densities are found by them, and compilers remove them where nothing is.
+// The ids of the pair whose separation was taken last: local densities are found by them, and compilers remove them
+// where nothing is.
 var<private> pair_ids: vec2<u32>;
 
 // The same as a length.

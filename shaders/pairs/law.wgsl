@@ -1,8 +1,8 @@
 // The law of a pair: impulses along the line of centres, in integer momentum units, positive where they push the particles apart.
 // All are even under exchange to the last bit, so that both ends round the same number. Defaults: off.
 //
-// The conservative force, all of it proportional to `c.repulsion`. `repulsion_impulse` is the impulse of half a step at w, for steps;
-// `repulsion_of` is what a report needs of the same force.
+// The conservative force, all of it proportional to `c.repulsion`. `repulsion_impulse` is the impulse of half a step at
+// w, for steps; `repulsion_of` is what a report needs of the same force.
 override REPULSIVE: u32; // 0 where no pair has a repulsion
 
 struct Repulsion {
@@ -20,8 +20,8 @@ fn repulsion_of(c: Coefficients, contact: Contact) -> Repulsion {
     return with_many_body(soft_repulsion(c, contact), contact);
 }
 
-// The soft repulsion of dissipative particle dynamics, linear in w = 1 - r/rc: V = a rc/2 w^2, -V' = a w, V'' = a/rc. Where pairs have
-// ranges of their own, it is those of the pair that was looked up last, each with its cutoff.
+// The soft repulsion of dissipative particle dynamics, linear in w = 1 - r/rc: V = a rc/2 w^2, -V' = a w, V'' = a/rc.
+// Where pairs have ranges of their own, it is those of the pair that was looked up last, each with its cutoff.
 override REPULSIONS: u32; // of a pair at most
 
 fn soft_impulse(c: Coefficients, w: f32) -> f32 {
@@ -59,7 +59,8 @@ fn soft_repulsion_within(at_contact: f32, stretch: f32, contact: Contact) -> Rep
     return Repulsion(impulse, impulse * w / stretch, select(0.0, laplacian, acts));
 }
 
-// Slot pairs/many_body: a repulsion beside it that grows with the local density. The plan chooses `of_densities` if there is one.
+// Slot pairs/many_body: a repulsion beside it that grows with the local density. The plan chooses `of_densities` if
+// there is one.
 fn with_many_body_impulse(impulse: f32, w: f32) -> f32 { return impulse; }
 fn with_many_body(other: Repulsion, contact: Contact) -> Repulsion { return other; }
 

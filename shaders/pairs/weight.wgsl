@@ -1,5 +1,5 @@
-// The weight of friction and noise: omega = w^(2s) with w = 1 - r/rc of the friction of a pair, its root, and the coupling function
-// phi with phi' = root of omega, zero at the cutoff and beyond. `w` is that of the largest cutoff.
+// The weight of friction and noise: omega = w^(2s) with w = 1 - r/rc of the friction of a pair, its root, and the
+// coupling function phi with phi' = root of omega, zero at the cutoff and beyond. `w` is that of the largest cutoff.
 override WEIGHT_ROOT_EXPONENT: f32; // s of all pairs: that of the standard weight is 1; 0 where pairs differ
 
 fn root_weight(w: f32) -> f32 {
@@ -17,8 +17,9 @@ fn coupling(w: f32) -> f32 {
 // Pairs of species may have ranges of their own: cutoffs or exponents that differ, or several repulsions.
 override RANGED: u32; // 1 where they have
 
-// Those of the pair whose coefficients were looked up last, which callers do first: the largest cutoff over that of its friction, half
-// the exponent of its weight, and the largest cutoff over that of its repulsion. Symmetric, so that both ends of a pair have the same.
+// Those of the pair whose coefficients were looked up last, which callers do first: the largest cutoff over that of its
+// friction, half the exponent of its weight, and the largest cutoff over that of its repulsion. Symmetric, so that both
+// ends of a pair have the same.
 var<private> pair_range: vec4<f32>;
 
 fn friction_closeness(w: f32) -> f32 {

@@ -8,7 +8,7 @@
 //   src/families/particles/plan/species.rs.
 // - space/mass_of_particle: the inverse mass for analyses. Variants of_species; own (Voronoi cells).
 // - space/coefficients: repulsion, friction and noise of a pair, even under exchange, the position bath of a species and the body
-//   force on it, all in integer momentum units. Variants single, table; chosen by src/families/particles/plan/species.rs.
+//   force on it, all in integer momentum units. Variants single, table; chosen by the same.
 
 // What the sums of impulses hold.
 const IMPULSE_LIMIT: f32 = 134217728.0; // 2^27 units: several of them still fit

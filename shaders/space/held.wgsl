@@ -25,30 +25,3 @@ fn is_measured(id: u32) -> bool { return id < PARTICLES; }
 fn is_held(me: Particle) -> bool { return yielding_of(species_of(me)) == 0.0; }
 // The part of what two particles have in common that belongs to those that can move.
 fn mobile_share(me: Particle, other: Particle) -> f32 { return 0.5 * (mobile_part(me) + mobile_part(other)); }
-
-// Walls absorb the impulses on the particles that are frozen behind them, see external/layers; others are fixed in space.
-override FROZEN: u32;           // 1 where some are frozen
-override FROZEN_SUMS: u32 = 0u; // the place of the sums of their walls in a report: three components for the lower wall, then the upper one
-var<private> absorbed: array<vec2<u32>, 6>; // of each invocation
-
-fn absorb(me: Particle, impulse: Steps) {
-    if (FROZEN == 0u) { return; }
-    is_booked = is_own(me.position);
-    let place = fraction_of(me.position);
-    let axis = wall_behind(place);
-    if (axis < DIMENSION && any(impulse != Steps(0))) { note_reflection(axis, is_behind_upper(place, axis), impulse); }
-}
-// The momentum that a frozen particle would have gained at the report point counts as absorbed by its wall.
-fn report_absorbed(me: Particle, impulse: Steps) {
-    if (FROZEN == 0u) { return; }
-    let place = fraction_of(me.position);
-    let axis = wall_behind(place);
-    if (axis == DIMENSION) { return; }
-    let gained = momentum_word(impulse, 0);
-    let first = select(0u, 3u, is_behind_upper(place, axis));
-    for (var k = 0u; k < 3u; k++) { absorbed[first + k] = sum64_add(absorbed[first + k], sum64_of_i32(gained[k])); }
-}
-fn reduce_absorbed(group: u32, lane: u32) {
-    if (FROZEN == 0u) { return; }
-    for (var k = 0u; k < 6u; k++) { reduce_quantity(FIRST_GROUP + group, lane, FROZEN_SUMS + k, absorbed[k]); }
-}

@@ -5,9 +5,9 @@ struct Particle {
     momentum: vec4<i32>,
 }
 
-// 2 lambda - 1: the part of the opening half kick by which the momentum is predicted that friction sees. Zero unless an integrator
-// predicts one. The upper bits of momentum.w then hold what the prediction adds, three components of six bits with a common
-// exponent; `src/prediction.rs` does the same.
+// 2 lambda - 1: the part of the opening half kick by which the momentum is predicted that friction sees. Zero unless an
+// integrator predicts one. The upper bits of momentum.w then hold what the prediction adds, three components of six
+// bits with a common exponent; `src/prediction.rs` does the same.
 override PREDICTION: f32;
 
 // Within a step, the upper bits of the species' word carry what one pass leaves for the next.

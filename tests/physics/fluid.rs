@@ -326,8 +326,8 @@ fn a_plane_has_the_temperature_of_its_bath() {
 #[test]
 fn species_share_the_temperature_and_speeds_are_maxwells() {
     let mixture = r#"particles=[{"species":"A","number_density":1.5},{"species":"B","number_density":1.5,"mass":10}]"#;
-    // Strong friction, for heavy particles come to equilibrium slowly. Few kicks then make up a velocity: uniform noise leaves
-    // ⟨v⁴⟩ a hundredth low.
+    // Strong friction, for heavy particles come to equilibrium slowly. Few kicks then make up a velocity: uniform noise
+    // leaves ⟨v⁴⟩ a hundredth low.
     let gaussian = r#"noise={"generator":"pcg4d","distribution":"gaussian"}"#;
     let changes =
         [SPLITTING, mixture, gaussian, "time.step=0.02", "interactions.0.friction=18", "output.energies.every=20"];

@@ -1,5 +1,5 @@
-//! Random scenes on random hardware: what they request links, is valid, and finds its constants and arrays. Combinations of three and more
-//! features request kernels that no plan of the list (`variants.rs`) has.
+//! Random scenes on random hardware: their kernels link, are valid, and find their constants and arrays. Combinations
+//! of three and more features request kernels that no plan of the list (`variants.rs`) has.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -87,7 +87,8 @@ fn interactions(draws: &mut Draws, dimension: usize, chained: bool, memory: &Val
     let mut interactions = Vec::new();
     if !draws.one_in(5) {
         let mut pairs = json!({
-            "type": "dpd", "repulsion": draws.one_of(&[0.0, 25.0, 25.0]), "friction": draws.one_of(&[0.0, 4.5, 4.5, 4.5, 40.0]),
+            "type": "dpd", "repulsion": draws.one_of(&[0.0, 25.0, 25.0]),
+            "friction": draws.one_of(&[0.0, 4.5, 4.5, 4.5, 40.0]),
         });
         if draws.one_in(5) {
             pairs["bath"] = memory.clone();
@@ -181,7 +182,8 @@ fn output(draws: &mut Draws, across: &str) -> Value {
     output
 }
 
-/// What is wrong with kernels of random scenes, each with the scene that requests it. Tells how many of them no plan of the list has.
+/// Mistakes in kernels of random scenes, each with the scene that requests it. Prints how many kernels no plan of the
+/// list has.
 fn complaints(accepted: usize, seed: u64) -> BTreeMap<String, String> {
     let mut draws = Draws(StdRng::seed_from_u64(seed));
     let known = hashes();

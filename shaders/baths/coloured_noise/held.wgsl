@@ -1,7 +1,8 @@
 // A random force on every particle that is constant for random times, independent of the time step: its impulses are integrals
 // over all jumps, wherever within a step they come.
 //
-// `jump_after` of baths/jump gives the next force and how long it lasts, in half steps, from an id and the number of the jump.
+// `jump_after` of baths/jump gives the next force and how long it lasts, in half steps, from an id and the number of
+// the jump.
 override HOLD_IMPULSE: f32; // impulse of half a step per force
 
 // Time is counted in half steps; `halves` whole ones and a `fraction` are left of the force.

@@ -30,7 +30,7 @@ fn carried_energy(facet: Facet, twist: Vector, mass: f32, mine: Side, theirs: Si
 // The form as printed has faces turn at half the rate, and mass the arithmetic mean of the densities.
 override AS_PRINTED: u32;
 
-// Of faces, over that which follows from the geometry.
+// The rate at which faces turn, over the rate that follows from the geometry.
 fn turning_rate() -> f32 { return select(1.0, 0.5, AS_PRINTED == 1u); }
 
 // The logarithmic mean of the densities.

@@ -12,7 +12,9 @@ fn held_momentum(me: Particle, momentum: Steps) -> Steps {
 fn held_kick(me: Particle, kick: Steps) -> Steps { return select(kick, Steps(0), is_still(me)); }
 fn share_of_bond(bond: Ends) -> f32 { return 0.5 * (mobile_part_of_end(bond.me) + mobile_part_of_end(bond.other)); }
 fn mobile_part_of_end(end: Particle) -> f32 { return select(1.0, 0.0, HELD == 1u && drift_of_end(end) <= 0.0); }
-fn kick_of_end(end: Particle, kick: Steps) -> Steps { return select(kick, Steps(0), HELD == 1u && drift_of_end(end) <= 0.0); }
+fn kick_of_end(end: Particle, kick: Steps) -> Steps {
+    return select(kick, Steps(0), HELD == 1u && drift_of_end(end) <= 0.0);
+}
 
 fn report_motion(me: Particle, momentum: Steps, virial: Sum64) {
     if (is_still(me)) {
@@ -29,5 +31,7 @@ fn report_configuration(me: Particle, sums: PairSums, bonded: Steps) {
         observe_configuration(sums, bonded);
     }
 }
-fn reported_motion(me: Particle, momentum: Steps) -> Steps { return select(momentum, steps_of(me.momentum), is_still(me)); }
+fn reported_motion(me: Particle, momentum: Steps) -> Steps {
+    return select(momentum, steps_of(me.momentum), is_still(me));
+}
 fn reported_virial(me: Particle, virial: Sum64) -> Sum64 { return select(virial, Sum64(0u), is_still(me)); }

@@ -8,9 +8,9 @@ use naga::{Block, Expression, Function, Handle, Module, Statement};
 /// baths change their sign from step to step; and quarters of a turn, which are a number of the scene and no feature.
 pub const KNOWN: [&str; 6] = ["CELLS_X", "CELLS_Y", "CELLS_Z", "CLOSES", "PERSISTENCE", "QUARTER_TURNS"];
 
-/// Laws that are arithmetic alone and bind nothing of their own: one module stands for all of them, and a constant of its pipelines says
-/// which it is. What is not chosen costs nothing: `crates/kernel-statistics/tests/hardware.txt` has the same numbers of registers and
-/// instructions as when each was a variant.
+/// Laws that are arithmetic alone and bind nothing of their own: one module stands for all of them, and a constant of
+/// its pipelines says which it is. Laws that are not chosen cost nothing: `crates/kernel-statistics/tests/hardware.txt`
+/// has the same numbers of registers and instructions as when each was a variant.
 pub const LAWS: [&str; 25] = [
     "AS_PRINTED",
     "BATHS_REMEMBER",

@@ -1,10 +1,10 @@
 //! What a scene requires, and no more.
 //!
-//! Plans of all shipped scenes, with one feature on and with it off. A feature that is off leaves no kernel, array or variant in the plan,
-//! and the plan differs in nothing that has to do with others: kernels and arrays are those that [`features`](features) names, and
-//! everything else that differs is in `required.txt`, which `MESOSCOPE_RECORD=1` writes anew. A feature that is arithmetic alone is a
-//! constant of the pipeline, by which compilers leave it out: see [`branches`](branches). A value that says "off" gives the plan of the
-//! scene that never mentions the feature.
+//! Plans of all shipped scenes, with one feature on and with it off. A feature that is off leaves no kernel, array or
+//! variant in the plan, and the plan differs in nothing that has to do with others: kernels and arrays are those that
+//! [`features`](features) names, and everything else that differs is in `required.txt`, which `MESOSCOPE_RECORD=1`
+//! writes anew. A feature that is arithmetic alone is a constant of the pipeline, by which compilers leave it out: see
+//! [`branches`](branches). A value that says "off" gives the plan of the scene that never mentions the feature.
 
 mod branches;
 mod differences;
@@ -227,8 +227,8 @@ fn what_is_written_as_off_is_as_if_it_were_not_written() {
     report(&complaints);
 }
 
-/// Every kernel of every plan that a scene can ask for declares nothing that its entry point does not use, and no branch is left to a
-/// number of the plan but those that are known.
+/// Every kernel of every plan that a scene can ask for declares nothing that its entry point does not use, and no
+/// branch is left to a number of the plan but those that are known.
 #[test]
 fn kernels_declare_and_branch_on_nothing_that_is_not_needed() {
     let mut complaints = BTreeMap::new();

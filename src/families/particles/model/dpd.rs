@@ -365,8 +365,8 @@ impl PairForce {
     }
 
     /// True if the soft repulsions of two species attract more than they repel, in contact or over all distances: many
-    /// particles then have the lower an energy the closer they are, as the integral of a stable potential is not negative
-    /// (Fisher and Ruelle, J. Math. Phys. 7, 260, 1966).
+    /// particles then have the lower an energy the closer they are, as the integral of a stable potential is not
+    /// negative (Fisher and Ruelle, J. Math. Phys. 7, 260, 1966).
     pub(crate) fn attract(&self, a: usize, b: usize, dimension: usize) -> bool {
         let sum = |power: usize| -> f64 {
             self.repulsions(a, b).map(|own| own.strength * own.cutoff.powi(power as i32)).sum()

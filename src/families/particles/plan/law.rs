@@ -10,7 +10,7 @@ pub(super) fn law(force: &PairForce) -> Choices {
     Choices::new().with_if(force.many_body.is_some(), pairs::ManyBody::OfDensities)
 }
 
-/// Whether pairs have a random force.
+/// True if pairs have a random force.
 pub(super) fn is_noisy(force: &PairForce) -> bool {
     force.has_friction() && force.temperature > 0.0
 }

@@ -109,7 +109,7 @@ fn potential(bonds: &Bonds) -> (Constant, f64) {
     (Constant::BondPotential, potential)
 }
 
-/// Whether baths of bonds draw random numbers.
+/// True if baths of bonds draw random numbers.
 fn are_noisy(bonds: &Bonds) -> bool {
     bonds.kinds.iter().any(|kind| kind.bath.is_some() && kind.temperature > 0.0)
 }

@@ -48,7 +48,7 @@ impl Builder<'_> {
         (self.gathers_friction() && self.model.has_potential()).then_some(couplings::Conservative::Apart)
     }
 
-    /// Whether gathered impulses have a conservative part.
+    /// True if gathered impulses have a conservative part.
     pub(super) fn gathers_conservative(&self) -> bool {
         !self.gathers_friction() || self.model.has_potential()
     }

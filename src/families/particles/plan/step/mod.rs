@@ -326,7 +326,7 @@ impl<'a> Builder<'a> {
             .and(&self.of_rank())
     }
 
-    /// Whether kernels that drift particles need no table of species: it has neither masses nor body forces.
+    /// True if kernels that drift particles need no table of species: it has neither masses nor body forces.
     fn can_do_without_table(&self) -> bool {
         let driven = self.model.particles().body_forces.is_some();
         self.species.have_table() && self.species.have_one_mass() && !driven
