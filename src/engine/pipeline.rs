@@ -85,8 +85,8 @@ fn stage(
     // By which kernels of a folded dispatch number their workgroups.
     let fold = (height > 1).then_some((Constant::Fold, f64::from(width)));
     let constants = kernel.constants_in(plan).chain(fold);
-    let (pipeline, linked) = gpu.compile(kernel.name, kernel.entry, &kernel.choices, constants)?;
-    let bound = linked.bindings.iter().map(|binding| {
+    let (pipeline, bindings) = gpu.compile(kernel.name, kernel.entry, &kernel.choices, constants)?;
+    let bound = bindings.iter().map(|binding| {
         let array = kernel.array_of(binding.array);
         let buffer = buffers.get(&array).map(wgpu::Buffer::as_entire_binding);
         let resource = buffer.or_else(|| textures.get(&array).map(Texels::binding));
@@ -97,7 +97,7 @@ fn stage(
         Ok(wgpu::BindGroupEntry { binding: binding.number, resource })
     });
     let entries = bound.collect::<Result<Vec<_>, GpuError>>()?;
-    let bindings = gpu.scoped(&format!("binding kernel `{}`", kernel.name), 0, || {
+    let group = gpu.scoped(&format!("binding kernel `{}`", kernel.name), 0, || {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(kernel.name),
             layout: &pipeline.get_bind_group_layout(0),
@@ -108,5 +108,5 @@ fn stage(
         (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),
         _ => Size::Fixed([width, height]),
     };
-    Ok(Stage { pipeline, bindings, size, takes_long: kernel.takes_long })
+    Ok(Stage { pipeline, bindings: group, size, takes_long: kernel.takes_long })
 }

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex};
 
 use super::device::Gpu;
 use super::error::GpuError;
-use super::shader::{LinkedShader, validate};
+use super::shader::{Binding, LinkedShader, validate};
 use crate::shaders::{Choices, Constant, Entry, linked_text};
 
 /// As many as some ten engines have. When that is exceeded all are dropped; engines in use keep theirs.
@@ -51,7 +51,7 @@ pub type Rewriting = Arc<dyn Fn(&mut naga::Module, wgpu::Features) + Send + Sync
 pub(super) struct Compiled {
     rewriting: Option<Rewriting>,
     linked: Kept<String, Arc<LinkedShader>>,
-    pipelines: Kept<Ingredients, wgpu::ComputePipeline>,
+    pipelines: Kept<Ingredients, (wgpu::ComputePipeline, Arc<[Binding]>)>,
 }
 
 impl Compiled {
@@ -65,7 +65,7 @@ impl Compiled {
 }
 
 impl Gpu {
-    /// The pipeline of a kernel with the constants that it uses, and the linked kernel.
+    /// The pipeline of a kernel with the constants that it uses, and what it binds.
     ///
     /// # Errors
     /// [`GpuError`] if the kernel does not link or the device refuses it.
@@ -75,7 +75,7 @@ impl Gpu {
         entry: Entry,
         choices: &Choices,
         constants: impl Iterator<Item = (Constant, f64)>,
-    ) -> Result<(wgpu::ComputePipeline, Arc<LinkedShader>), GpuError> {
+    ) -> Result<(wgpu::ComputePipeline, Arc<[Binding]>), GpuError> {
         let linked = linked_text(entry, choices).map_err(|unlinked| GpuError::unlinked(name, unlinked))?;
         let text = linked.text.clone();
         let make = || Ok(Arc::new(validate(name, entry.name(), &linked)?));
@@ -83,14 +83,16 @@ impl Gpu {
         let used = constants.filter(|(constant, _)| linked.constants.contains(constant));
         let constants: Vec<(Constant, f64)> = used.collect();
         let bits = constants.iter().map(|(constant, value)| (*constant, value.to_bits())).collect();
-        let pipeline = self.compiled.pipelines.get_or_make((text, bits), || {
-            let mut module = linked.module.clone();
-            let constants: Vec<(&str, f64)> =
-                constants.iter().map(|(constant, value)| (constant.name(), *value)).collect();
+        self.compiled.pipelines.get_or_make((text, bits), || {
+            let LinkedShader { mut module, bindings, constants: used, .. } = linked.specialized(&constants);
+            let constants: Vec<(&str, f64)> = (constants.iter())
+                .filter(|(constant, _)| used.contains(constant))
+                .map(|(constant, value)| (constant.name(), *value))
+                .collect();
             if let Some(rewriting) = &self.compiled.rewriting {
                 rewriting(&mut module, self.device.features());
             }
-            self.scoped(&format!("making kernel `{name}`"), 0, || {
+            let pipeline = self.scoped(&format!("making kernel `{name}`"), 0, || {
                 let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
                     label: Some(name),
                     source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
@@ -107,9 +109,9 @@ impl Gpu {
                     },
                     cache: None,
                 })
-            })
-        })?;
-        Ok((pipeline, linked))
+            })?;
+            Ok((pipeline, bindings.into()))
+        })
     }
 }
 

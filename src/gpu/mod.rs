@@ -5,6 +5,7 @@ mod compiled;
 mod device;
 mod environment;
 mod error;
+mod pruning;
 mod shader;
 
 pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, adapters_by_turns, list_adapters};
@@ -13,4 +14,4 @@ pub(crate) use device::compute_pass;
 pub use device::{Gpu, Requirements};
 pub use environment::{prepare_environment, prepare_environment_among};
 pub use error::GpuError;
-pub use shader::{Binding, LinkedShader, link, validate};
+pub use shader::{Binding, LinkedShader, link, storage_buffers, validate};

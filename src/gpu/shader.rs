@@ -1,8 +1,10 @@
 //! Kernels linked, parsed and validated; errors name the file and the line.
 
 use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 use super::GpuError;
+use super::pruning::{prune, switches};
 use crate::shaders::{Array, Choices, Constant, Entry, LinkedText, linked_text};
 
 /// A storage buffer or a texture that a kernel uses.
@@ -25,8 +27,53 @@ pub struct LinkedShader {
     pub bindings: Vec<Binding>,
     /// The constants that a plan sets.
     pub constants: Vec<Constant>,
+    /// Those of them on which branches depend: with other values another kernel is left, see [`LinkedShader::specialized`].
+    pub switches: Vec<Constant>,
     /// Size of each struct and offset of each member: `(struct, member) -> offset`, with member `""` for the size.
     pub layout: BTreeMap<(String, String), u32>,
+}
+
+impl LinkedShader {
+    /// The kernel of a pipeline with these constants: branches on them are taken, and what only others use is gone.
+    ///
+    /// ```
+    /// use mesoscope::gpu::link;
+    /// use mesoscope::shaders::{Choices, Constant, Entry, mesh, water};
+    ///
+    /// let choices = Choices::new().with(mesh::Spline::Linear).with(water::Particles::InPlace);
+    /// let shader = link("bin_water", Entry::BinWater, &choices)?;
+    /// let constants: Vec<_> = shader.constants.iter().map(|constant| (*constant, 1.0)).collect();
+    /// let specialized = shader.specialized(&constants);
+    /// assert!(specialized.bindings.len() <= shader.bindings.len());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn specialized(&self, constants: &[(Constant, f64)]) -> Self {
+        let mut module = self.module.clone();
+        prune(&mut module, |name| {
+            constants.iter().find(|(constant, _)| constant.name() == name).map(|(_, value)| *value)
+        });
+        let is_bound = |binding: &&Binding| {
+            let mut variables = module.global_variables.iter().filter_map(|(_, variable)| variable.binding);
+            variables.any(|bound| bound.binding == binding.number)
+        };
+        let bindings = self.bindings.iter().filter(is_bound).cloned().collect();
+        let constants = constants_of(&module);
+        Self { module, bindings, constants, switches: Vec::new(), layout: self.layout.clone() }
+    }
+}
+
+/// Bits of values of constants; nothing where a default holds.
+type Values = Vec<Option<u64>>;
+
+fn values(of: &[Constant], constants: &[(Constant, f64)]) -> Values {
+    let given = |one: &Constant| constants.iter().find(|(constant, _)| constant == one);
+    of.iter().map(|one| given(one).map(|(_, value)| value.to_bits())).collect()
+}
+
+/// The constants that a module uses.
+fn constants_of(module: &naga::Module) -> Vec<Constant> {
+    module.overrides.iter().filter_map(|(_, constant)| Constant::named(constant.name.as_deref()?)).collect()
 }
 
 /// Links, parses and validates a kernel; `name` is what errors call it.
@@ -36,6 +83,38 @@ pub struct LinkedShader {
 pub fn link(name: &str, entry: Entry, choices: &Choices) -> Result<LinkedShader, GpuError> {
     let linked = linked_text(entry, choices).map_err(|unlinked| GpuError::unlinked(name, unlinked))?;
     validate(name, entry.name(), &linked)
+}
+
+/// The number of buffers that a kernel binds, if all arrays of which its choices say nothing are in buffers; none of a
+/// kernel that does not link.
+///
+/// ```
+/// use mesoscope::gpu::storage_buffers;
+/// use mesoscope::shaders::{Choices, Entry, mesh, water};
+///
+/// let choices = Choices::new().with(mesh::Spline::Linear).with(water::Particles::InPlace);
+/// assert!(storage_buffers(Entry::BinWater, &choices, &[]) > 1);
+/// ```
+#[must_use]
+pub fn storage_buffers(entry: Entry, choices: &Choices, constants: &[(Constant, f64)]) -> usize {
+    type Kernel = (Entry, Choices);
+    static SWITCHES: Mutex<BTreeMap<Kernel, Vec<Constant>>> = Mutex::new(BTreeMap::new());
+    static COUNTS: Mutex<BTreeMap<(Kernel, Values), usize>> = Mutex::new(BTreeMap::new());
+    let kernel = (entry, choices.clone());
+    let switches = SWITCHES.lock().unwrap_or_else(PoisonError::into_inner).get(&kernel).cloned();
+    if let Some(switches) = switches {
+        let key = (kernel.clone(), values(&switches, constants));
+        if let Some(count) = COUNTS.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
+            return *count;
+        }
+    }
+    let Ok(shader) = link(entry.name(), entry, choices) else { return 0 };
+    let bindings = shader.specialized(constants).bindings;
+    let count = bindings.iter().filter(|binding| !binding.texture).count();
+    let key = (kernel.clone(), values(&shader.switches, constants));
+    COUNTS.lock().unwrap_or_else(PoisonError::into_inner).insert(key, count);
+    SWITCHES.lock().unwrap_or_else(PoisonError::into_inner).insert(kernel, shader.switches);
+    count
 }
 
 /// Parses and validates the text of a kernel.
@@ -95,8 +174,8 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
         bindings.push(Binding { number: binding.binding, array, texture });
     }
     bindings.sort_by_key(|binding| binding.number);
-    let constants =
-        module.overrides.iter().filter_map(|(_, constant)| Constant::named(constant.name.as_deref()?)).collect();
+    let constants = constants_of(&module);
+    let switches = switches(&module).iter().filter_map(|name| Constant::named(name)).collect();
     let mut layout = BTreeMap::new();
     for (_, declared) in module.types.iter() {
         if let (Some(name), naga::TypeInner::Struct { members, span }) = (&declared.name, &declared.inner) {
@@ -106,7 +185,7 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
             }
         }
     }
-    Ok(LinkedShader { module, bindings, constants, layout })
+    Ok(LinkedShader { module, bindings, constants, switches, layout })
 }
 
 fn chain(error: &dyn std::error::Error) -> String {

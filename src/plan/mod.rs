@@ -38,7 +38,8 @@ pub use sums::{ReportRow, Sums};
 pub use table::{Table, Words};
 pub use texture::Texture;
 
-use crate::shaders::{Array, Constant, storage_buffers};
+use crate::gpu::storage_buffers;
+use crate::shaders::{Array, Constant, linked_text};
 use crate::state::Units;
 
 /// Words of a particle that passes from rank to rank: `shaders/space/particle`.
@@ -181,8 +182,16 @@ impl Plan {
 
     /// Counts the storage buffers that kernels bind.
     pub(crate) fn count_storage_buffers(&mut self) {
-        let bound = self.kernels.iter().map(|kernel| storage_buffers(kernel.entry, &kernel.choices) as u32);
-        self.storage_buffers = bound.fold(self.storage_buffers, u32::max);
+        let most = self.kernels.iter().fold(self.storage_buffers, |most, kernel| {
+            // Branches that are not taken bind something in the text, which is quick to look through.
+            let text = linked_text(kernel.entry, &kernel.choices).map_or(String::new(), |linked| linked.text);
+            if text.matches("var<storage").count() as u32 <= most {
+                return most;
+            }
+            let constants: Vec<_> = kernel.constants_in(self).collect();
+            most.max(storage_buffers(kernel.entry, &kernel.choices, &constants) as u32)
+        });
+        self.storage_buffers = most;
     }
 
     /// Adds a kernel and returns its index.

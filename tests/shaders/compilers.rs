@@ -46,9 +46,10 @@ fn covering() -> Vec<(&'static Kernel, &'static Plan)> {
 
 /// The SPIR-V that a Vulkan driver is given for a kernel.
 fn spirv(kernel: &Kernel, plan: &Plan) -> Vec<u8> {
-    let linked = shader(kernel);
+    let constants: Vec<_> = kernel.constants_in(plan).collect();
+    let linked = shader(kernel).specialized(&constants);
     let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&linked.module).unwrap();
-    let declared = kernel.constants_in(plan).filter(|(constant, _)| linked.constants.contains(constant));
+    let declared = constants.into_iter().filter(|(constant, _)| linked.constants.contains(constant));
     let constants = declared.map(|(constant, value)| (constant.name().to_owned(), value)).collect();
     let entry = (naga::ShaderStage::Compute, kernel.entry.name());
     let (module, info) = process_overrides(&linked.module, &info, Some(entry), &constants).unwrap();

@@ -15,7 +15,7 @@ use rand::{RngExt, SeedableRng};
 use serde_json::{Value, json};
 
 use crate::canonical::hash_of_kernel;
-use crate::variants::{hashes, report, validated};
+use crate::variants::{Specialized, hashes, report, switched, validated};
 
 /// Draws of one scene.
 struct Draws(StdRng);
@@ -189,6 +189,7 @@ fn complaints(accepted: usize, seed: u64) -> BTreeMap<String, String> {
     let known = hashes();
     let (mut found, mut unlisted) = (0, BTreeSet::new());
     let mut seen: HashMap<String, LinkedShader> = HashMap::new();
+    let mut specialized: HashMap<(String, Vec<Option<u64>>), Specialized> = HashMap::new();
     let mut complaints = BTreeMap::new();
     while found < accepted {
         let text = random_scene(&mut draws).to_string();
@@ -206,11 +207,16 @@ fn complaints(accepted: usize, seed: u64) -> BTreeMap<String, String> {
             let linked = linked_text(kernel.entry, &kernel.choices).unwrap();
             let shader = seen.entry(linked.text.clone()).or_insert_with(|| validated(kernel.entry, &linked));
             unlisted.extend(Some(hash_of_kernel(&shader.module)).filter(|hash| !known.contains(hash)));
-            let given: BTreeSet<&str> = kernel.constants_in(&plan).map(|(constant, _)| constant.name()).collect();
+            let constants: Vec<_> = kernel.constants_in(&plan).collect();
+            let key = (linked.text.clone(), switched(shader, &constants));
+            let used = specialized.entry(key).or_insert_with(|| Specialized::new(shader, &constants));
+            let given: BTreeSet<&str> = constants.iter().map(|(constant, _)| constant.name()).collect();
             let missing = (shader.module.overrides.iter())
-                .filter(|(_, own)| own.init.is_none() && !own.name.as_deref().is_some_and(|name| given.contains(name)))
-                .map(|(_, own)| format!("constant {:?} of `{}` has no value", own.name, kernel.name));
-            let unbound = (shader.bindings.iter())
+                .filter(|(_, own)| own.init.is_none())
+                .filter_map(|(_, own)| own.name.as_deref())
+                .filter(|name| used.constants.iter().any(|constant| constant.name() == *name) && !given.contains(name))
+                .map(|name| format!("constant {name} of `{}` has no value", kernel.name));
+            let unbound = (used.bindings.iter())
                 .filter(|binding| !held.contains(&kernel.array_of(binding.array)))
                 .map(|binding| format!("array `{}` of `{}` is not there", binding.array.name(), kernel.name));
             complaints.extend(missing.chain(unbound).map(|complaint| (complaint, text.clone())));

@@ -4,13 +4,13 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::mem::offset_of;
 use std::num::NonZero;
 use std::path::Path;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock};
 use std::thread;
 
 use mesoscope::engine::Control;
 use mesoscope::families::Model;
 use mesoscope::families::shallow_water::WaterLayout;
-use mesoscope::gpu::{GpuError, LinkedShader, validate};
+use mesoscope::gpu::{Binding, GpuError, LinkedShader, validate};
 use mesoscope::plan::{Division, Domain, Hardware, Kernel, Options, Part, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
 use mesoscope::scene::Scene;
@@ -1156,6 +1156,39 @@ pub fn shader(kernel: &Kernel) -> &'static LinkedShader {
     linked()[text(kernel)].as_ref().expect("every_kernel_links lists what does not link")
 }
 
+/// What is left of a kernel in a plan, where branches on constants are taken.
+pub struct Specialized {
+    pub bindings: Vec<Binding>,
+    pub constants: Vec<Constant>,
+}
+
+impl Specialized {
+    pub fn new(shader: &LinkedShader, constants: &[(Constant, f64)]) -> Self {
+        let LinkedShader { bindings, constants, .. } = shader.specialized(constants);
+        Self { bindings, constants }
+    }
+}
+
+pub fn specialized(kernel: &Kernel, plan: &Plan) -> &'static Specialized {
+    type Key = (usize, Vec<Option<u64>>);
+    static KNOWN: OnceLock<Mutex<HashMap<Key, &'static Specialized>>> = OnceLock::new();
+    let known = KNOWN.get_or_init(Mutex::default);
+    let shader = shader(kernel);
+    let constants: Vec<_> = kernel.constants_in(plan).collect();
+    let key = (std::ptr::from_ref(shader).addr(), switched(shader, &constants));
+    if let Some(specialized) = known.lock().unwrap().get(&key) {
+        return specialized;
+    }
+    let specialized = Box::leak(Box::new(Specialized::new(shader, &constants)));
+    known.lock().unwrap().entry(key).or_insert(specialized)
+}
+
+/// Bits of the constants on which branches of a kernel depend.
+pub fn switched(shader: &LinkedShader, constants: &[(Constant, f64)]) -> Vec<Option<u64>> {
+    let given = |switch: &Constant| constants.iter().find(|(constant, _)| constant == switch);
+    shader.switches.iter().map(|switch| given(switch).map(|(_, value)| value.to_bits())).collect()
+}
+
 /// A text that is no part of the list, parsed and validated.
 pub fn validated(entry: Entry, linked: &LinkedText) -> LinkedShader {
     validate(entry.name(), entry.name(), linked).unwrap()
@@ -1238,11 +1271,13 @@ fn every_constant_without_default_has_a_value_that_fits() {
     for (scene, plan) in plans() {
         for kernel in &plan.kernels {
             let module = &shader(kernel).module;
+            let is_unused =
+                |name: &str| !specialized(kernel, plan).constants.iter().any(|constant| constant.name() == name);
             for (_, constant) in module.overrides.iter() {
                 let name = constant.name.as_deref().unwrap_or("?");
                 let value = kernel.constants_in(plan).find(|(known, _)| known.name() == name).map(|(_, value)| value);
                 let fits = match (value, &module.types[constant.ty].inner) {
-                    (None, _) => constant.init.is_some(),
+                    (None, _) => constant.init.is_some() || is_unused(name),
                     (Some(value), naga::TypeInner::Scalar(naga::Scalar::F32)) => (value as f32).is_finite(),
                     (Some(value), naga::TypeInner::Scalar(naga::Scalar::U32)) => f64::from(value as u32) == value,
                     (Some(value), naga::TypeInner::Scalar(naga::Scalar::I32)) => f64::from(value as i32) == value,
@@ -1324,7 +1359,7 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
             complaints.entry("two buffers or textures are the same array".to_owned()).or_insert(scene.clone());
         }
         let mut bound = BTreeSet::new();
-        let storage = |kernel| shader(kernel).bindings.iter().filter(|binding| !binding.texture).count();
+        let storage = |kernel| specialized(kernel, plan).bindings.iter().filter(|binding| !binding.texture).count();
         let most = plan.kernels.iter().map(storage).max().unwrap_or(0);
         // What is in textures needs no buffers.
         let (asked, needed) = (plan.storage_buffers as usize, most.max(STORAGE_BUFFERS));
@@ -1333,7 +1368,7 @@ fn every_binding_has_its_buffer_and_every_buffer_a_kernel() {
             complaints.entry(complaint).or_insert(scene.clone());
         }
         for kernel in &plan.kernels {
-            let bindings = &shader(kernel).bindings;
+            let bindings = &specialized(kernel, plan).bindings;
             let mut complain = |complaint: String| {
                 complaints.entry(format!("kernel `{}`: {complaint}", kernel.name)).or_insert(scene.clone());
             };

@@ -49,9 +49,10 @@ struct Compiled {
 impl Compiled {
     /// Links a kernel and writes the SPIR-V that wgpu 30 gives a Vulkan driver of version 1.3 which checks the bounds of buffers by itself.
     fn new(kernel: &Kernel, plan: &Plan) -> Self {
-        let linked = link(kernel.name, kernel.entry, &kernel.choices).unwrap();
+        let constants: Vec<_> = kernel.constants_in(plan).collect();
+        let linked = link(kernel.name, kernel.entry, &kernel.choices).unwrap().specialized(&constants);
         let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&linked.module).unwrap();
-        let used = kernel.constants_in(plan).filter(|(constant, _)| linked.constants.contains(constant));
+        let used = constants.into_iter().filter(|(constant, _)| linked.constants.contains(constant));
         let constants = used.map(|(constant, value)| (constant.name().to_owned(), value)).collect();
         let entry = (naga::ShaderStage::Compute, kernel.entry.name());
         let (module, info) = process_overrides(&linked.module, &info, Some(entry), &constants).unwrap();

@@ -1,13 +1,14 @@
 //! Everything by which two plans differ, in sentences of what the first has.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::{Mutex, OnceLock};
+use std::sync::Mutex;
 
-use mesoscope::gpu::{LinkedShader, link};
+use mesoscope::gpu::{LinkedShader, validate};
 use mesoscope::plan::{Contents, Kernel, Plan};
-use mesoscope::shaders::{Choices, Entry};
+use mesoscope::shaders::{Choices, Entry, LinkedText, library, linked_text};
 
 use crate::canonical::hash_of_kernel;
+use crate::variants::switched;
 
 /// What is known of a kernel once it is linked.
 pub struct Linked {
@@ -16,18 +17,52 @@ pub struct Linked {
     hash: u64,
 }
 
-/// A kernel, linked once for all plans that have it.
-pub fn linked(kernel: &Kernel) -> &'static Linked {
-    static KNOWN: OnceLock<Mutex<BTreeMap<(Entry, Choices), &'static Linked>>> = OnceLock::new();
-    let known = KNOWN.get_or_init(Mutex::default);
+/// A kernel, linked and specialized once for all plans that have it.
+pub fn linked(kernel: &Kernel, plan: &Plan) -> &'static Linked {
+    type Known = BTreeMap<(&'static str, Vec<Option<u64>>), &'static Linked>;
+    static WHOLE: Mutex<BTreeMap<(Entry, Choices), &'static Whole>> = Mutex::new(BTreeMap::new());
+    static KNOWN: Mutex<Known> = Mutex::new(BTreeMap::new());
     let key = (kernel.entry, kernel.choices.clone());
-    if let Some(linked) = known.lock().unwrap().get(&key) {
+    let known = WHOLE.lock().unwrap().get(&key).copied();
+    let whole = known.unwrap_or_else(|| {
+        let text = linked_text(kernel.entry, &kernel.choices).unwrap();
+        let shader = validate(kernel.name, kernel.entry.name(), &text).unwrap();
+        WHOLE.lock().unwrap().entry(key).or_insert(Box::leak(Box::new(Whole { text, shader })))
+    });
+    let constants: Vec<_> = kernel.constants_in(plan).collect();
+    let key = (whole.text.text.as_str(), switched(&whole.shader, &constants));
+    if let Some(linked) = KNOWN.lock().unwrap().get(&key) {
         return linked;
     }
-    let shader = link(kernel.name, kernel.entry, &kernel.choices).unwrap();
+    let shader = whole.shader.specialized(&constants);
     let hash = hash_of_kernel(&shader.module);
-    let linked = Box::leak(Box::new(Linked { files: kernel.files().unwrap(), shader, hash }));
-    known.lock().unwrap().entry(key).or_insert(linked)
+    let linked = Box::leak(Box::new(Linked { files: files(&whole.text, &shader.module), shader, hash }));
+    KNOWN.lock().unwrap().entry(key).or_insert(linked)
+}
+
+/// A kernel with all its branches.
+struct Whole {
+    text: LinkedText,
+    shader: LinkedShader,
+}
+
+/// The files of which something is left in a module: a function, a variable or a constant of the plan.
+fn files(text: &LinkedText, module: &naga::Module) -> BTreeSet<&'static str> {
+    let functions = module.functions.iter().map(|(_, function)| &function.name);
+    let variables = module.global_variables.iter().map(|(_, variable)| &variable.name);
+    let overrides = module.overrides.iter().map(|(_, constant)| &constant.name);
+    let left: BTreeSet<&str> = functions.chain(variables).chain(overrides).flatten().map(String::as_str).collect();
+    let entry = module.entry_points[0].name.as_str();
+    let declared = |path: &str, line: u32| {
+        let library = library().unwrap();
+        let file = library.files().iter().find(|file| file.path == path).unwrap();
+        file.declarations.iter().find(|declaration| declaration.line == line).unwrap().name
+    };
+    let parts = text.parts.iter().filter(|part| {
+        let name = declared(part.path, part.line);
+        name == entry || left.contains(name)
+    });
+    parts.map(|part| part.path).collect()
 }
 
 /// A kernel as it is compared: what it computes, on which arrays, with which numbers.
@@ -40,7 +75,7 @@ struct Seen<'a> {
 
 impl<'a> Seen<'a> {
     fn of(kernel: &'a Kernel, plan: &Plan) -> Self {
-        let linked = linked(kernel);
+        let linked = linked(kernel, plan);
         let bindings = linked.shader.bindings.iter();
         let constants = kernel.constants_in(plan).filter(|(constant, _)| linked.shader.constants.contains(constant));
         Self {
@@ -96,7 +131,7 @@ pub fn stages(plan: &Plan) -> [&Vec<usize>; 7] {
 pub fn names(plan: &Plan) -> BTreeSet<String> {
     let kernels = plan.kernels.iter().map(|kernel| format!("kernel {}", kernel.name));
     let arrays = held(plan).into_keys().map(|array| format!("array {array}"));
-    let linked = || plan.kernels.iter().map(linked);
+    let linked = || plan.kernels.iter().map(|kernel| linked(kernel, plan));
     let constants = linked().flat_map(|linked| &linked.shader.constants);
     let constants = constants.map(|constant| format!("constant {}", constant.name()));
     let files = linked().flat_map(|linked| &linked.files).map(|file| format!("file {file}"));

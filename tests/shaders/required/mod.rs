@@ -282,7 +282,9 @@ fn shipped_scenes_hold_what_they_run_and_nothing_else() {
                 .copied()
                 .collect();
             let bound: BTreeSet<_> = (plan.kernels.iter())
-                .flat_map(|kernel| linked(kernel).shader.bindings.iter().map(|binding| kernel.array_of(binding.array)))
+                .flat_map(|kernel| {
+                    linked(kernel, &plan).shader.bindings.iter().map(|binding| kernel.array_of(binding.array))
+                })
                 .collect();
             let buffers = plan.buffers.iter().map(|buffer| buffer.array);
             let held: BTreeSet<_> = buffers.chain(plan.textures.iter().map(|texture| texture.array)).collect();
