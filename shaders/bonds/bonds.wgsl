@@ -115,7 +115,6 @@ override BOND_STREAM_X: u32;    // key of the stream over all steps
 override BOND_STREAM_Y: u32;
 var<private> bond_key: vec2<u32>;
 
-// Slot baths/bond_noise: the plan chooses `silent` where no bath has a temperature and nothing else needs the clock.
 fn prepare_bond_noise() {
     if (BOND_BATHS_NOISY == 1u) { bond_key = threefry2x32(clock_step(), vec2<u32>(BOND_STREAM_X, BOND_STREAM_Y)); }
 }

@@ -5,23 +5,34 @@
 // Default: off, for the motion at the report of a split step, whose impulses have been added already.
 fn add_kick(slot: u32, kick: Steps) {}
 
-// Slot couplings/gathered: the impulses of half a step that couplings have added to a sorted particle, for the passes over
-// particles; `take_gathered_kick` also clears them for the next step.
-// Default: off, no coupling but pairs found in cells. The plan of particles chooses `kept` if the scene has listed
-// pairs, bonds, angles or tethers, or if a split step visits its pairs once.
-fn gathered_kick(slot: u32) -> Steps { return Steps(0); }
-fn take_gathered_kick(slot: u32) -> Steps { return Steps(0); }
+// The impulses of half a step that couplings have added to a sorted particle, for the passes over particles;
+// `take_gathered_kick` also clears them for the next step.
+override GATHERS: u32; // 1 where there are listed pairs, bonds, angles, tethers, or a split step that visits pairs once
+
+fn gathered_kick(slot: u32) -> Steps {
+    if (GATHERS == 0u) { return Steps(0); }
+    return steps_of(kicks[slot]);
+}
+fn take_gathered_kick(slot: u32) -> Steps {
+    if (GATHERS == 0u) { return Steps(0); }
+    let kick = steps_of(kicks[slot]);
+    kicks[slot] = vec4<i32>(0);
+    return kick;
+}
 
 // Two particles of a pair or a bond, and their slots.
 struct Ends { slot: u32, other_slot: u32, me: Particle, other: Particle }
 
-// Slot couplings/conservative: the conservative part of the impulse that couplings have added to a sorted particle
-// before a report, which is cleared. The plan of particles chooses `apart` if there is friction beside it.
-// Default: all of it, or nothing.
-override COUPLINGS_CONSERVE: u32; // 0 where couplings are friction alone
+// The conservative part of the impulse that couplings have added to a sorted particle before a report. Where there is
+// friction beside it, it is gathered by itself, see couplings/forces, and cleared.
+override COUPLINGS_CONSERVE: u32; // 0 where couplings are friction alone, 1 where they have none, 2 where they have both
+
 fn conservative_kick(slot: u32, all: Steps) -> Steps {
     if (COUPLINGS_CONSERVE == 0u) { return Steps(0); }
-    return all;
+    if (COUPLINGS_CONSERVE == 1u) { return all; }
+    let kick = steps_of(forces[slot]);
+    forces[slot] = vec4<i32>(0);
+    return kick;
 }
 
 // Slot couplings/forces: adds the conservative impulse of half a step for a report. Variants plane, volume; the plan follows

@@ -54,10 +54,6 @@ fn unless_excluded(neighbour: u32, c: Coefficients) -> Coefficients {
 fn note_pair(pair: Ends, c: Coefficients, magnitude: f32, contact: Contact) {}
 fn finish_pairs(group: u32, lane: u32) {}
 
-// Slot baths/pair_noise: noise of a bath with memory, even under exchange.
-// Default: off, the baths have no temperature. The plan chooses `thermal` if they have.
-fn bath_noise(id: u32, other: u32) -> f32 { return 0.0; }
-
 // Slot baths/pair_report: what is done with the new value of a bath.
 // Default: kept for the next step. The plan chooses `observed` for reports.
 fn note_bath(c: Coefficients, contact: Contact, bath: f32, place: u32) {

@@ -5,9 +5,7 @@ override PROFILE: u32;         // 0 where there are none; 1 is uniform, 2 oppose
 override FORCE_AXIS: u32 = 0u; // along which the force varies
 override WAVES: u32 = 1u;      // of the sine, a whole number
 
-// Slot external/profile: the plan chooses `none` where there are no body forces and nothing else may need the table of
-// species. Default: the impulse of half a step, in integer momentum units, for a particle, and for one of a species at
-// a place in a step.
+// The impulse of half a step, in integer momentum units, for a particle, and for one of a species at a place in a step.
 fn external_kick(me: Particle) -> Steps {
     if (PROFILE == 0u) { return Steps(0); }
     return external_kick_at(fraction_of(me.position), species_of(me), clock_step().x);

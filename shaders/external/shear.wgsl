@@ -20,11 +20,15 @@ fn shift_at(halves: Sum64) -> u32 {
 // kernels that visit particles one by one. Default: from the clock.
 fn shift_here() -> u32 { return shift_after(SHEAR_MOMENT); }
 
-// Slot external/jump: by how many units the momentum of a particle is larger above a boundary than below. Variant by_species; the plan
-// chooses it where there is a table of species.
-// Default: of the only species.
-override SHEAR_JUMP: i32;
-fn jump_of(species: i32) -> i32 { return SHEAR_JUMP; }
+// By how many units the momentum of a particle is larger above a boundary than below.
+override SHEAR_JUMP: i32;   // of the only species
+override JUMP_ENTRIES: u32; // entries before those of species in their table, in whole halves; 0 without one
+
+fn jump_of(species: i32) -> i32 {
+    if (JUMP_ENTRIES == 0u) { return SHEAR_JUMP; }
+    let entry = vec4<i32>(coefficient_entry(JUMP_ENTRIES + u32(species)));
+    return entry.x * 65536 + entry.y;
+}
 
 // By how many boxes the nearest copy of another particle is above it: 1, 0 or -1. Odd under exchange.
 fn boxes_up(mine: Fraction, other: Fraction) -> i32 {

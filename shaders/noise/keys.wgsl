@@ -9,7 +9,6 @@ fn prepare_noise() {}
 // Noise of pairs: a number of zero mean and unit variance for a pair of ids, even under exchange.
 override DISTRIBUTION: u32; // 0 where pairs have no noise; 1 is uniform, 2 Gaussian
 
-// Slot noise/deviate: the plan chooses `silent` where pairs have no noise and nothing else needs the clock.
 fn prepare_pair_noise() {
     if (DISTRIBUTION != 0u) { noise_key = clock_key(); }
 }

@@ -59,11 +59,6 @@ fn soft_repulsion_within(at_contact: f32, stretch: f32, contact: Contact) -> Rep
     return Repulsion(impulse, impulse * w / stretch, select(0.0, laplacian, acts));
 }
 
-// Slot pairs/many_body: a repulsion beside it that grows with the local density. The plan chooses `of_densities` if
-// there is one.
-fn with_many_body_impulse(impulse: f32, w: f32) -> f32 { return impulse; }
-fn with_many_body(other: Repulsion, contact: Contact) -> Repulsion { return other; }
-
 // The random force of a pair.
 fn random_impulse(c: Coefficients, root: f32, me: Particle, other: Particle) -> f32 {
     if (DISTRIBUTION == 0u) { return 0.0; }

@@ -40,13 +40,3 @@ fn observe_configuration(sums: PairSums, bonded: Steps) {
 // several ranks, `aside` where particles stay as they are stored.
 // Default: by id, in the place of those that were sorted.
 fn report_particle(row: u32, index: u32, particle: Particle) { store_particle(particle.position.w, particle); }
-
-// Slot pairs/reported_force: the impulses on each particle at a report, by id, in integer momentum units.
-// Default: off. The plan chooses `kept` if an analysis needs forces.
-fn begin_force() {}
-fn add_reported_force(impulse: vec4<i32>) {}
-fn store_force(id: u32) {}
-
-// Slot pairs/reported_momentum: the momenta of a split step's report, by id.
-// Default: off. The plan chooses `kept` if an analysis needs velocities, `peculiar` if the scene has shear.
-fn store_momentum(id: u32, momentum: vec4<i32>) {}

@@ -1,6 +1,5 @@
 // The relative motion of a pair that friction sees: the difference of two velocities, and of two momenta where all
 // particles have the same mass, which is exact in integers. Odd under exchange to the last bit.
-override ONE_MASS: u32; // 1 where all particles have the same
 
 // Slot space/relative_motion: the plan chooses `sheared` if the scene has shear. Default: masses may differ by twelve
 // orders of magnitude, so that products of sums and differences of both would lose the digits of the lighter.

@@ -10,10 +10,10 @@ impl Choice {
     /// Path below `shaders`, without the extension.
     ///
     /// ```
-    /// use mesoscope::shaders::{Choice, baths::Positions};
+    /// use mesoscope::shaders::{Choice, baths::Pairs};
     ///
-    /// assert_eq!(Choice::from(Positions::White).path(), "baths/positions/white");
-    /// assert_eq!(Choice::from(Positions::White).slot(), "baths/positions");
+    /// assert_eq!(Choice::from(Pairs::White).path(), "baths/pairs/white");
+    /// assert_eq!(Choice::from(Pairs::White).slot(), "baths/pairs");
     /// ```
     #[must_use]
     pub fn path(self) -> &'static str {
@@ -35,11 +35,11 @@ impl Choice {
 /// At most one variant of every slot.
 ///
 /// ```
-/// use mesoscope::shaders::{Choices, baths::Positions};
+/// use mesoscope::shaders::{Choices, baths::Pairs};
 ///
-/// let choices = Choices::new().with(Positions::White).with(Positions::Memory);
-/// assert_eq!(choices.paths().collect::<Vec<_>>(), ["baths/positions/memory"]);
-/// assert!(choices.has(Positions::Memory) && !choices.has(Positions::White));
+/// let choices = Choices::new().with(Pairs::White).with(Pairs::Memory);
+/// assert_eq!(choices.paths().collect::<Vec<_>>(), ["baths/pairs/memory"]);
+/// assert!(choices.has(Pairs::Memory) && !choices.has(Pairs::White));
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Choices(Vec<Choice>);

@@ -206,7 +206,12 @@ fn complaints(accepted: usize, seed: u64) -> BTreeMap<String, String> {
         for kernel in &plan.kernels {
             let linked = linked_text(kernel.entry, &kernel.choices).unwrap();
             let shader = seen.entry(linked.text.clone()).or_insert_with(|| validated(kernel.entry, &linked));
-            unlisted.extend(Some(hash_of_kernel(&shader.module)).filter(|hash| !known.contains(hash)));
+            if !known.contains(&hash_of_kernel(&shader.module)) {
+                let variants = linked.parts.iter().map(|part| part.path).filter(|path| path.matches('/').count() == 2);
+                let variants: BTreeSet<&str> = variants.collect();
+                let variants = variants.into_iter().collect::<Vec<_>>().join(" ");
+                unlisted.insert(format!("{} of {variants} is in no plan of the list", kernel.entry.name()));
+            }
             let constants: Vec<_> = kernel.constants_in(&plan).collect();
             let key = (linked.text.clone(), switched(shader, &constants));
             let used = specialized.entry(key).or_insert_with(|| Specialized::new(shader, &constants));
@@ -223,6 +228,7 @@ fn complaints(accepted: usize, seed: u64) -> BTreeMap<String, String> {
         }
     }
     println!("{found} scenes, {} distinct kernels, {} beyond the list", seen.len(), unlisted.len());
+    complaints.extend(unlisted.into_iter().map(|kernel| (kernel, String::new())));
     complaints
 }
 

@@ -14,8 +14,6 @@ use mesoscope::gpu::{Binding, GpuError, LinkedShader, validate};
 use mesoscope::plan::{Division, Domain, Hardware, Kernel, Options, Part, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
 use mesoscope::scene::Scene;
-use mesoscope::shaders::baths::Positions;
-use mesoscope::shaders::external::Jump;
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
 
@@ -1480,12 +1478,6 @@ fn totals_have_room_for_all_sums() {
     assert!(most >= 15.0, "no plan comes near the {room}: {most}");
 }
 
-/// A table of coefficients has a row for each species, of the baths on particles.
-fn has_rows_of_species(kernel: &Kernel) -> bool {
-    ["move", "relax_particles"].contains(&kernel.name)
-        || [Positions::White, Positions::Memory].into_iter().any(|positions| kernel.choices.has(positions))
-}
-
 #[test]
 fn host_structs_lie_as_in_the_shaders() {
     let offset = |shader: &LinkedShader, structure: &str, member: &str| {
@@ -1565,7 +1557,8 @@ fn host_structs_lie_as_in_the_shaders() {
                     assert_eq!(offset(shader, "StoredWater", member), expected, "StoredWater.{member}");
                 }
             }
-            if shader.bindings.iter().any(|binding| binding.array == Array::Coefficients) {
+            let bindings = &specialized(kernel, plan).bindings;
+            if bindings.iter().any(|binding| binding.array == Array::Coefficients) {
                 tables += 1;
                 // Baths on particles add a row for the species by themselves, which couplings always have.
                 // Pairs with ranges of their own have one row more each, after a row for each species, and for every further repulsion one.
@@ -1576,10 +1569,13 @@ fn host_structs_lie_as_in_the_shaders() {
                 let species = constant(Constant::Species);
                 let ranges =
                     constant(Constant::Ranged) == 1 && plan.constants.iter().any(|own| own.0 == Constant::Ranged);
-                let of_species = ranges || plan.kernels.iter().any(has_rows_of_species);
+                // Baths on particles have a row for each species.
+                let unbathed = plan.constants.contains(&(Constant::PositionBaths, 0.0));
+                let relaxes = plan.kernels.iter().any(|kernel| kernel.name == "relax_particles");
+                let of_species = ranges || !unbathed || relaxes;
                 let rows = species * species * if ranges { 1 + constant(Constant::Repulsions) } else { 1 };
                 // Body forces have one an axis and a species, shear one a species.
-                let sheared = plan.kernels.iter().any(|kernel| kernel.choices.has(Jump::BySpecies));
+                let sheared = plan.constants.iter().any(|own| own.0 == Constant::JumpEntries);
                 let driven = if plan.has_buffer(Array::Account) { 3 * species } else { 0 };
                 let entries = rows + if of_species { species } else { 0 } + driven + if sheared { species } else { 0 };
                 match texels(Array::Coefficients) {
@@ -1587,7 +1583,7 @@ fn host_structs_lie_as_in_the_shaders() {
                     Some((words, held)) => assert!(words == 4 && held >= entries, "{scene}"),
                 }
             }
-            if declared("Hold") {
+            if declared("Hold") && plan.has_buffer(Array::Holds) {
                 let members = [
                     ("force", offset_of!(Hold, force)),
                     ("fraction", offset_of!(Hold, fraction)),

@@ -15,7 +15,7 @@ fn bath_of_pair(c: Coefficients, contact: Contact, me: Particle, other: Particle
     let lost = select(1.0 - exp(-exponent), exponent * (1.0 - exponent * (0.5 - exponent * (1.0 / 6.0))), exponent < 0.01);
     let spread = select(sqrt(lost), SPREAD, missed == 0u);
     return advanced_bath(kept * bitcast<f32>(memory.x), f32(clock_closing()) * c.friction, coupling(contact.w),
-        c.noise * spread * bath_noise(me.position.w, other.position.w));
+        c.noise * spread * pair_noise(me.position.w, other.position.w));
 }
 fn impulse_of_pair(push: f32, c: Coefficients, contact: Contact, root: f32, me: Particle, other: Particle, place: u32) -> f32 {
     let bath = bath_of_pair(c, contact, me, other, place);

@@ -1,5 +1,4 @@
 // The kinetic energy is that of velocities relative to the linear profile of the flow; the momenta are those in the box.
-var<private> reported_flow: f32; // along x, where the particle is
 
 fn observe_motion(species: i32, momentum: Steps, virial: Sum64) {
     reported_flow = flow_at(visited_place, species);

@@ -1,4 +1,4 @@
-//! Branches whose condition depends on numbers of the plan alone: compilers remove them, but not before a pipeline is made.
+//! Branches whose condition depends on numbers of the plan alone: they are taken before a device sees the kernel.
 
 use std::collections::BTreeSet;
 
@@ -8,14 +8,14 @@ use naga::{Block, Expression, Function, Handle, Module, Statement};
 /// baths change their sign from step to step; and quarters of a turn, which are a number of the scene and no feature.
 pub const KNOWN: [&str; 6] = ["CELLS_X", "CELLS_Y", "CELLS_Z", "CLOSES", "PERSISTENCE", "QUARTER_TURNS"];
 
-/// Laws that are arithmetic alone and bind nothing of their own: one module stands for all of them, and a constant of
-/// its pipelines says which it is. Laws that are not chosen cost nothing: `crates/kernel-statistics/tests/hardware.txt`
-/// has the same numbers of registers and instructions as when each was a variant.
-pub const LAWS: [&str; 25] = [
+/// Laws and reports that a scene has or not: one module stands for all of them, and constants of its pipelines say which
+/// it is. What is not chosen is taken out with what it binds.
+pub const LAWS: [&str; 36] = [
     "AS_PRINTED",
     "BATHS_REMEMBER",
     "BOND_BATHS_NOISY",
     "BOND_POTENTIAL",
+    "COLOURED_NOISE",
     "COUPLINGS_CONSERVE",
     "DISTRIBUTION",
     "EDGES",
@@ -24,16 +24,26 @@ pub const LAWS: [&str; 25] = [
     "FRICTION_LAW",
     "FRICTION_SEES",
     "FROZEN",
+    "GATHERS",
     "GENERATOR",
     "GYRATES",
+    "HALVES",
     "HELD",
     "HOLD_PROCESS",
+    "JUMP_ENTRIES",
+    "KEEPS_FORCES",
+    "KEEPS_MOMENTA",
+    "MANY_BODY",
     "ONE_MASS",
+    "OSCILLATES",
+    "OWN_ACTS",
+    "POSITION_BATHS",
     "POSITION_BATHS_NOISY",
     "PREDICTION",
     "PROFILE",
     "RANGED",
     "REPULSIVE",
+    "SEES_FLOW",
     "TURN_SINE",
     "WALLS_MOVE",
     "WEIGHT_ROOT_EXPONENT",

@@ -3,12 +3,7 @@
 use crate::document::{Distribution, Integrator};
 use crate::families::{Model, PairForce};
 use crate::plan::switch;
-use crate::shaders::{Choices, Constant, pairs};
-
-/// The repulsion that needs the local densities, if there is one.
-pub(super) fn law(force: &PairForce) -> Choices {
-    Choices::new().with_if(force.many_body.is_some(), pairs::ManyBody::OfDensities)
-}
+use crate::shaders::Constant;
 
 /// True if pairs have a random force.
 pub(super) fn is_noisy(force: &PairForce) -> bool {
@@ -16,7 +11,7 @@ pub(super) fn is_noisy(force: &PairForce) -> bool {
 }
 
 /// The constants that say which repulsion, weight, friction and noise pairs have: compilers leave out the others.
-pub(super) fn constants(model: &Model, force: &PairForce) -> [(Constant, f64); 6] {
+pub(super) fn constants(model: &Model, force: &PairForce) -> [(Constant, f64); 7] {
     let friction = match model.integrator {
         _ if force.largest_friction() == 0.0 => 0.0,
         Integrator::GrootWarren { .. } => 1.0,
@@ -32,6 +27,7 @@ pub(super) fn constants(model: &Model, force: &PairForce) -> [(Constant, f64); 6
     };
     [
         switch(Constant::Repulsive, force.is_conservative()),
+        switch(Constant::ManyBody, force.many_body.is_some()),
         switch(Constant::Ranged, have_ranges(force)),
         (Constant::WeightRootExponent, 0.5 * force.common_weight_exponent().unwrap_or(0.0)),
         (Constant::FrictionLaw, friction),

@@ -6,8 +6,8 @@ use super::position_bath;
 use crate::document::NoiseProcess;
 use crate::families::{Model, PositionBath};
 use crate::noise::{self, stream};
-use crate::plan::Plan;
-use crate::shaders::{Array, Choices, Constant, baths, couplings};
+use crate::plan::{Plan, switch};
+use crate::shaders::{Array, Constant};
 
 /// Largest time that a constant takes, in half steps: above it every force outlasts any run.
 const LONGEST_TIME: f64 = 1e30;
@@ -34,24 +34,24 @@ pub(super) fn acts(model: &Model) -> bool {
 }
 
 /// Baths on coordinates see velocities relative to the mean flow.
-pub(super) fn sees_flow(model: &Model) -> bool {
+fn sees_flow(model: &Model) -> bool {
     model.particles().position_bath.as_ref().is_some_and(|bath| bath.peculiar)
 }
 
-/// What kernels choose that end a step.
-pub(super) fn choices(model: &Model) -> Choices {
-    let mut choices = Choices::new().with_if(acts(model), couplings::Own::Acting);
-    if let Some(bath) = bath(model) {
-        choices = choices.with(if bath.memory { baths::Positions::Memory } else { baths::Positions::White });
-    }
-    choices.with_if(model.particles().coloured_noise.is_some(), baths::ColouredNoise::Held)
-}
-
-/// What kernels choose beside that report.
-pub(super) fn report_choices(model: &Model) -> Choices {
-    choices(model)
-        .with_if(remembers(model), baths::PositionReport::Observed)
-        .with_if(model.particles().oscillates_in_memory(), baths::PositionProducts::Tethered)
+/// The constants that say which of them act.
+pub(super) fn switches(model: &Model) -> [(Constant, f64); 5] {
+    let baths = match bath(model) {
+        None => 0.0,
+        Some(bath) if !bath.memory => 1.0,
+        Some(_) => 2.0,
+    };
+    [
+        switch(Constant::OwnActs, acts(model)),
+        (Constant::PositionBaths, baths),
+        switch(Constant::ColouredNoise, model.particles().coloured_noise.is_some()),
+        switch(Constant::SeesFlow, sees_flow(model)),
+        switch(Constant::Oscillates, model.particles().oscillates_in_memory()),
+    ]
 }
 
 /// Buffers that the kernel at the end of a step binds for them.

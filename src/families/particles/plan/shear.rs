@@ -4,8 +4,8 @@ use crate::families::Model;
 use crate::plan::Plan;
 use crate::shaders::{Choices, Constant, couplings, external, pairs, space};
 
-/// What all kernels choose, if there is shear; `has_table` where species have one.
-pub(super) fn choices(model: &Model, has_table: bool) -> Choices {
+/// What all kernels choose, if there is shear.
+pub(super) fn choices(model: &Model) -> Choices {
     if model.particles().shear.is_none() {
         return Choices::new();
     }
@@ -16,12 +16,6 @@ pub(super) fn choices(model: &Model, has_table: bool) -> Choices {
         .with(pairs::Visit::Sheared)
         .with(pairs::ClusterRows::Sheared)
         .with(pairs::ReportedMotion::Peculiar)
-        .and(&of_species(model, has_table))
-}
-
-/// Where kernels find what is different between species.
-pub(super) fn of_species(model: &Model, has_table: bool) -> Choices {
-    Choices::new().with_if(model.particles().shear.is_some() && has_table, external::Jump::BySpecies)
 }
 
 /// What kernels choose beside that visit all pairs.
@@ -49,12 +43,12 @@ pub(super) fn add_constants(model: &Model, parts: u8, entries_before: Option<usi
         (Constant::ShearFirst, f64::from(shear.first_shift())),
         moment(0),
         (Constant::ShearPart, 2.0 / f64::from(parts)),
-        match entries_before {
-            Some(entries) => (Constant::JumpEntries, entries as f64),
-            None if model.species.is_empty() => (Constant::ShearJump, 0.0),
-            None => (Constant::ShearJump, f64::from(shear.jump(0, model))),
-        },
+        (Constant::JumpEntries, entries_before.unwrap_or(0) as f64),
     ]);
+    if entries_before.is_none() {
+        let jump = if model.species.is_empty() { 0 } else { shear.jump(0, model) };
+        plan.constants.push((Constant::ShearJump, f64::from(jump)));
+    }
 }
 
 /// The entries of a table of species: one for each, of halves that single precision holds.

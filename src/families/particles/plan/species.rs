@@ -3,7 +3,7 @@
 use super::law::have_ranges;
 use crate::families::{self, Model};
 use crate::plan::switch;
-use crate::shaders::space::{Coefficients, Held, Mass, MassOfParticle, Measured, RelativeMotion};
+use crate::shaders::space::{Coefficients, MassOfParticle, RelativeMotion};
 use crate::shaders::{Choices, Constant};
 
 /// Where kernels find the coefficients of pairs and the masses.
@@ -56,15 +56,12 @@ impl Species {
         }
     }
 
-    /// Where kernels find masses and coefficients, and who moves.
+    /// Where kernels find coefficients.
     pub fn choices(self) -> Choices {
         Choices::new()
             .with_if(self.sheared, RelativeMotion::Sheared)
-            .with(if self.have_one_mass() { Mass::One } else { Mass::BySpecies })
             .with(MassOfParticle::OfSpecies)
             .with(if self.have_table() { Coefficients::Table } else { Coefficients::Single })
-            .with_if(!self.have_one_mass(), Held::BySpecies)
-            .with_if(self.held, Measured::Mobile)
     }
 
     /// The constants that say whose masses differ, and whether some particles do not move.

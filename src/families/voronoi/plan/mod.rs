@@ -84,6 +84,7 @@ impl Builder<'_> {
         self.plan.constants = vec![
             generator(self.model.generator),
             switch(Constant::AsPrinted, cells.form == VoronoiForm::Paper),
+            switch(Constant::Held, false),
             (Constant::UnitX, unit(0)),
             (Constant::UnitY, unit(1)),
             (Constant::CellsX, f64::from(self.grid.cells[0])),

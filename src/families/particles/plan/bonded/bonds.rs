@@ -118,10 +118,7 @@ fn are_noisy(bonds: &Bonds) -> bool {
 fn choices(model: &Model, bonds: &Bonds) -> Choices {
     let bath = if bonds.have_memory() { baths::Bonds::Memory } else { baths::Bonds::White };
     let reflected = bonds.have_memory() && !model.particles().walls.is_empty();
-    Choices::new()
-        .with_if(bonds.have_friction(), bath)
-        .with_if(!are_noisy(bonds) && !bonds.have_memory(), baths::BondNoise::Silent)
-        .with_if(reflected, bonds::Way::BetweenWalls)
+    Choices::new().with_if(bonds.have_friction(), bath).with_if(reflected, bonds::Way::BetweenWalls)
 }
 
 /// Words about species and kinds, then the ends and the kind of each bond; where bonds relax those with friction once

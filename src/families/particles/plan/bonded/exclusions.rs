@@ -1,25 +1,24 @@
 //! Pairs that bonds spare the repulsion.
 
 use super::{Bonded, Observed};
-use crate::families::particles::plan::law::law;
-use crate::families::{Bonds, PairForce};
+use crate::families::Bonds;
 use crate::plan::{Plan, Words};
-use crate::shaders::{Array, Constant, Entry, bonds};
+use crate::shaders::{Array, Choices, Constant, Entry, bonds};
 
 /// Takes back the repulsion that a traversal of all pairs adds.
-pub(super) fn bonded(bonds: &Bonds, force: &PairForce) -> Bonded {
-    let report = |part, scales| Observed { choices: law(force).with(part), scales };
+pub(super) fn bonded(bonds: &Bonds) -> Bonded {
+    let report = |part, scales| Observed { choices: Choices::new().with(part), scales };
     let configuration = &[Constant::PairEnergy, Constant::PairVirial, Constant::Laplacian];
     Bonded {
         name: "exclusions",
         reports: ["report_exclusions", "report_exclusions_between"],
         entry: Entry::ExcludeRepulsion,
         count: bonds.excluding(),
-        choices: law(force),
+        choices: Choices::new(),
         observed: report(bonds::ExclusionReport::Observed, configuration),
         motion: Some(report(bonds::ExclusionReport::Motion, &[Constant::PairVirial])),
         configuration: report(bonds::ExclusionReport::Configuration, configuration),
-        stress: ("stress_of_exclusions", law(force).with(bonds::ExclusionReport::Stress)),
+        stress: ("stress_of_exclusions", Choices::new().with(bonds::ExclusionReport::Stress)),
         constants: vec![(Constant::Excluded, bonds.excluding() as f64)],
         operations: 40.0,
     }

@@ -104,10 +104,10 @@ pub(super) fn all(scales: &Scales<'_>) -> Vec<Bonded> {
 
 /// Pairs that bonds exclude, where all pairs are visited and none is listed.
 pub(super) fn excluded(scales: &Scales<'_>, plan: &mut Plan) -> Option<Bonded> {
-    let force = scales.model.particles().pair_force.as_ref().filter(|force| force.largest_repulsion() > 0.0)?;
+    scales.model.particles().pair_force.as_ref().filter(|force| force.largest_repulsion() > 0.0)?;
     let bonds = scales.model.particles().bonds.as_ref().filter(|bonds| bonds.excluding() > 0)?;
     exclusions::add_table(bonds, plan);
-    Some(exclusions::bonded(bonds, force))
+    Some(exclusions::bonded(bonds))
 }
 
 /// Adds the tables of bonds and angles.

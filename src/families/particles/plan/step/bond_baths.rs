@@ -14,17 +14,15 @@ impl Builder<'_> {
             return Vec::new();
         };
         let mut kernels = Vec::new();
-        let needs_forces = self.measured.needs(Need::Forces);
-        if needs_forces && !self.relaxes_particles() && !self.reports_own_forces() {
-            let pass = Choices::new().with(pairs::Pass::ForgetForces).with(pairs::ReportedForce::Kept);
+        if self.measured.needs(Need::Forces) && !self.relaxes_particles() && !self.reports_own_forces() {
+            let pass = Choices::new().with(pairs::Pass::ForgetForces);
             kernels.push(self.traversal("forget_forces", Traversal::Alone, Masks::Unkept, &pass));
         }
-        let choices = self.choices().with_if(needs_forces, pairs::ReportedForce::Kept);
         let longest = self.longest_bond();
         let mut first = bonded::first_relaxed(self.model, bonds);
         for round in bonds.rounds() {
             let count = round.len() as u64;
-            let kernel = self.kernel("relax_bonds", Entry::RelaxBonds, choices.clone(), count);
+            let kernel = self.kernel("relax_bonds", Entry::RelaxBonds, self.choices(), count);
             let own = [(Constant::FirstRelaxed, first as f64), (Constant::Relaxed, count as f64)];
             self.plan.kernels[kernel].constants.extend(own.into_iter().chain(longest));
             self.adds_forces(kernel, true);

@@ -43,19 +43,18 @@ impl Builder<'_> {
         !self.splits() && (listed || bonds.is_some_and(Bonds::have_friction))
     }
 
-    /// The conservative part of gathered impulses, for a report.
-    pub(super) fn conservative(&self) -> Option<couplings::Conservative> {
-        (self.gathers_friction() && self.model.has_potential()).then_some(couplings::Conservative::Apart)
-    }
-
-    /// True if gathered impulses have a conservative part.
-    pub(super) fn gathers_conservative(&self) -> bool {
-        !self.gathers_friction() || self.model.has_potential()
+    /// The constant that says how a report tells the conservative part of gathered impulses: `shaders/couplings/kicks.wgsl`.
+    pub(super) fn conservative_gathered(&self) -> f64 {
+        match (self.gathers_friction(), self.model.has_potential()) {
+            (true, false) => 0.0,
+            (false, _) => 1.0,
+            (true, true) => 2.0,
+        }
     }
 
     /// Gathers conservative forces at a report beside all others, if both are there.
     pub(super) fn conservative_forces(&self) -> Option<couplings::Forces> {
-        self.conservative().map(|_| match self.model.units.dimension {
+        (self.gathers_friction() && self.model.has_potential()).then_some(match self.model.units.dimension {
             3 => couplings::Forces::Volume,
             _ => couplings::Forces::Plane,
         })

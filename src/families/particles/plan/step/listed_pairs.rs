@@ -4,9 +4,7 @@ use super::gathered::GatheringKernels;
 use super::{Builder, Order};
 use crate::document::Bath;
 use crate::families::BathStep;
-use crate::families::particles::plan::law::law;
 use crate::families::particles::plan::{shear, stress};
-use crate::shaders::noise::Deviate;
 use crate::shaders::{Choices, Constant, Entry, baths, couplings};
 
 /// Arithmetic of a pair in the list, and of one within the cutoff with and without memory.
@@ -50,12 +48,8 @@ impl Builder<'_> {
     /// The pair force.
     fn law_of_listed(&self) -> Choices {
         let force = self.force;
-        let thermal = force.has_friction() && force.temperature > 0.0;
         let memory = force.remembers();
-        law(force)
-            .with_if(!thermal, Deviate::Silent)
-            .with(if memory { baths::Pairs::Memory } else { baths::Pairs::White })
-            .with_if(memory && thermal, baths::PairNoise::Thermal)
+        Choices::new().with(if memory { baths::Pairs::Memory } else { baths::Pairs::White })
     }
 
     /// Whether some listed pairs are excluded from their repulsion.

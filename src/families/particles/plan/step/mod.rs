@@ -15,7 +15,7 @@ mod tethers;
 
 use super::bonded::Scales;
 use super::external;
-use super::law::{self, law, ranges};
+use super::law::{self, ranges};
 use super::own;
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::quanta::quanta;
@@ -32,8 +32,7 @@ use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
 use crate::families::{Bonds, Model, PairForce};
 use crate::noise;
 use crate::plan::{Cells, Layout, switch};
-use crate::shaders::external::Profile;
-use crate::shaders::{Array, Choices, Constant, Entry, arrays, baths, couplings, grid, pairs, space};
+use crate::shaders::{Array, Choices, Constant, Entry, arrays, couplings, grid, pairs, space};
 
 /// Cells up to which a step ends with the prefix sum for the next one, where lanes are taken one after the other. With 1 000 cells
 /// (3 000 particles) this saves a tenth of a step; with 3 000 it saves nothing any more.
@@ -230,6 +229,8 @@ impl<'a> Builder<'a> {
         ]);
         if self.splits() {
             constants.push((Constant::RateUnit, self.rate_unit()));
+        } else {
+            constants.push((Constant::Halves, 0.0));
         }
         if self.model.has_memory() {
             constants.push((Constant::BathSquare, own::inverse(self.plan.quanta.bath_squared)));
@@ -239,8 +240,10 @@ impl<'a> Builder<'a> {
         constants.extend([(Constant::FrictionSees, sees), (Constant::Prediction, 2.0 * lambda - 1.0)]);
         constants.extend([
             switch(Constant::BathsRemember, self.model.has_memory()),
-            switch(Constant::CouplingsConserve, self.gathers_conservative()),
+            switch(Constant::Gathers, self.gathers()),
+            (Constant::CouplingsConserve, self.conservative_gathered()),
         ]);
+        constants.extend(own::switches(self.model));
         constants.push(generator(self.model.generator));
         constants.extend(law::constants(self.model, self.force));
         constants.extend(self.species.constants());
@@ -311,25 +314,14 @@ impl<'a> Builder<'a> {
     fn choices(&self) -> Choices {
         self.space()
             .and(&self.species.choices())
-            .with_if(self.splits(), space::Drift::Halves)
             .with_if(self.texels, arrays::Sorted::Apart)
             .with_if(self.texels, grid::Sorted::Apart)
             .with_if(self.keeps_probes(), grid::Probes::Kept)
-            .with_if(self.gathers(), couplings::Gathered::Kept)
-            .with_any(self.conservative())
-            .with_if(own::sees_flow(self.model), baths::Flow::Peculiar)
             .with_if(self.is_bonded() && self.order == Order::EveryStep, couplings::Slots::Kept)
-            .with_if(self.can_do_without_table(), Profile::None)
             .and(&walls::choices(self.model))
-            .and(&shear::choices(self.model, self.species.have_table()))
+            .and(&shear::choices(self.model))
             .and(&self.of_order())
             .and(&self.of_rank())
-    }
-
-    /// True if kernels that drift particles need no table of species: it has neither masses nor body forces.
-    fn can_do_without_table(&self) -> bool {
-        let driven = self.model.particles().body_forces.is_some();
-        self.species.have_table() && self.species.have_one_mass() && !driven
     }
 
     /// The vector space and the grid in it.
@@ -455,9 +447,9 @@ impl<'a> Builder<'a> {
         self.model.particles().relaxes_in_two_stages(self.model)
     }
 
-    /// The pair force.
-    fn law(&self) -> Choices {
-        law(self.force).with(if self.is_sheared() {
+    /// From where pairs are looked for.
+    fn prefilter_source(&self) -> Choices {
+        Choices::new().with(if self.is_sheared() {
             pairs::PrefilterSource::Sheared
         } else if self.keeps_probes() {
             pairs::PrefilterSource::Words
@@ -468,7 +460,7 @@ impl<'a> Builder<'a> {
 
     /// A kernel that visits all pairs.
     fn traversal(&mut self, name: &'static str, traversal: Traversal, masks: Masks, pass: &Choices) -> usize {
-        let visits = self.law().and(&shear::of_visits(self.model));
+        let visits = self.prefilter_source().and(&shear::of_visits(self.model));
         let choices = self.choices().and(&visits).and(pass).with_any(match masks {
             Masks::Unkept => self.is_sheared().then_some(pairs::Hits::Sheared),
             Masks::Keep => Some(pairs::Hits::Keep),

@@ -2,7 +2,7 @@
 
 use super::{Builder, Masks};
 use crate::families::particles::plan::position_bath;
-use crate::plan::{Need, Traversal};
+use crate::plan::Traversal;
 use crate::shaders::{Choices, Constant, pairs};
 
 impl Builder<'_> {
@@ -12,9 +12,7 @@ impl Builder<'_> {
         if !self.relaxes_particles() {
             return Vec::new();
         }
-        let pass = Choices::new()
-            .with(pairs::Pass::RelaxParticles)
-            .with_if(self.measured.needs(Need::Forces), pairs::ReportedForce::Kept);
+        let pass = Choices::new().with(pairs::Pass::RelaxParticles);
         self.plan.operations_per_particle += 60.0;
         let kernel = self.traversal("relax_particles", Traversal::Alone, Masks::Unkept, &pass);
         self.adds_forces(kernel, self.reports_own_forces());

@@ -2,8 +2,8 @@
 
 use super::{Builder, Order};
 use crate::families::particles::plan::shear;
-use crate::plan::{Need, Ordered, Reported};
-use crate::shaders::{Array, pairs};
+use crate::plan::{Need, Ordered, Reported, switch};
+use crate::shaders::{Array, Constant, pairs};
 
 impl Builder<'_> {
     /// The particles of a report.
@@ -11,11 +11,7 @@ impl Builder<'_> {
         let aside = self.order != Order::EveryStep;
         let sheared = self.is_sheared();
         Reported {
-            choices: self
-                .space()
-                .and(&self.species.choices())
-                .and(&shear::of_species(self.model, self.species.have_table()))
-                .with_if(sheared, pairs::Apart::Sheared),
+            choices: self.space().and(&self.species.choices()).with_if(sheared, pairs::Apart::Sheared),
             // The particles of a split step's report are half a drift later.
             between: if sheared && self.splits() { vec![shear::moment(1)] } else { Vec::new() },
             particles: if aside || self.options.part.is_some() { Array::Reported } else { Array::Particles },
@@ -39,26 +35,27 @@ impl Builder<'_> {
 
     /// Keeps the momenta of a split step's report, where an analysis or a trajectory needs them: analyses of a sheared
     /// box without those of the flow.
-    pub(super) fn momenta(&mut self) -> Option<pairs::ReportedMomentum> {
+    pub(super) fn keep_momenta(&mut self) {
         let analysed = self.measured.needs(Need::Momenta);
-        if !analysed && !self.measured.frames {
-            return None;
-        }
-        self.plan.add_buffer(Array::ReportedMomenta, 16 * self.particles);
+        let kept = self.splits() && (analysed || self.measured.frames);
         let peculiar = analysed && self.is_sheared();
-        Some(if peculiar { pairs::ReportedMomentum::Peculiar } else { pairs::ReportedMomentum::Kept })
+        self.plan.constants.push((Constant::KeepsMomenta, f64::from(u8::from(kept) + u8::from(kept && peculiar))));
+        if kept {
+            self.plan.add_buffer(Array::ReportedMomenta, 16 * self.particles);
+        }
     }
 
     /// Keeps the forces of a report, where an analysis needs them.
-    pub(super) fn forces(&mut self) -> Option<pairs::ReportedForce> {
-        if !self.measured.needs(Need::Forces) {
-            return None;
+    pub(super) fn keep_forces(&mut self) {
+        let kept = self.measured.needs(Need::Forces);
+        self.plan.constants.push(switch(Constant::KeepsForces, kept));
+        if !kept {
+            return;
         }
         // Impulses of half a step where one kick is taken twice, of a whole one where friction relaxes between two
         // kicks.
         let time = if self.splits() { 1.0 } else { 0.5 } * self.model.time_step;
         self.plan.force_unit = self.model.units.momentum / time;
         self.plan.add_buffer(Array::ReportedForces, 16 * self.particles);
-        Some(pairs::ReportedForce::Kept)
     }
 }

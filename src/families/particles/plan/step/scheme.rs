@@ -21,14 +21,10 @@ pub(super) fn stages() -> [[(Constant, f64); 2]; 2] {
 
 impl Builder<'_> {
     pub(super) fn integration(&mut self) {
-        let forces = Choices::new().with_any(self.forces());
+        self.keep_forces();
+        self.keep_momenta();
         self.plan.operations_per_particle = self.operations();
-        let rows = if self.splits() {
-            let momenta = self.momenta();
-            self.split_step(&forces.with_any(momenta))
-        } else {
-            self.leapfrog_step(&forces)
-        };
+        let rows = if self.splits() { self.split_step() } else { self.leapfrog_step() };
         let choices = self.choices();
         let account =
             external::add_account(self.model, &choices, self.workgroup_size(), u64::from(rows), &mut self.plan);
@@ -55,13 +51,11 @@ impl Builder<'_> {
     }
 
     /// One pass a step. Returns the number of rows of sums that the report leaves.
-    fn leapfrog_step(&mut self, forces: &Choices) -> u32 {
-        let acting = own::choices(self.model);
-        let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model)).and(&acting);
+    fn leapfrog_step(&mut self) -> u32 {
+        let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model));
         let names = ["leapfrog", "leapfrog_edges", "leapfrog_inner"];
         let last = self.last_pass(names, self.traversal, Masks::Unkept, &pass);
-        let seen = forces.clone().with(pairs::Pass::ObserveLeapfrog).and(&own::report_choices(self.model));
-        let report = self.observation("report", 0, seen);
+        let report = self.observation("report", 0, Choices::new().with(pairs::Pass::ObserveLeapfrog));
         let mut rows = self.plan.kernels[report].workgroups;
         let gathering = self.gathering(&mut rows);
         let stress = self.stress();
@@ -76,13 +70,11 @@ impl Builder<'_> {
 
     /// Two passes a step, of which the second visits what the first has found. A report is in the middle of the drift:
     /// it sorts the particles there, and the drift is finished afterwards.
-    fn split_step(&mut self, kept: &Choices) -> u32 {
+    fn split_step(&mut self) -> u32 {
         let with = |pass: pairs::Pass| Choices::new().with(pass);
         let once = self.visits_once();
         let dense = self.model.particles().have_local_densities();
-        // Forces of a report are kept from here on, if what acts on particles by itself is part of them.
-        let own_forces = self.reports_own_forces().then_some(pairs::ReportedForce::Kept);
-        let first = self.booking_of_layers().and(&own::choices(self.model)).with_any(own_forces);
+        let first = self.booking_of_layers();
         let found = with(pairs::Pass::Find).and(&first);
         let find = match (once, dense) {
             (true, _) => {
@@ -105,13 +97,12 @@ impl Builder<'_> {
         let relax_to_report = self.traversal("relax_to_report", last, Masks::Kept, &to_the_report);
         self.plan.kernels[relax_to_report].constants.push((Constant::Halves, 1.0));
         let earlier = self.relaxes_in_two_stages() || self.leaves_forces();
-        let remembered = if own::remembers(self.model) { own::report_choices(self.model) } else { Choices::new() };
-        let seen = kept.clone().with(pairs::Pass::ObserveMotion).and(&remembered);
-        let motion = self.observation("report_motion", 0, seen);
+        let motion = self.observation("report_motion", 0, with(pairs::Pass::ObserveMotion));
         self.adds_forces(motion, earlier);
         let configuration = self.observation("report_configuration", 0, with(pairs::Pass::ObserveConfiguration));
         let choices = self.choices().and(&walls::booking(self.model));
         let rest = self.kernel("drift_rest", Entry::DriftRest, choices, self.slots);
+        self.plan.kernels[rest].constants.push((Constant::Halves, 1.0));
         if self.is_sheared() {
             self.plan.kernels[configuration].constants.push(shear::moment(1));
         }
@@ -138,7 +129,7 @@ impl Builder<'_> {
         let mut first = [&gathering.kicks[..], &densities.step, &[find], &baths].concat();
         let mut report_first = None;
         if self.relaxes_in_two_stages() {
-            let [step, report] = self.first_stage(&[&relax[..], &[relax_to_report, motion]].concat(), kept);
+            let [step, report] = self.first_stage(&[&relax[..], &[relax_to_report, motion]].concat());
             first.push(step);
             report_first = Some(report);
         }
@@ -180,14 +171,14 @@ impl Builder<'_> {
 
     /// Makes the first of two stages of friction, which leaves momenta for these kernels, those of the second; and its
     /// report.
-    fn first_stage(&mut self, second: &[usize], kept: &Choices) -> [usize; 2] {
+    fn first_stage(&mut self, second: &[usize]) -> [usize; 2] {
         let pass = self
             .booking_of_layers()
             .with(pairs::Pass::RelaxFirst)
             .with_if(self.texels, pairs::Staged::Apart)
             .with_if(self.texels, arrays::StagedMomenta::Texture);
         let first = self.traversal("relax_first", self.traversal, Masks::Kept, &pass);
-        let seen = kept.clone().with(pairs::Pass::ObserveFirstStage);
+        let seen = Choices::new().with(pairs::Pass::ObserveFirstStage);
         let report = self.observation("report_first_stage", 0, seen);
         self.adds_forces(report, self.leaves_forces());
         let [first_stage, second_stage] = stages();

@@ -2,10 +2,8 @@
 
 use super::scheme::stages;
 use super::{Builder, Masks};
-use crate::families::particles::plan::law::is_noisy;
 use crate::families::particles::plan::stress;
 use crate::plan::Traversal;
-use crate::shaders::noise::Deviate;
 use crate::shaders::{Array, Choices, pairs};
 
 impl Builder<'_> {
@@ -38,8 +36,7 @@ impl Builder<'_> {
     }
 
     fn stress_of_pairs(&mut self, name: &'static str, pass: pairs::Pass) -> usize {
-        let pass = Choices::new().with(pass).with_if(!is_noisy(self.force), Deviate::Silent);
-        self.traversal(name, self.traversal, Masks::Unkept, &pass)
+        self.traversal(name, self.traversal, Masks::Unkept, &Choices::new().with(pass))
     }
 
     /// Where the second of two stages of friction finds the momenta that the first has left.

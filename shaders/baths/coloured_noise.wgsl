@@ -3,7 +3,10 @@
 //
 // `jump_after` of baths/jump gives the next force and how long it lasts, in half steps, from an id and the number of
 // the jump.
-override HOLD_IMPULSE: f32; // impulse of half a step per force
+struct NoiseImpulses { closing: Steps, opening: Steps }
+
+override COLOURED_NOISE: u32; // 1 where there is one
+override HOLD_IMPULSE: f32;   // impulse of half a step per force
 
 // Time is counted in half steps; `halves` whole ones and a `fraction` are left of the force.
 struct Hold {
@@ -53,6 +56,7 @@ fn cross_half_step(id: u32, hold: ptr<function, Hold>) -> Steps {
 
 // The impulses of both half steps around this step: one ends at it, one begins with it.
 fn advance_hold(id: u32) -> NoiseImpulses {
+    if (COLOURED_NOISE == 0u) { return NoiseImpulses(Steps(0), Steps(0)); }
     // Stored momenta of step 0 are full-step ones, and its process begins with it.
     let crossed = u32(1 + clock_closing());
     let whole = Steps(round(HOLD_IMPULSE * force_of(holds[id].force)));
@@ -73,6 +77,7 @@ fn advance_hold(id: u32) -> NoiseImpulses {
 // The impulse of the half step that ends at this step alone, for a report: nothing is stored. At step 0, where the momentum is
 // complete without it, it is that of the half step that begins there, which shows the force.
 fn closing_of_hold(id: u32) -> Steps {
+    if (COLOURED_NOISE == 0u) { return Steps(0); }
     var hold = holds[id];
     return cross_half_step(id, &hold);
 }

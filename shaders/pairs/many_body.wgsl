@@ -1,4 +1,5 @@
 // The repulsion of many-body dissipative particle dynamics, from the densities that pairs/density has found.
+override MANY_BODY: u32;       // 1 where there is one
 override DENSITY_IMPULSE: f32; // impulse of half a step at contact per unit of the densities of both particles
 
 // The densities of both particles of that pair together: integers, so that both ends have the same.
@@ -7,6 +8,7 @@ fn density_of_pair() -> f32 { return f32(densities[pair_ids.x] + densities[pair_
 // The law: V = sum over particles of k n^2 with k = B C rd/4, of which a pair has k (n_i + n_j) v^2 with v = 1 - r/rd;
 // its force is B C (n_i + n_j) v. B C is in DENSITY_IMPULSE.
 fn with_many_body_impulse(impulse: f32, w: f32) -> f32 {
+    if (MANY_BODY == 0u) { return impulse; }
     return impulse + DENSITY_IMPULSE * density_of_pair() * density_closeness(w);
 }
 
@@ -14,6 +16,7 @@ fn with_many_body_impulse(impulse: f32, w: f32) -> f32 {
 // n_j)(1/rd - (d - 1) v/r) + 2 v^2/rd), and 2 B C/rd times the square of the sum of v e, which is no sum over pairs:
 // see pairs/pass/observe_densities.
 fn with_many_body(other: Repulsion, contact: Contact) -> Repulsion {
+    if (MANY_BODY == 0u) { return other; }
     let v = density_closeness(contact.w);
     let density = density_of_pair();
     let impulse = DENSITY_IMPULSE * density * v;

@@ -1,2 +1,0 @@
-// Baths of bonds draw nothing.
-fn prepare_bond_noise() {}

@@ -1,2 +1,0 @@
-// Pairs draw nothing.
-fn prepare_pair_noise() {}
