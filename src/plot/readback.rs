@@ -1,7 +1,7 @@
 //! Pictures from the device to the host.
 
 use super::error::PlotError;
-use super::pipelines::checked;
+use super::pipelines::Painter;
 use image::RgbaImage;
 use std::sync::mpsc;
 use std::time::Duration;
@@ -9,18 +9,16 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_mins(2);
 
 /// Reads the pixels of a picture.
-pub(super) fn read_back(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    texture: &wgpu::Texture,
-) -> Result<RgbaImage, PlotError> {
+pub(super) fn read_back(painter: &Painter, texture: &wgpu::Texture) -> Result<RgbaImage, PlotError> {
+    let Painter { device, queue } = painter;
+    let failed = |error: &dyn std::fmt::Display| PlotError::Readback(error.to_string());
     let (width, height) = (texture.width(), texture.height());
     let row = width * 4;
     let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     // Copied in strips, so that the staging buffer stays small however large the picture.
     let strip = ((64 << 20) / padded_row).clamp(1, height);
     let mut pixels = Vec::with_capacity(row as usize * height as usize);
-    let buffer = checked(device, "copy of the picture", || {
+    let buffer = painter.checked("copy of the picture", || {
         device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("plot: readback"),
             size: u64::from(padded_row) * u64::from(strip),
@@ -32,7 +30,7 @@ pub(super) fn read_back(
         let rows = strip.min(height - top);
         let bytes = u64::from(padded_row) * u64::from(rows);
         let (sender, receiver) = mpsc::channel();
-        let submission = checked(device, "copy of the picture", || {
+        let submission = painter.checked("copy of the picture", || {
             let mut encoder =
                 device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("plot: shapes") });
             let mut source = texture.as_image_copy();
@@ -52,13 +50,10 @@ pub(super) fn read_back(
         })?;
         device
             .poll(wgpu::PollType::Wait { submission_index: Some(submission), timeout: Some(PATIENCE) })
-            .map_err(|error| PlotError::Readback(error.to_string()))?;
+            .map_err(|error| failed(&error))?;
         // The mapping may be on its way in another thread that polls the same device.
-        receiver
-            .recv_timeout(PATIENCE)
-            .map_err(|error| PlotError::Readback(error.to_string()))?
-            .map_err(|error| PlotError::Readback(error.to_string()))?;
-        let mapped = buffer.get_mapped_range(0..bytes).map_err(|error| PlotError::Readback(error.to_string()))?;
+        receiver.recv_timeout(PATIENCE).map_err(|error| failed(&error))?.map_err(|error| failed(&error))?;
+        let mapped = buffer.get_mapped_range(0..bytes).map_err(|error| failed(&error))?;
         for padded in mapped.chunks(padded_row as usize) {
             pixels.extend_from_slice(&padded[..row as usize]);
         }

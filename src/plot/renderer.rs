@@ -9,9 +9,7 @@ use super::field::{self, FieldPicture, FieldScene};
 use super::field_renderer::{draw_field, field_pipeline};
 use super::palette::linear;
 use super::particles::{self, ParticlePicture, SphereScene};
-use super::pipelines::{
-    COLOUR_FORMAT, Target, checked, colour_attachment, filled_buffer, labelled, module, once, pipeline, uniform,
-};
+use super::pipelines::{COLOUR_FORMAT, Page, Painter, Target, view};
 use super::readback::read_back;
 use super::sphere_renderer::{composite_pipeline, draw_spheres, rods_pipeline, spheres_pipeline};
 use crate::scene::{PlotStyle, Snapshot, Theme};
@@ -31,8 +29,7 @@ struct Viewport {
 /// Draws pictures with one device; its pipelines are made once, when a picture first needs them.
 #[derive(Debug)]
 pub struct Plotter {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    painter: Painter,
     shapes: wgpu::RenderPipeline,
     spheres: OnceLock<wgpu::RenderPipeline>,
     rods: OnceLock<wgpu::RenderPipeline>,
@@ -53,10 +50,10 @@ impl Plotter {
     /// # Errors
     /// [`PlotError::Device`] if the adapter refuses a shader or a pipeline, [`PlotError::OutOfMemory`].
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, PlotError> {
-        let shapes = checked(device, "pipeline of the shapes", || shapes_pipeline(device))?;
+        let painter = Painter { device: device.clone(), queue: queue.clone() };
+        let shapes = painter.checked("pipeline of the shapes", || shapes_pipeline(&painter))?;
         Ok(Self {
-            device: device.clone(),
-            queue: queue.clone(),
+            painter,
             shapes,
             spheres: OnceLock::new(),
             rods: OnceLock::new(),
@@ -77,6 +74,30 @@ impl Plotter {
 
     /// Draws the particles into an sRGB image of the size that `style` says, or the box asks for. The same input gives
     /// the same bytes on one adapter and driver.
+    ///
+    /// ```
+    /// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+    /// use mesoscope::{plot, scene};
+    ///
+    /// let picture = plot::ParticlePicture {
+    ///     dimension: 3,
+    ///     lengths: [4.0; 3],
+    ///     positions: &[[1.0, 1.0, 1.0], [3.0, 2.0, 1.5]],
+    ///     species: &[0, 1],
+    ///     species_names: &["light".to_owned(), "heavy".to_owned()],
+    ///     speeds: None,
+    ///     bonds: &[[0, 1]],
+    ///     radius: 0.4,
+    ///     title: "Two particles",
+    ///     subtitle: "",
+    /// };
+    /// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+    /// let style = scene::Snapshot { width: Some(400), height: Some(300), ..scene::Snapshot::default() };
+    /// let image = plot::Plotter::new(gpu.device(), gpu.queue())?.draw_particles(&picture, &style, scene::Theme::Light)?;
+    /// assert_eq!(image.dimensions(), (400, 300));
+    /// assert!(image.pixels().any(|pixel| pixel != image.get_pixel(0, 0)), "the picture is not empty");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// [`PlotError::Size`] if the adapter has no texture that large, [`PlotError::Input`] if the lists of the picture
@@ -109,12 +130,27 @@ impl Plotter {
     /// Draws a field into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same bytes
     /// on one adapter and driver.
     ///
+    /// ```
+    /// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+    /// use mesoscope::{measure::Field, plot, scene::PlotStyle};
+    ///
+    /// let wave = |[x, _]: [f64; 2]| x.sin();
+    /// let field = Field::from_function("height", "height h", [16, 8], [std::f64::consts::TAU, 3.0], wave);
+    /// let picture = plot::FieldPicture { title: "A wave", ..plot::FieldPicture::new(&field) };
+    /// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
+    /// let style = PlotStyle { width: 400, height: Some(300), ..PlotStyle::default() };
+    /// let image = plot::Plotter::new(gpu.device(), gpu.queue())?.draw_field(&picture, &style)?;
+    /// assert_eq!(image.dimensions(), (400, 300));
+    /// assert!(image.pixels().any(|pixel| pixel != image.get_pixel(0, 0)), "the picture is not empty");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// [`PlotError::Size`] if the adapter has no texture as large as the picture, [`PlotError::Input`] if it has none as
     /// large as the mesh or the parts of the field do not fit together, [`PlotError::TypeTooLarge`] if `scale` is
     /// excessive, and what the device reports.
     pub fn draw_field(&self, picture: &FieldPicture<'_>, style: &PlotStyle) -> Result<RgbaImage, PlotError> {
-        let limit = self.device.limits().max_texture_dimension_2d;
+        let limit = self.painter.device.limits().max_texture_dimension_2d;
         let [kx, ky] = picture.field.nodes;
         if kx.max(ky) > limit as usize {
             let message = format!("the mesh has {kx} x {ky} nodes; this adapter draws {limit} along an axis at most");
@@ -125,7 +161,7 @@ impl Plotter {
     }
 
     fn check_size(&self, width: u32, height: u32) -> Result<(), PlotError> {
-        let limit = self.device.limits().max_texture_dimension_2d;
+        let limit = self.painter.device.limits().max_texture_dimension_2d;
         if width == 0 || height == 0 || width > limit || height > limit {
             return Err(PlotError::Size { width, height, limit });
         }
@@ -134,88 +170,56 @@ impl Plotter {
 
     fn paint(&self, canvas: &Canvas, content: &Content<'_>) -> Result<RgbaImage, PlotError> {
         self.check_size(canvas.width, canvas.height)?;
-        let target = checked(&self.device, "picture", || {
-            self.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("plot: picture"),
-                size: wgpu::Extent3d { width: canvas.width, height: canvas.height, depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: COLOUR_FORMAT,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-                view_formats: &[],
-            })
-        })?;
-        let view = target.create_view(&labelled("plot: picture"));
+        let painter = &self.painter;
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+        let size = [canvas.width, canvas.height];
+        let target = painter.checked("picture", || painter.texture("plot: picture", size, COLOUR_FORMAT, usage))?;
+        let view = view(&target, "plot: picture");
         let atlas = self.atlas(canvas)?;
-        let paper = canvas.paper;
-        let clear = wgpu::Color {
-            r: f64::from(linear(paper[0])),
-            g: f64::from(linear(paper[1])),
-            b: f64::from(linear(paper[2])),
-            a: 1.0,
-        };
+        let [r, g, b] = [0, 1, 2].map(|channel| f64::from(linear(canvas.paper[channel])));
+        let clear = Some(wgpu::Color { r, g, b, a: 1.0 });
         let (under, over) = canvas.batches.split_at(canvas.background);
-        checked(&self.device, "background", || self.shapes_pass(canvas, under, &view, &atlas, Some(clear)))?;
+        painter.checked("background", || self.shapes_pass(canvas, under, &view, &atlas, clear))?;
         match content {
             Content::Nothing => {}
             Content::Particles(scene) => {
-                let spheres = once(&self.spheres, &self.device, "pipeline of the particles", spheres_pipeline)?;
-                let composite = once(&self.composite, &self.device, "pipeline of the overlay", composite_pipeline)?;
-                let pipelines = [spheres, composite];
+                let spheres = painter.once(&self.spheres, "pipeline of the particles", spheres_pipeline)?;
+                let composite = painter.once(&self.composite, "pipeline of the overlay", composite_pipeline)?;
                 let rods = match scene.rods.as_slice() {
                     [] => None,
-                    _ => Some(once(&self.rods, &self.device, "pipeline of the bonds", rods_pipeline)?),
+                    _ => Some(painter.once(&self.rods, "pipeline of the bonds", rods_pipeline)?),
                 };
                 if let Some(clip) = scissor(Some(scene.area), canvas) {
-                    let (device, queue) = (&self.device, &self.queue);
-                    checked(device, "particles", || draw_spheres(device, queue, pipelines, rods, scene, clip, &view))?;
+                    let draw = || draw_spheres(painter, [spheres, composite], rods, scene, clip, &view);
+                    painter.checked("particles", draw)?;
                 }
             }
             Content::Field(scene) => {
-                let field = once(&self.field, &self.device, "pipeline of the fields", field_pipeline)?;
-                checked(&self.device, "field", || self.field_pass(field, canvas, scene, &view))?;
+                let field = painter.once(&self.field, "pipeline of the fields", field_pipeline)?;
+                let [left, top, width, height] = scene.area.map(f64::from);
+                let area = Area { left, top, right: left + width, bottom: top + height };
+                // In a picture too small for its type the image may stand out of it.
+                if let Some(clip) = scissor(Some(area), canvas) {
+                    painter.checked("field", || draw_field(painter, field, scene, clip, &view))?;
+                }
             }
         }
-        checked(&self.device, "foreground", || self.shapes_pass(canvas, over, &view, &atlas, None))?;
-        read_back(&self.device, &self.queue, &target)
+        painter.checked("foreground", || self.shapes_pass(canvas, over, &view, &atlas, None))?;
+        read_back(painter, &target)
     }
 
     /// Uploads the glyphs and binds them with the size of the picture.
     fn atlas(&self, canvas: &Canvas) -> Result<wgpu::BindGroup, PlotError> {
         let (width, height, coverage) = canvas.typesetter.atlas()?;
-        checked(&self.device, "type", || {
-            let size = wgpu::Extent3d { width, height: height.max(1), depth_or_array_layers: 1 };
-            let texture = self.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some("plot: glyphs"),
-                size,
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format: wgpu::TextureFormat::R8Unorm,
-                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-                view_formats: &[],
-            });
-            if height > 0 {
-                let layout =
-                    wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width), rows_per_image: Some(height) };
-                self.queue.write_texture(texture.as_image_copy(), coverage, layout, size);
-            }
+        // A texture has a row at least.
+        let coverage = if height > 0 { coverage } else { &vec![0; width as usize] };
+        let size = [width, height.max(1)];
+        self.painter.checked("type", || {
+            let glyphs = self.painter.filled_texture("plot: glyphs", size, wgpu::TextureFormat::R8Unorm, coverage);
             let viewport = Viewport { size: [canvas.width as f32, canvas.height as f32] };
-            self.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("plot: shapes"),
-                layout: &self.shapes.get_bind_group_layout(0),
-                entries: &[
-                    wgpu::BindGroupEntry {
-                        binding: 0,
-                        resource: uniform(&self.device, &self.queue, "plot: viewport", &viewport).as_entire_binding(),
-                    },
-                    wgpu::BindGroupEntry {
-                        binding: 1,
-                        resource: wgpu::BindingResource::TextureView(&texture.create_view(&labelled("plot: glyphs"))),
-                    },
-                ],
-            })
+            let viewport = self.painter.uniform("plot: viewport", &viewport);
+            let resources = [viewport.as_entire_binding(), wgpu::BindingResource::TextureView(&glyphs)];
+            self.painter.bind_group("plot: shapes", &self.shapes, resources)
         })
     }
 
@@ -227,14 +231,7 @@ impl Plotter {
         atlas: &wgpu::BindGroup,
         clear: Option<wgpu::Color>,
     ) {
-        let mut encoder =
-            self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("plot: shapes") });
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("plot: shapes"),
-                color_attachments: &[Some(colour_attachment(view, clear))],
-                ..Default::default()
-            });
+        self.painter.paint("plot: shapes", view, clear, None, |pass| {
             pass.set_pipeline(&self.shapes);
             pass.set_bind_group(0, atlas, &[]);
             for batch in batches {
@@ -243,29 +240,12 @@ impl Plotter {
                 let shapes = &canvas.shapes[batch.shapes.start as usize..batch.shapes.end as usize];
                 for chunk in shapes.chunks(INSTANCES_PER_BUFFER) {
                     let bytes = bytemuck::cast_slice(chunk);
-                    let buffer =
-                        filled_buffer(&self.device, &self.queue, "plot: shapes", bytes, wgpu::BufferUsages::VERTEX);
+                    let buffer = self.painter.filled_buffer("plot: shapes", bytes, wgpu::BufferUsages::VERTEX);
                     pass.set_vertex_buffer(0, buffer.slice(..));
                     pass.draw(0..4, 0..chunk.len() as u32);
                 }
             }
-        }
-        self.queue.submit([encoder.finish()]);
-    }
-
-    fn field_pass(
-        &self,
-        pipeline: &wgpu::RenderPipeline,
-        canvas: &Canvas,
-        scene: &FieldScene,
-        view: &wgpu::TextureView,
-    ) {
-        let [left, top, width, height] = scene.area.map(f64::from);
-        let area = Area { left, top, right: left + width, bottom: top + height };
-        // In a picture too small for its type the image may stand out of it.
-        if let Some(clip) = scissor(Some(area), canvas) {
-            draw_field(&self.device, &self.queue, pipeline, scene, clip, view);
-        }
+        });
     }
 }
 
@@ -278,14 +258,10 @@ fn scissor(clip: Option<Area>, canvas: &Canvas) -> Option<[u32; 4]> {
     (right > left && bottom > top).then(|| [left, top, right - left, bottom - top])
 }
 
-fn shapes_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
-    let module = module(device, "plot/shapes.wgsl", include_str!("../../shaders/plot/shapes.wgsl"));
-    let instance = wgpu::VertexBufferLayout {
-        array_stride: size_of::<Shape>() as u64,
-        step_mode: wgpu::VertexStepMode::Instance,
-        attributes: &wgpu::vertex_attr_array![
-            0 => Float32x4, 1 => Float32x4, 2 => Float32, 3 => Uint32, 4 => Unorm8x4
-        ],
-    };
-    pipeline(device, "plot: shapes", &module, ["vertex_shape", "fragment_shape"], Some(instance), Target::Picture)
+const SHAPES: Page = ("plot/shapes.wgsl", include_str!("../../shaders/plot/shapes.wgsl"));
+
+fn shapes_pipeline(painter: &Painter) -> wgpu::RenderPipeline {
+    let attributes = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32, 3 => Uint32, 4 => Unorm8x4];
+    let entry_points = ["vertex_shape", "fragment_shape"];
+    painter.pipeline::<Shape>("plot: shapes", SHAPES, entry_points, &attributes, Target::Picture)
 }

@@ -2,9 +2,7 @@
 
 use super::palette::linear;
 use super::particles::{ParticleInstance, RodInstance, SphereScene};
-use super::pipelines::{
-    DEPTH_FORMAT, ENLARGED_FORMAT, Target, colour_attachment, filled_buffer, labelled, module, pipeline, uniform,
-};
+use super::pipelines::{DEPTH_FORMAT, ENLARGED_FORMAT, Page, Painter, Target, view};
 use bytemuck::{Pod, Zeroable};
 
 /// Side of the texture that particles are drawn into, larger than life; a big picture takes several turns.
@@ -39,158 +37,89 @@ struct Drawn<'a> {
     buffers: Vec<(wgpu::Buffer, u32)>,
 }
 
-pub(super) fn spheres_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
-    let module = module(device, "plot/spheres.wgsl", include_str!("../../shaders/plot/spheres.wgsl"));
-    let instance = wgpu::VertexBufferLayout {
-        array_stride: size_of::<ParticleInstance>() as u64,
-        step_mode: wgpu::VertexStepMode::Instance,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4],
-    };
-    pipeline(device, "plot: particles", &module, ["vertex_sphere", "fragment_sphere"], Some(instance), Target::Enlarged)
+const SPHERES: Page = ("plot/spheres.wgsl", include_str!("../../shaders/plot/spheres.wgsl"));
+const COMPOSITE: Page = ("plot/composite.wgsl", include_str!("../../shaders/plot/composite.wgsl"));
+
+pub(super) fn spheres_pipeline(painter: &Painter) -> wgpu::RenderPipeline {
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4];
+    let entry_points = ["vertex_sphere", "fragment_sphere"];
+    painter.pipeline::<ParticleInstance>("plot: particles", SPHERES, entry_points, &attributes, Target::Enlarged)
 }
 
-pub(super) fn rods_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
-    let module = module(device, "plot/spheres.wgsl", include_str!("../../shaders/plot/spheres.wgsl"));
-    let instance = wgpu::VertexBufferLayout {
-        array_stride: size_of::<RodInstance>() as u64,
-        step_mode: wgpu::VertexStepMode::Instance,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4],
-    };
-    pipeline(device, "plot: bonds", &module, ["vertex_rod", "fragment_rod"], Some(instance), Target::Enlarged)
+pub(super) fn rods_pipeline(painter: &Painter) -> wgpu::RenderPipeline {
+    let attributes = wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Unorm8x4];
+    let entry_points = ["vertex_rod", "fragment_rod"];
+    painter.pipeline::<RodInstance>("plot: bonds", SPHERES, entry_points, &attributes, Target::Enlarged)
 }
 
-pub(super) fn composite_pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
-    let module = module(device, "plot/composite.wgsl", include_str!("../../shaders/plot/composite.wgsl"));
-    pipeline(device, "plot: overlay", &module, ["vertex_composite", "fragment_composite"], None, Target::Picture)
+pub(super) fn composite_pipeline(painter: &Painter) -> wgpu::RenderPipeline {
+    let entry_points = ["vertex_composite", "fragment_composite"];
+    painter.pipeline::<()>("plot: overlay", COMPOSITE, entry_points, &[], Target::Picture)
 }
 
 /// Draws the particles and their bonds enlarged, tile by tile, and lays each tile over the picture; of the picture they take the
 /// part with this left, top, width and height.
 pub(super) fn draw_spheres(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
+    painter: &Painter,
     [spheres, composite]: [&wgpu::RenderPipeline; 2],
     rods: Option<&wgpu::RenderPipeline>,
     scene: &SphereScene,
     [left, top, width, height]: [u32; 4],
-    view: &wgpu::TextureView,
+    picture: &wgpu::TextureView,
 ) {
     if scene.particles.is_empty() {
         return;
     }
     let samples = scene.samples;
     let tile = TILE_SIDE / samples;
-    let texture_size = wgpu::Extent3d {
-        width: width.min(tile) * samples,
-        height: height.min(tile) * samples,
-        depth_or_array_layers: 1,
-    };
+    let size = [width, height].map(|side| side.min(tile) * samples);
     let texture = |label, format, usage| {
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(label),
-            size: texture_size,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | usage,
-            view_formats: &[],
-        });
-        texture.create_view(&labelled(label))
+        view(&painter.texture(label, size, format, wgpu::TextureUsages::RENDER_ATTACHMENT | usage), label)
     };
     let colour = texture("plot: particles", ENLARGED_FORMAT, wgpu::TextureUsages::TEXTURE_BINDING);
     let depth = texture("plot: depth of particles", DEPTH_FORMAT, wgpu::TextureUsages::empty());
-    let mut drawn = vec![Drawn { pipeline: spheres, buffers: buffers(device, queue, &scene.particles) }];
+    let mut drawn = vec![Drawn { pipeline: spheres, buffers: buffers(painter, &scene.particles) }];
     if let Some(pipeline) = rods {
-        drawn.push(Drawn { pipeline, buffers: buffers(device, queue, &scene.rods) });
+        drawn.push(Drawn { pipeline, buffers: buffers(painter, &scene.rods) });
     }
     for tile_top in (top..top + height).step_by(tile as usize) {
         for tile_left in (left..left + width).step_by(tile as usize) {
+            let camera = painter.uniform("plot: camera", &camera(scene, [tile_left, tile_top], size));
+            painter.paint("plot: particles", &colour, Some(wgpu::Color::TRANSPARENT), Some(&depth), |pass| {
+                for Drawn { pipeline, buffers } in &drawn {
+                    let group = painter.bind_group("plot: camera", pipeline, [camera.as_entire_binding()]);
+                    pass.set_pipeline(pipeline);
+                    pass.set_bind_group(0, &group, &[]);
+                    for (buffer, count) in buffers {
+                        pass.set_vertex_buffer(0, buffer.slice(..));
+                        pass.draw(0..4, 0..*count);
+                    }
+                }
+            });
+            let origin = [tile_left as i32, tile_top as i32];
+            let placement = Placement { origin, samples: samples as i32, padding: 0 };
+            let placement = painter.uniform("plot: placement", &placement);
+            let resources = [placement.as_entire_binding(), wgpu::BindingResource::TextureView(&colour)];
+            let group = painter.bind_group("plot: overlay", composite, resources);
+            let [x, y] = [tile_left, tile_top].map(|pixel| pixel as f32);
             let tile_size = [tile.min(left + width - tile_left), tile.min(top + height - tile_top)];
-            let mut encoder =
-                device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("plot: shapes") });
-            let camera = camera(scene, [tile_left, tile_top], [texture_size.width, texture_size.height]);
-            enlarged_pass(device, queue, &drawn, &mut encoder, &camera, [&colour, &depth]);
-            let placement =
-                Placement { origin: [tile_left as i32, tile_top as i32], samples: samples as i32, padding: 0 };
-            composite_pass(device, queue, composite, &mut encoder, &placement, tile_size, [&colour, view]);
-            queue.submit([encoder.finish()]);
+            let [tile_width, tile_height] = tile_size.map(|side| side as f32);
+            painter.paint("plot: overlay", picture, None, None, |pass| {
+                pass.set_pipeline(composite);
+                pass.set_bind_group(0, &group, &[]);
+                pass.set_viewport(x, y, tile_width, tile_height, 0.0, 1.0);
+                pass.draw(0..4, 0..1);
+            });
         }
     }
 }
 
-fn buffers<T: Pod>(device: &wgpu::Device, queue: &wgpu::Queue, instances: &[T]) -> Vec<(wgpu::Buffer, u32)> {
+fn buffers<T: Pod>(painter: &Painter, instances: &[T]) -> Vec<(wgpu::Buffer, u32)> {
     let filled = |chunk: &[T]| {
         let bytes = bytemuck::cast_slice(chunk);
-        (filled_buffer(device, queue, "plot: particles", bytes, wgpu::BufferUsages::VERTEX), chunk.len() as u32)
+        (painter.filled_buffer("plot: particles", bytes, wgpu::BufferUsages::VERTEX), chunk.len() as u32)
     };
     instances.chunks(INSTANCES_PER_BUFFER).map(filled).collect()
-}
-
-fn enlarged_pass(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    drawn: &[Drawn<'_>],
-    encoder: &mut wgpu::CommandEncoder,
-    camera: &Camera,
-    [colour, depth]: [&wgpu::TextureView; 2],
-) {
-    let camera = uniform(device, queue, "plot: camera", camera);
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("plot: particles"),
-        color_attachments: &[Some(colour_attachment(colour, Some(wgpu::Color::TRANSPARENT)))],
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: depth,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
-            stencil_ops: None,
-        }),
-        ..Default::default()
-    });
-    for Drawn { pipeline, buffers } in drawn {
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("plot: camera"),
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: camera.as_entire_binding() }],
-        });
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        for (buffer, count) in buffers {
-            pass.set_vertex_buffer(0, buffer.slice(..));
-            pass.draw(0..4, 0..*count);
-        }
-    }
-}
-
-fn composite_pass(
-    device: &wgpu::Device,
-    queue: &wgpu::Queue,
-    pipeline: &wgpu::RenderPipeline,
-    encoder: &mut wgpu::CommandEncoder,
-    placement: &Placement,
-    size: [u32; 2],
-    [enlarged, view]: [&wgpu::TextureView; 2],
-) {
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("plot: overlay"),
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &[
-            wgpu::BindGroupEntry {
-                binding: 0,
-                resource: uniform(device, queue, "plot: placement", placement).as_entire_binding(),
-            },
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(enlarged) },
-        ],
-    });
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("plot: overlay"),
-        color_attachments: &[Some(colour_attachment(view, None))],
-        ..Default::default()
-    });
-    let [x, y] = placement.origin.map(|pixel| pixel as f32);
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(0, &group, &[]);
-    pass.set_viewport(x, y, size[0] as f32, size[1] as f32, 0.0, 1.0);
-    pass.draw(0..4, 0..1);
 }
 
 fn camera(scene: &SphereScene, tile: [u32; 2], target: [u32; 2]) -> Camera {

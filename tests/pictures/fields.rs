@@ -4,7 +4,7 @@
 use image::RgbaImage;
 use mesoscope::measure::Field;
 use mesoscope::output::{OutputError, write_npy, write_npy_to};
-use mesoscope::plot::{ColorMap, FieldPicture, Interpolation, PeriodicCurve, PlotError, draw_field};
+use mesoscope::plot::{ColorMap, FieldPicture, Interpolation, PeriodicCurve, PlotError, Plotter};
 use mesoscope::scene::{PlotStyle, Theme};
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -124,7 +124,8 @@ fn a_front_as_it_is_published() {
     };
     let light = draw("front", &picture, &PlotStyle::default());
     assert_eq!(light, plotter().draw_field(&picture, &PlotStyle::default()).unwrap(), "the same bytes twice");
-    assert_eq!(light, draw_field(gpu().device(), gpu().queue(), &picture, &PlotStyle::default()).unwrap());
+    let another = Plotter::new(gpu().device(), gpu().queue()).unwrap();
+    assert_eq!(light, another.draw_field(&picture, &PlotStyle::default()).unwrap());
     assert!((frames(&light).aspect() - 1.0).abs() < 2e-3);
     let margins = |picture: &RgbaImage| {
         let (width, height) = picture.dimensions();
