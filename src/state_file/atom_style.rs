@@ -28,34 +28,9 @@ const READ: [(&str, &[Column]); 7] = [
 ];
 
 /// Other styles, of atoms that have more than a scene can hold.
-const UNREAD: [&str; 26] = [
-    "amoeba",
-    "apip",
-    "body",
-    "bpm/sphere",
-    "dielectric",
-    "dipole",
-    "dpd",
-    "edpd",
-    "electron",
-    "ellipsoid",
-    "line",
-    "mesont",
-    "oxdna",
-    "peri",
-    "rheo",
-    "rheo/thermal",
-    "smd",
-    "sph",
-    "sphere",
-    "sphere/temp",
-    "spin",
-    "tdpd",
-    "template",
-    "tri",
-    "wavepacket",
-    "meso",
-];
+const UNREAD: &str = "\
+    amoeba apip body bpm/sphere dielectric dipole dpd edpd electron ellipsoid line mesont oxdna peri rheo \
+    rheo/thermal smd sph sphere sphere/temp spin tdpd template tri wavepacket meso";
 
 /// The style of which others are made.
 const HYBRID: &str = "hybrid";
@@ -131,7 +106,7 @@ impl AtomStyle {
         if first == HYBRID {
             return Some(comment);
         }
-        let is_known = READ.iter().any(|(name, _)| *name == first) || UNREAD.contains(&first);
+        let is_known = READ.iter().any(|(name, _)| *name == first) || UNREAD.split(' ').any(|name| name == first);
         (is_known || word == comment && !is_given).then_some(first)
     }
 

@@ -268,10 +268,50 @@ fn real(word: &str) -> Option<f64> {
     word.parse().ok().or_else(|| word.replace(['d', 'D'], "e").parse().ok())
 }
 
-/// Three numbers of a line.
-fn vector<T>(words: &[&str], first: usize, read: impl Fn(&str) -> Option<T>) -> Option<[T; 3]> {
-    let mut numbers = words.get(first..first + 3)?.iter().map(|word| read(word));
-    Some([numbers.next()??, numbers.next()??, numbers.next()??])
+/// A particle as its line says it.
+struct Particle<'a> {
+    species: &'a str,
+    position: [f64; 3],
+    velocity: Option<[f64; 3]>,
+    mass: Option<f64>,
+    image: Option<[i64; 3]>,
+    id: Option<u64>,
+}
+
+/// Three numbers.
+fn vector<T>(words: &[&str], read: impl Fn(&str) -> Option<T>) -> Option<[T; 3]> {
+    words.iter().map(|word| read(word)).collect::<Option<Vec<T>>>()?.try_into().ok()
+}
+
+impl Columns {
+    fn read<'a>(&self, line: &'a str, place: &str) -> Result<Particle<'a>, Mistake> {
+        let words: Vec<&str> = line.split_ascii_whitespace().collect();
+        if words.len() != self.all {
+            let found = format!("found {} columns", words.len());
+            return Err(Mistake::new(place, found, format!("{}, as `Properties` says", self.all)));
+        }
+        let here = |first: usize, width: usize| &words[first..first + width];
+        let wrong = |first: usize, width: usize, accepted: &str| {
+            let found = format!("found `{}` in column {}", shortened(&here(first, width).join(" ")), first + 1);
+            Mistake::new(place, found, accepted)
+        };
+        let numbers = |first: usize| vector(here(first, 3), real).ok_or_else(|| wrong(first, 3, "three numbers"));
+        let position = numbers(self.position.unwrap_or(0))?;
+        let velocity = self.velocity.map(numbers).transpose()?;
+        let momentum = self.momentum.filter(|_| velocity.is_none()).map(numbers).transpose()?;
+        let mass = self.mass.map(|first| real(words[first]).ok_or_else(|| wrong(first, 1, "a mass"))).transpose()?;
+        let turns = |first: usize| vector(here(first, 3), |word| word.parse().ok());
+        let turns = |first: usize| turns(first).ok_or_else(|| wrong(first, 3, "three whole numbers"));
+        let image = self.image.map(turns).transpose()?;
+        let id = |first: usize| words[first].parse().map_err(|_| wrong(first, 1, "a whole number"));
+        let id = self.id.map(id).transpose()?;
+        let first = self.species.unwrap_or(0);
+        if self.is_atomic_number && words[first].parse::<u32>().is_err() {
+            return Err(wrong(first, 1, "an atomic number"));
+        }
+        let over_mass = momentum.zip(mass).map(|(momentum, mass)| momentum.map(|part| part / mass));
+        Ok(Particle { species: words[first], position, velocity: velocity.or(over_mass), mass, image, id })
+    }
 }
 
 fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleFile, Mistakes> {
@@ -298,47 +338,17 @@ fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleF
             mistakes.push(Mistake::new(lines.place(), found, "a whole file"));
             break;
         };
-        let words: Vec<&str> = line.split_ascii_whitespace().collect();
-        if words.len() != columns.all {
-            let found = format!("found {} columns", words.len());
-            mistakes.push(Mistake::new(place, found, format!("{}, as `Properties` says", columns.all)));
-            if mistakes.are_enough() {
-                break;
+        let read = match columns.read(line, &place) {
+            Ok(read) => read,
+            Err(mistake) => {
+                mistakes.push(mistake);
+                if mistakes.are_enough() {
+                    break;
+                }
+                continue;
             }
-            continue;
-        }
-        let number = |first: usize| real(words[first]);
-        let read = |first: Option<usize>| first.map(|first| (first, vector(&words, first, real)));
-        let (position, velocity) = (read(columns.position), read(columns.velocity));
-        let momentum = if columns.velocity.is_none() { read(columns.momentum) } else { None };
-        let mass = columns.mass.map(|first| (first, number(first)));
-        let image = columns.image.map(|first| (first, vector(&words, first, |word| word.parse::<i64>().ok())));
-        let id = columns.id.map(|first| (first, words[first].parse::<u64>().ok()));
-        let bad = [position, velocity, momentum].into_iter().flatten().find(|(_, value)| value.is_none());
-        let bad = bad.map(|(first, _)| (first, 3, "three numbers"));
-        let bad = bad.or(mass.filter(|(_, value)| value.is_none()).map(|(first, _)| (first, 1, "a mass")));
-        let bad =
-            bad.or(image.filter(|(_, value)| value.is_none()).map(|(first, _)| (first, 3, "three whole numbers")));
-        let bad = bad.or(id.filter(|(_, value)| value.is_none()).map(|(first, _)| (first, 1, "a whole number")));
-        if let Some((first, width, accepted)) = bad {
-            let found =
-                format!("found `{}` in column {}", shortened(&words[first..first + width].join(" ")), first + 1);
-            mistakes.push(Mistake::new(place, found, accepted));
-            if mistakes.are_enough() {
-                break;
-            }
-            continue;
-        }
-        let name = words[columns.species.unwrap_or(0)];
-        if columns.is_atomic_number && name.parse::<u32>().is_err() {
-            let column = columns.species.unwrap_or(0) + 1;
-            let found = format!("found `{}` in column {column}", shortened(name));
-            mistakes.push(Mistake::new(place, found, "an atomic number"));
-            if mistakes.are_enough() {
-                break;
-            }
-            continue;
-        }
+        };
+        let name = read.species;
         let species = match known.get(name) {
             Some(species) => *species,
             None if known.len() >= MOST_SPECIES => {
@@ -353,15 +363,12 @@ fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleF
             }
         };
         file.types.push(species);
-        file.positions.push(position.and_then(|(_, position)| position).unwrap_or_default());
-        let mass = mass.and_then(|(_, mass)| mass);
-        if let Some(mass) = mass {
+        file.positions.push(read.position);
+        if let Some(mass) = read.mass {
             masses.add(species as usize, mass, || particle.to_string());
         }
-        let velocity = velocity.and_then(|(_, velocity)| velocity);
-        let over_mass = momentum.and_then(|(_, momentum)| momentum).zip(mass);
-        file.velocities.extend(velocity.or(over_mass.map(|(momentum, mass)| momentum.map(|part| part / mass))));
-        if let Some(image) = image.and_then(|(_, image)| image) {
+        file.velocities.extend(read.velocity);
+        if let Some(image) = read.image {
             let turns = image.map(i32::try_from);
             if turns.iter().any(Result::is_err) {
                 let found = format!("found images beyond 32 bits: {image:?}");
@@ -369,7 +376,7 @@ fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleF
             }
             file.images.push(turns.map(Result::unwrap_or_default));
         }
-        file.numbers.extend(id.and_then(|(_, id)| id));
+        file.numbers.extend(read.id);
     }
     let mut seen = HashSet::new();
     let mut again = Tally::default();
@@ -378,13 +385,7 @@ fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleF
             again.add(|| number.to_string());
         }
     }
-    if let Some(particles) = again.phrase("particle") {
-        mistakes.push(Mistake::new(
-            "",
-            format!("found {particles} more than once"),
-            "a number of its own for every particle",
-        ));
-    }
+    mistakes.extend(again.mistake("particle", "more than once", "a number of its own for every particle"));
     if columns.is_atomic_number {
         let symbol = |number: &String| number.parse().ok().and_then(elements::symbol);
         let symbols = file.species.iter().map(|number| symbol(number).map_or_else(|| number.clone(), str::to_owned));

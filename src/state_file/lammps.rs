@@ -19,47 +19,27 @@ enum Section {
     Velocities,
     Bonds,
     Angles,
-    AtomLabels,
-    BondLabels,
-    AngleLabels,
+    /// Of the types of this number: atoms, bonds, angles.
+    Labels(usize),
 }
 
-const READ: [(&str, Section); 8] = [
-    ("Masses", Section::Masses),
-    ("Atoms", Section::Atoms),
-    ("Velocities", Section::Velocities),
-    ("Bonds", Section::Bonds),
-    ("Angles", Section::Angles),
-    ("Atom Type Labels", Section::AtomLabels),
-    ("Bond Type Labels", Section::BondLabels),
-    ("Angle Type Labels", Section::AngleLabels),
+/// Sections that are read, and what the header counts their lines as.
+const READ: [(&str, Section, &str); 8] = [
+    ("Masses", Section::Masses, "atom types"),
+    ("Atoms", Section::Atoms, "atoms"),
+    ("Velocities", Section::Velocities, "atoms"),
+    ("Bonds", Section::Bonds, "bonds"),
+    ("Angles", Section::Angles, "angles"),
+    ("Atom Type Labels", Section::Labels(0), "atom types"),
+    ("Bond Type Labels", Section::Labels(1), "bond types"),
+    ("Angle Type Labels", Section::Labels(2), "angle types"),
 ];
 
-const SKIPPED: [&str; 23] = [
-    "Dihedrals",
-    "Impropers",
-    "Ellipsoids",
-    "Lines",
-    "Triangles",
-    "Bodies",
-    "Dihedral Type Labels",
-    "Improper Type Labels",
-    "Pair Coeffs",
-    "PairIJ Coeffs",
-    "Bond Coeffs",
-    "Angle Coeffs",
-    "Dihedral Coeffs",
-    "Improper Coeffs",
-    "BondBond Coeffs",
-    "BondAngle Coeffs",
-    "MiddleBondTorsion Coeffs",
-    "EndBondTorsion Coeffs",
-    "AngleTorsion Coeffs",
-    "AngleAngleTorsion Coeffs",
-    "BondBond13 Coeffs",
-    "AngleAngle Coeffs",
-    "CMAP",
-];
+const SKIPPED: &str = "\
+    Dihedrals, Impropers, Ellipsoids, Lines, Triangles, Bodies, Dihedral Type Labels, Improper Type Labels, Pair \
+    Coeffs, PairIJ Coeffs, Bond Coeffs, Angle Coeffs, Dihedral Coeffs, Improper Coeffs, BondBond Coeffs, BondAngle \
+    Coeffs, MiddleBondTorsion Coeffs, EndBondTorsion Coeffs, AngleTorsion Coeffs, AngleAngleTorsion Coeffs, \
+    BondBond13 Coeffs, AngleAngle Coeffs, CMAP";
 
 /// The most types that a file may announce.
 const MOST_TYPES: u64 = 1 << 20;
@@ -88,14 +68,16 @@ fn uncommented(line: &str) -> &str {
 /// What the header announces.
 #[derive(Debug, Default)]
 struct Header {
-    atoms: u64,
-    atom_types: u64,
-    bonds: u64,
-    bond_types: u64,
-    angles: u64,
-    angle_types: u64,
+    /// Numbers of atoms, of atom types and so on, by these words.
+    counts: HashMap<&'static str, u64>,
     bounds: [Option<[f64; 2]>; 3],
     unused: Vec<String>,
+}
+
+impl Header {
+    fn count(&self, name: &str) -> u64 {
+        self.counts.get(name).copied().unwrap_or(0)
+    }
 }
 
 /// Names of types: labels, where the file has them.
@@ -139,7 +121,7 @@ struct Reader<'a> {
     /// The style of atoms where the file does not say it.
     style: Option<&'a AtomStyle>,
     /// A line that begins the next section.
-    ahead: Option<(String, String)>,
+    ahead: Option<(&'static str, String)>,
     kinds: [Types; 3],
     masses: Vec<Option<f64>>,
     atoms: Vec<Atom>,
@@ -168,18 +150,21 @@ pub(super) fn read(
         angles: Vec::new(),
     };
     reader.read_header(length)?;
-    fits(reader.header.atoms)?;
+    fits(reader.header.count("atoms"))?;
     reader.read_sections()?;
     reader.finish()
 }
 
 /// The name of a section and the comment behind it, if a line is one.
-fn section_of(line: &str) -> Option<(&'static str, Option<Section>, String)> {
+fn section_of(line: &str) -> Option<(&'static str, String)> {
     let name = uncommented(line);
+    // Most lines are of numbers.
+    if !name.starts_with(|letter: char| letter.is_ascii_uppercase()) {
+        return None;
+    }
     let comment = line.split_once('#').map_or(String::new(), |(_, comment)| comment.trim().to_owned());
-    let read = READ.iter().find(|(known, _)| *known == name).map(|(name, section)| (*name, Some(*section)));
-    let skipped = || SKIPPED.iter().find(|known| **known == name).map(|name| (*name, None));
-    read.or_else(skipped).map(|(name, section)| (name, section, comment))
+    let known = READ.iter().map(|(name, ..)| *name).chain(SKIPPED.split(", ")).find(|known| *known == name);
+    known.map(|name| (name, comment))
 }
 
 impl Reader<'_> {
@@ -192,8 +177,8 @@ impl Reader<'_> {
         // The first line is a title.
         self.lines.next()?;
         while let Some(line) = self.lines.next()? {
-            if let Some((name, _, comment)) = section_of(line) {
-                self.ahead = Some((name.to_owned(), comment));
+            if let Some(section) = section_of(line) {
+                self.ahead = Some(section);
                 break;
             }
             let text = uncommented(line).to_owned();
@@ -216,9 +201,8 @@ impl Reader<'_> {
                 }
             }
         }
-        let counts = [self.header.atom_types, self.header.bond_types, self.header.angle_types];
-        for (types, count) in self.kinds.iter_mut().zip(counts) {
-            types.count = count as u32;
+        for (types, name) in self.kinds.iter_mut().zip(["atom types", "bond types", "angle types"]) {
+            types.count = self.header.count(name) as u32;
         }
         if self.mistakes.is_empty() { Ok(()) } else { Err(std::mem::take(&mut self.mistakes)) }
     }
@@ -257,18 +241,13 @@ impl Reader<'_> {
             return self.refuse(format!("found `{}`", shortened(text)), format!("a whole number, {limit}"));
         }
         let count = *count as u64;
-        match name.as_str() {
-            "atoms" => self.header.atoms = count,
-            "atom types" => self.header.atom_types = count,
-            "bonds" => self.header.bonds = count,
-            "bond types" => self.header.bond_types = count,
-            "angles" => self.header.angles = count,
-            "angle types" => self.header.angle_types = count,
-            "dihedrals" | "impropers" | "ellipsoids" | "lines" | "triangles" | "bodies" if count > 0 => {
-                self.header.unused.push(format!("its {count} {name}"));
-            }
-            // Types of what is not read, and room for what may be added.
-            _ => {}
+        // Types of what is not read, and room for what may be added, are neither.
+        if let Some((_, _, known)) = READ.iter().find(|(_, _, known)| *known == name) {
+            self.header.counts.insert(known, count);
+        } else if count > 0
+            && ["dihedrals", "impropers", "ellipsoids", "lines", "triangles", "bodies"].contains(&name.as_str())
+        {
+            self.header.unused.push(format!("its {count} {name}"));
         }
     }
 
@@ -281,8 +260,8 @@ impl Reader<'_> {
                 continue;
             }
             // Labels may be anything, and yet a section is known by its whole line.
-            if let Some((name, _, comment)) = section_of(line) {
-                self.ahead = Some((name.to_owned(), comment));
+            if let Some(section) = section_of(line) {
+                self.ahead = Some(section);
                 return Ok(None);
             }
             return Ok(Some(text.to_owned()));
@@ -290,16 +269,16 @@ impl Reader<'_> {
     }
 
     fn read_sections(&mut self) -> Result<(), Mistakes> {
-        let mut seen: Vec<String> = Vec::new();
+        let mut seen: Vec<&str> = Vec::new();
         while let Some((name, comment)) = self.ahead.take() {
-            let known = READ.iter().find(|(known, _)| *known == name).map(|(_, section)| *section);
+            let known = READ.iter().find(|(known, ..)| *known == name);
             if seen.contains(&name) && known.is_some() {
                 self.refuse(format!("found the section `{name}` again"), "every section once");
                 break;
             }
-            seen.push(name.clone());
-            if let Some(section) = known {
-                self.read_section(section, &name, &comment)?;
+            seen.push(name);
+            if let Some((_, section, counted)) = known {
+                self.read_section(*section, [name, &comment], self.header.count(counted))?;
             } else {
                 self.header.unused.push(format!("the section `{name}`"));
                 while self.body_line()?.is_some() {}
@@ -308,10 +287,9 @@ impl Reader<'_> {
                 break;
             }
         }
-        for (name, count) in
-            [("Atoms", self.header.atoms), ("Bonds", self.header.bonds), ("Angles", self.header.angles)]
-        {
-            if count > 0 && !seen.iter().any(|known| known == name) && self.mistakes.is_empty() {
+        for (name, counted) in [("Atoms", "atoms"), ("Bonds", "bonds"), ("Angles", "angles")] {
+            let count = self.header.count(counted);
+            if count > 0 && !seen.contains(&name) && self.mistakes.is_empty() {
                 let found = format!("no section `{name}`, and {count} of them in the header");
                 self.mistakes.push(Mistake::new("", found, "a whole file"));
             }
@@ -319,16 +297,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn read_section(&mut self, section: Section, name: &str, comment: &str) -> Result<(), Mistakes> {
-        let header = &self.header;
-        let count = match section {
-            Section::Masses | Section::AtomLabels => header.atom_types,
-            Section::Atoms | Section::Velocities => header.atoms,
-            Section::Bonds => header.bonds,
-            Section::Angles => header.angles,
-            Section::BondLabels => header.bond_types,
-            Section::AngleLabels => header.angle_types,
-        };
+    /// Reads so many lines of a section with its name and the comment behind it.
+    fn read_section(&mut self, section: Section, [name, comment]: [&str; 2], count: u64) -> Result<(), Mistakes> {
         let mut style = None;
         if section == Section::Atoms {
             style = self.announced(comment).map_err(|mistake| self.refusal(mistake))?;
@@ -368,7 +338,6 @@ impl Reader<'_> {
 
     /// Takes a line of a section but that of atoms; else says what would be accepted.
     fn read_line(&mut self, section: Section, words: &[&str]) -> Result<(), String> {
-        let whole = |word: &str| word.parse::<u64>().ok();
         match section {
             Section::Masses => {
                 let [kind, mass] = words else { return Err("a type and its mass".to_owned()) };
@@ -382,32 +351,22 @@ impl Reader<'_> {
             }
             Section::Atoms => {}
             Section::Velocities => {
-                let read = || Some((whole(words[0])?, vector(&words[1..])?));
-                let read = if words.len() == 4 { read() } else { None };
-                self.velocities.push(read.ok_or("an id and three numbers")?);
+                let read = || {
+                    let [id, velocity @ ..] = words else { return None };
+                    Some((id.parse().ok()?, vector(velocity)?))
+                };
+                self.velocities.push(read().ok_or("an id and three numbers")?);
             }
             Section::Bonds => {
-                let [_, kind, ends @ ..] = words else { return Err("a number, a type and two ids".to_owned()) };
-                let kind = self.kinds[1].place(kind).ok_or_else(|| self.accepted_type(1))?;
-                let [Some(a), Some(b)] = [ends.first(), ends.get(1)].map(|word| word.and_then(|word| whole(word)))
-                else {
-                    return Err("a number, a type and two ids".to_owned());
-                };
-                self.bonds.push(([a, b], kind));
+                let bond = self.link(1, words, "a number, a type and two ids")?;
+                self.bonds.push(bond);
             }
             Section::Angles => {
-                let [_, kind, ends @ ..] = words else { return Err("a number, a type and three ids".to_owned()) };
-                let kind = self.kinds[2].place(kind).ok_or_else(|| self.accepted_type(2))?;
-                let ids = [ends.first(), ends.get(1), ends.get(2)].map(|word| word.and_then(|word| whole(word)));
-                let [Some(a), Some(b), Some(c)] = ids else { return Err("a number, a type and three ids".to_owned()) };
-                self.angles.push(([a, b, c], kind));
+                let angle = self.link(2, words, "a number, a type and three ids")?;
+                self.angles.push(angle);
             }
-            Section::AtomLabels | Section::BondLabels | Section::AngleLabels => {
-                let types = &mut self.kinds[match section {
-                    Section::AtomLabels => 0,
-                    Section::BondLabels => 1,
-                    _ => 2,
-                }];
+            Section::Labels(of) => {
+                let types = &mut self.kinds[of];
                 let [number, label] = words else { return Err("a number of a type and its label".to_owned()) };
                 let place = number.parse().ok().and_then(|number: u32| number.checked_sub(1));
                 let place = place.filter(|place| *place < types.count).ok_or("a number of a type")?;
@@ -419,6 +378,19 @@ impl Reader<'_> {
             }
         }
         Ok(())
+    }
+
+    /// The atoms that a bond or an angle joins, and its type.
+    fn link<const LENGTH: usize>(
+        &self,
+        of: usize,
+        words: &[&str],
+        accepted: &str,
+    ) -> Result<([u64; LENGTH], u32), String> {
+        let [_, kind, ends @ ..] = words else { return Err(accepted.to_owned()) };
+        let kind = self.kinds[of].place(kind).ok_or_else(|| self.accepted_type(of))?;
+        let ids: Option<Vec<u64>> = ends.iter().take(LENGTH).map(|word| word.parse().ok()).collect();
+        Ok((ids.and_then(|ids| ids.try_into().ok()).ok_or(accepted)?, kind))
     }
 
     fn accepted_type(&self, of: usize) -> String {
@@ -506,13 +478,7 @@ impl Reader<'_> {
         for pair in self.atoms.windows(2).filter(|pair| pair[0].id == pair[1].id) {
             again.add(|| pair[0].id.to_string());
         }
-        if let Some(atoms) = again.phrase("atom") {
-            self.mistakes.push(Mistake::new(
-                "",
-                format!("found {atoms} more than once"),
-                "an id of its own for every atom",
-            ));
-        }
+        self.mistakes.extend(again.mistake("atom", "more than once", "an id of its own for every atom"));
         let numbers: Vec<u64> = self.atoms.iter().map(|atom| atom.id).collect();
         let place = |id: u64| numbers.binary_search(&id).ok();
         let (velocities, velocity_mistakes) = self.velocities(&numbers);
@@ -523,7 +489,7 @@ impl Reader<'_> {
             let found = format!("found images of {with_images} of {} atoms", self.atoms.len());
             self.mistakes.push(Mistake::new("", found, "images of all atoms, or of none"));
         }
-        if self.atoms.is_empty() && self.mistakes.is_empty() && self.header.atoms > 0 {
+        if self.atoms.is_empty() && self.mistakes.is_empty() && self.header.count("atoms") > 0 {
             self.mistakes.push(Mistake::new("", "there are no atoms", FORMATS));
         }
         if !self.mistakes.is_empty() {
@@ -580,9 +546,6 @@ fn links<const LENGTH: usize>(
             found[*kind as usize].members.push(places.map(|place| place.unwrap_or(0) as u32));
         }
     }
-    if let Some(links) = missing.phrase(noun) {
-        let found = format!("found {links} of atoms that are not there");
-        mistakes.push(Mistake::new("", found, "ids of the section `Atoms`"));
-    }
+    mistakes.extend(missing.mistake(noun, "of atoms that are not there", "ids of the section `Atoms`"));
     found
 }

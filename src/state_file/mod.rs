@@ -145,6 +145,10 @@ impl Mistakes {
         if self.listed.len() < Self::MOST { self.listed.push(mistake) } else { self.unlisted += 1 }
     }
 
+    fn extend(&mut self, mistakes: impl IntoIterator<Item = Mistake>) {
+        mistakes.into_iter().for_each(|mistake| self.push(mistake));
+    }
+
     /// Whether nothing more has to be read to say what is wrong.
     fn are_enough(&self) -> bool {
         self.unlisted >= 1000
@@ -382,25 +386,18 @@ impl ParticleFile {
                 outside.add(|| format!("{} at ({shown})", self.number(particle)));
             }
         }
-        if let Some(particles) = nowhere.phrase("particle") {
-            mistakes.push(Mistake::new(
-                "",
-                format!("found {particles} with positions that are no finite numbers"),
-                "finite numbers",
-            ));
-        }
-        if let Some(particles) = outside.phrase("particle") {
-            let upper: Vec<String> = (0..dimension)
-                .map(|axis| format!("{} to {}", self.origin[axis], self.origin[axis] + lengths[axis]))
-                .collect();
-            let remedy = if wraps {
-                "nothing wraps positions across walls, nor those whose digits end before the box, a million boxes away"
-            } else {
-                "or `\"outside\": \"wrap\"` in `state`, which takes them modulo the box and counts the turns in images"
-            };
-            let accepted = format!("positions inside the box, {}; {remedy}", upper.join(" × "));
-            mistakes.push(Mistake::new("", format!("found {particles} outside the box"), accepted));
-        }
+        let what = "with positions that are no finite numbers";
+        mistakes.extend(nowhere.mistake("particle", what, "finite numbers"));
+        let upper: Vec<String> = (0..dimension)
+            .map(|axis| format!("{} to {}", self.origin[axis], self.origin[axis] + lengths[axis]))
+            .collect();
+        let remedy = if wraps {
+            "nothing wraps positions across walls, nor those whose digits end before the box, a million boxes away"
+        } else {
+            "or `\"outside\": \"wrap\"` in `state`, which takes them modulo the box and counts the turns in images"
+        };
+        let accepted = format!("positions inside the box, {}; {remedy}", upper.join(" × "));
+        mistakes.extend(outside.mistake("particle", "outside the box", accepted));
         self.check_links(&self.bonds, "bond", &mut mistakes);
         self.check_links(&self.angles, "angle", &mut mistakes);
         mistakes.into_list()
@@ -416,10 +413,8 @@ impl ParticleFile {
                 endless.add(|| self.number(particle).to_string());
             }
         }
-        if let Some(particles) = endless.phrase("particle") {
-            let found = format!("found {particles} with velocities that are no finite numbers");
-            mistakes.push(Mistake::new("", found, "finite numbers"));
-        }
+        let what = "with velocities that are no finite numbers";
+        mistakes.extend(endless.mistake("particle", what, "finite numbers"));
         mistakes
     }
 
@@ -448,10 +443,7 @@ impl ParticleFile {
                 again.add(|| named(&pair[0]));
             }
             let mut refuse = |tally: Tally, what: &str, accepted: &str| {
-                if let Some(found) = tally.phrase(noun) {
-                    let found = format!("found {found} of type `{}`, {what}", links.name);
-                    mistakes.push(Mistake::new("", found, accepted));
-                }
+                mistakes.extend(tally.mistake(noun, &format!("of type `{}`, {what}", links.name), accepted));
             };
             let most = format!("particles of the file, which has {}", self.len());
             refuse(missing, "to particles that are not there", &most);
@@ -530,12 +522,10 @@ impl SpeciesMasses {
     /// The masses of all species; what differs within one is a mistake.
     fn finish(mut self, species: &[String], mistakes: &mut Mistakes) -> Vec<Option<f64>> {
         for (index, tally) in self.different.into_iter().enumerate() {
-            if let (Some(particles), Some(known)) = (tally.phrase("particle"), self.masses[index]) {
-                let found = format!("found {particles} of `{}` with other masses than {known}", species[index]);
-                let accepted =
-                    "one mass for a species, greater than zero: give particles of another mass another species";
-                mistakes.push(Mistake::new("", found, accepted));
-            }
+            let Some(known) = self.masses[index] else { continue };
+            let what = format!("of `{}` with other masses than {known}", species[index]);
+            let accepted = "one mass for a species, greater than zero: give particles of another mass another species";
+            mistakes.extend(tally.mistake("particle", &what, accepted));
         }
         self.masses.resize(species.len(), None);
         self.masses

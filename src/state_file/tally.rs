@@ -1,5 +1,7 @@
 //! Things of one kind: a few named, all counted.
 
+use super::Mistake;
+
 /// Things of one kind: a few named, all counted.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Tally {
@@ -28,6 +30,11 @@ impl Tally {
             (_, 0) => Some(format!("{noun}{plural} {named}")),
             _ => Some(format!("{noun}{plural} {named} and {more} more")),
         }
+    }
+
+    /// The mistake that they are there, if there are any.
+    pub(super) fn mistake(&self, noun: &str, what: &str, accepted: impl Into<String>) -> Option<Mistake> {
+        Some(Mistake::new("", format!("found {} {what}", self.phrase(noun)?), accepted))
     }
 }
 
