@@ -3,7 +3,7 @@
 use std::fmt;
 
 use mesoscope::gpu::GpuError;
-use mesoscope::output::checkpoint::CheckpointError;
+use mesoscope::output::checkpoint::{CheckpointError, ContentError};
 use mesoscope::output::{OutputError, files};
 use mesoscope::plot::PlotError;
 use mesoscope::run::RunError;
@@ -113,7 +113,9 @@ impl From<RunError> for Failure {
                 "{error}\nhint: give the directory that `mesoscope run` wrote, with its {}",
                 files::CHECKPOINT
             )),
-            RunError::Checkpoint(CheckpointError::Version { .. }) => Self::input_output(error.to_string()),
+            RunError::Checkpoint(CheckpointError::Content { source: ContentError::Version { .. }, .. }) => {
+                Self::input_output(error.to_string())
+            }
             RunError::Checkpoint(_) => Self::input_output(format!(
                 "{error}\nhint: it cannot be repaired: restore it from a copy, or run the scene again with --force"
             )),

@@ -1,5 +1,6 @@
 //! The lock of a directory: one process at a time writes there.
 
+use super::own_file::identity;
 use super::{OutputError, files};
 use crate::printable;
 use std::fs::{self, File, TryLockError};
@@ -122,21 +123,10 @@ fn read(file: &mut File) -> io::Result<Content> {
     })
 }
 
-/// Whether a file that is open still has this name.
-#[cfg(unix)]
+/// Whether a file that is open still has this name; elsewhere than on Unix it is never removed.
 fn is_at(file: &File, path: &Path) -> bool {
-    use std::os::unix::fs::MetadataExt;
-    let identity = |metadata: fs::Metadata| (metadata.dev(), metadata.ino());
-    match (file.metadata(), fs::symlink_metadata(path)) {
-        (Ok(file), Ok(there)) => identity(file) == identity(there),
-        _ => false,
-    }
-}
-
-/// Elsewhere the file is never removed.
-#[cfg(not(unix))]
-fn is_at(_: &File, _: &Path) -> bool {
-    true
+    let [open, there] = [file.metadata(), fs::symlink_metadata(path)].map(|found| found.ok().map(|it| identity(&it)));
+    open.is_some() && open == there
 }
 
 #[cfg(test)]

@@ -53,6 +53,19 @@ pub(crate) fn check_to_continue(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
+/// What tells a file from others with the same name; nothing where systems say nothing of it.
+#[cfg(unix)]
+#[allow(clippy::unnecessary_wraps)]
+pub(super) fn identity(metadata: &Metadata) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    Some((metadata.dev(), metadata.ino()))
+}
+
+#[cfg(not(unix))]
+pub(super) fn identity(_: &Metadata) -> Option<(u64, u64)> {
+    None
+}
+
 fn refused(reason: impl Into<String>) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidInput, reason.into())
 }

@@ -1,7 +1,8 @@
 //! Whether a file that is kept open is still the one of its name.
 
 use super::OutputError;
-use std::fs::{self, Metadata};
+use super::own_file::identity;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Looks whether a file is there that a run has written.
@@ -45,17 +46,4 @@ impl Watch {
         };
         Err(OutputError::Lost { path: self.path.clone(), problem })
     }
-}
-
-/// What tells a file from others with the same name.
-#[cfg(unix)]
-#[allow(clippy::unnecessary_wraps)]
-fn identity(metadata: &Metadata) -> Option<(u64, u64)> {
-    use std::os::unix::fs::MetadataExt;
-    Some((metadata.dev(), metadata.ino()))
-}
-
-#[cfg(not(unix))]
-fn identity(_: &Metadata) -> Option<(u64, u64)> {
-    None
 }

@@ -21,8 +21,8 @@ pub(super) const SECTION: &str = "configuration";
 
 /// The rows so far, on disk and in memory.
 pub(super) struct EnergyRecorder {
-    file: EnergiesFile,
-    rows: EnergyRows,
+    pub file: EnergiesFile,
+    pub rows: EnergyRows,
     equilibration: u64,
     /// Whether means are meant to be those of equilibrium.
     is_about_equilibrium: bool,
@@ -98,24 +98,6 @@ impl EnergyRecorder {
         Ok(())
     }
 
-    pub(super) fn flush(&mut self) -> Result<(), RunError> {
-        Ok(self.file.flush()?)
-    }
-
-    pub(super) fn sync(&mut self) -> Result<(), RunError> {
-        Ok(self.file.sync()?)
-    }
-
-    /// What is in the file.
-    pub(super) fn extent(&self) -> Extent {
-        self.file.extent()
-    }
-
-    /// Looks whether the file is still there.
-    pub(super) fn check(&self) -> Result<(), RunError> {
-        Ok(self.file.check()?)
-    }
-
     /// Kinetic temperature of the last row.
     pub(super) fn temperature(&self) -> Option<f64> {
         self.rows.last("temperature").filter(|temperature| temperature.is_finite())
@@ -131,13 +113,8 @@ impl EnergyRecorder {
             summary.warnings.push(text);
         }
         if self.is_about_equilibrium {
-            summary.unequilibrated = settling::unequilibrated(&self.table(), self.equilibration);
+            summary.unequilibrated = settling::unequilibrated(&self.rows.table(), self.equilibration);
             summary.warnings.extend(summary.unequilibrated.as_ref().map(ToString::to_string));
         }
-    }
-
-    /// The table for a plot.
-    pub(super) fn table(&self) -> Table {
-        self.rows.table()
     }
 }

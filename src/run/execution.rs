@@ -149,7 +149,7 @@ impl<'a> Run<'a> {
                 // A failure is found a few batches late: what came before it is good.
                 let samples = engine.take_samples();
                 self.record(&samples, engine)?;
-                self.energies.flush()?;
+                self.energies.file.flush()?;
                 advanced?;
                 pace.submitted(steps);
                 observer(Event::Advanced(self.progress(first, begun, pace)));
@@ -192,7 +192,7 @@ impl<'a> Run<'a> {
         let samples = engine.finish()?;
         pace.finished();
         self.record(&samples, engine)?;
-        self.energies.flush()?;
+        self.energies.file.flush()?;
         if let (Some(mut frame), Some(trajectory)) = (frame, &mut self.trajectory) {
             with_flow(&mut frame, self.scene, self.model);
             trajectory.append(&frame)?;
@@ -234,7 +234,7 @@ impl<'a> Run<'a> {
         self.record(&samples, engine)?;
         let state = state?;
         // The checkpoint counts on what is in the files before its step.
-        self.energies.sync()?;
+        self.energies.file.sync()?;
         if let Some(trajectory) = &mut self.trajectory {
             trajectory.flush()?;
         }
@@ -249,7 +249,7 @@ impl<'a> Run<'a> {
         sections.extend(self.kept_sums.sections());
         sections.extend(self.pictures.sections());
         sections.extend(self.carried.section(self.model, engine)?);
-        let mut written = vec![(files::ENERGIES.to_owned(), self.energies.extent())];
+        let mut written = vec![(files::ENERGIES.to_owned(), self.energies.file.extent())];
         if let (Some(trajectory), Some(asked)) = (&self.trajectory, &self.scene.output.trajectory) {
             written.push((files::trajectory(asked.format).to_owned(), trajectory.extent()));
         }
@@ -343,11 +343,11 @@ impl<'a> Run<'a> {
         let path = self.directory.file(files::SUMMARY);
         summary.save(&path)?;
         go_on()?;
-        self.pictures.energies(&self.energies.table(), self.model, &summary)?;
+        self.pictures.energies(&self.energies.rows.table(), self.model, &summary)?;
         self.pictures.analyses(&summary, &go_on)?;
         engine.keep_alive();
         // What was moved away or replaced under way is not what `run.json` speaks of.
-        self.energies.check()?;
+        self.energies.file.check()?;
         if let Some(trajectory) = &self.trajectory {
             trajectory.check()?;
         }

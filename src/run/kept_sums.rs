@@ -56,7 +56,7 @@ impl KeptSums {
     /// The sums of the state that a run begins with, or what a checkpoint has kept of them.
     ///
     /// # Errors
-    /// [`CheckpointError::Malformed`] where that is of another length.
+    /// [`CheckpointError::Content`] where that is of another length.
     pub(super) fn new(
         model: &Model,
         state: &State,

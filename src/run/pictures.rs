@@ -272,8 +272,7 @@ impl<'a> Pictures<'a> {
         };
         let style = Snapshot { range, ..asked.clone() };
         let theme = self.scene.output.plot.theme;
-        let drawn = self.plotter().and_then(|plotter| plotter.draw_particles(&picture, &style, theme));
-        self.save(name, drawn)
+        self.draw(name, |plotter| plotter.draw_particles(&picture, &style, theme))
     }
 
     /// Draws the cells of a tessellation.
@@ -313,8 +312,7 @@ impl<'a> Pictures<'a> {
         };
         let style = Snapshot { range, ..asked.clone() };
         let theme = self.scene.output.plot.theme;
-        let drawn = self.plotter().and_then(|plotter| plotter.draw_cells(&picture, &style, theme));
-        self.save(name, drawn)
+        self.draw(name, |plotter| plotter.draw_cells(&picture, &style, theme))
     }
 
     /// Draws the fields on the mesh that the scene asks for, and writes the arrays of a run. Returns the names.
@@ -349,11 +347,8 @@ impl<'a> Pictures<'a> {
                 ..FieldPicture::new(field)
             };
             let name = files::field(shown.stem, number, "png");
-            let drawn = {
-                let style = &self.scene.output.plot;
-                self.plotter().and_then(|plotter| plotter.draw_field(&picture, style))
-            };
-            self.save(&name, drawn)?;
+            let style = &self.scene.output.plot;
+            self.draw(&name, |plotter| plotter.draw_field(&picture, style))?;
             written.push(name);
             let name = files::field(shown.stem, number, "npy");
             let path = self.directory.file(&name);
@@ -372,19 +367,20 @@ impl<'a> Pictures<'a> {
 
     fn chart(&mut self, name: &str, chart: &Chart) -> Result<(), RunError> {
         let style = &self.scene.output.plot;
-        let drawn = self.plotter().and_then(|plotter| plotter.draw_chart(chart, style));
-        self.save(name, drawn)
+        self.draw(name, |plotter| plotter.draw_chart(chart, style))
     }
 
-    fn plotter(&mut self) -> Result<&Plotter, PlotError> {
+    /// Draws and writes a picture.
+    fn draw(
+        &mut self,
+        name: &str,
+        draw: impl FnOnce(&Plotter) -> Result<RgbaImage, PlotError>,
+    ) -> Result<(), RunError> {
         let plotter = match self.plotter.take() {
-            Some(plotter) => plotter,
-            None => Plotter::new(self.gpu.device(), self.gpu.queue())?,
+            Some(plotter) => Ok(plotter),
+            None => Plotter::new(self.gpu.device(), self.gpu.queue()),
         };
-        Ok(self.plotter.insert(plotter))
-    }
-
-    fn save(&mut self, name: &str, drawn: Result<RgbaImage, PlotError>) -> Result<(), RunError> {
+        let drawn = plotter.and_then(|plotter| draw(self.plotter.insert(plotter)));
         save(self.directory, name, self.run, drawn)?;
         self.written.push(name.to_owned());
         Ok(())

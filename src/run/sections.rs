@@ -32,7 +32,7 @@ impl<'a> Sections<'a> {
     /// The numbers of a section, of which there have to be so many; none at step 0.
     ///
     /// # Errors
-    /// [`CheckpointError::Malformed`] where the section is missing or of another length.
+    /// [`CheckpointError::Content`] where the section is missing or of another length.
     pub(super) fn numbers(&self, name: &str, count: u64) -> Result<Option<Vec<f64>>, CheckpointError> {
         let read = |bytes: &[u8]| bytes.as_chunks().0.iter().map(|word| f64::from_le_bytes(*word)).collect();
         Ok(self.section(name, count.saturating_mul(8))?.map(read))
@@ -67,7 +67,7 @@ impl<'a> Sections<'a> {
 
     /// That a section of the right length makes no sense.
     pub(super) fn malformed(&self, problem: String) -> CheckpointError {
-        CheckpointError::Malformed { path: self.path.to_path_buf(), problem }
+        CheckpointError::malformed(self.path, problem)
     }
 }
 

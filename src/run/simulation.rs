@@ -57,18 +57,9 @@ impl Simulation {
     #[must_use]
     pub fn start(scene: Scene, directory: impl Into<PathBuf>, force: bool) -> Self {
         let beginning = Beginning::New { directory: directory.into(), force };
-        let id = Id::of_run(&scene);
-        let model = Model::new(&scene);
-        Self {
-            scene,
-            model,
-            beginning,
-            interrupt: Interrupt::default(),
-            notices: Vec::new(),
-            id,
-            division: None,
-            mixed: false,
-        }
+        let (id, model) = (Id::of_run(&scene), Model::new(&scene));
+        let (interrupt, notices) = (Interrupt::default(), Vec::new());
+        Self { scene, model, beginning, interrupt, notices, id, division: None, mixed: false }
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory
@@ -104,7 +95,7 @@ impl Simulation {
         let (hardware, options) = (Hardware::default(), Options::default());
         let plan = plan(&model, scene.time.equilibration, &scene.output, hardware, options);
         if let Some(problem) = plan.misfit(&checkpoint.state, &model) {
-            return Err(CheckpointError::Malformed { path, problem }.into());
+            return Err(CheckpointError::malformed(&path, problem).into());
         }
         let summary = directory.file(files::SUMMARY);
         let earlier = match Summary::load(&summary) {
@@ -326,7 +317,7 @@ fn attempt(
     run.notices = &task.notices;
     match run.advance_to_end(engine, start, pace, observer) {
         Err(RunError::Engine(source @ (EngineError::Unstable(_) | EngineError::GaveUp { .. }))) => {
-            run.energies.flush()?;
+            run.energies.file.flush()?;
             let (checkpoint, checkpoint_step) = (task.directory.file(files::CHECKPOINT), run.saved_step);
             return Err(match source {
                 EngineError::Unstable(failure) => {

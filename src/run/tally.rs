@@ -18,7 +18,7 @@ impl Carried {
     /// The numbers at a step, from the sections of its checkpoint.
     ///
     /// # Errors
-    /// [`CheckpointError::Malformed`] where there are no such numbers.
+    /// [`CheckpointError::Content`] where there are no such numbers.
     pub(super) fn new(model: &Model, sections: &Sections<'_>) -> Result<Self, CheckpointError> {
         let numbers = match model.physics().tally() {
             Some(tally) => sections.numbers(tally.section(), tally.length())?.unwrap_or_default(),

@@ -30,13 +30,36 @@ pub(crate) struct Content {
 }
 
 /// Why a file is no checkpoint.
-#[derive(Debug)]
-pub(crate) enum ContentError {
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ContentError {
+    /// It cannot be read.
+    #[error("cannot be read ({0})")]
     Io(io::Error),
+    /// It is something else.
+    #[error("is not a checkpoint of mesoscope")]
     Magic,
-    Version { found: u32 },
-    Length { expected: u128, found: u64 },
+    /// It was written by another version of the format.
+    #[error(
+        "has checkpoint format {found}, and this program reads format {VERSION}; resume with the version of mesoscope that wrote it"
+    )]
+    Version {
+        /// The version in the file.
+        found: u32,
+    },
+    /// It is too short or too long.
+    #[error("should have {expected} bytes and has {found}: it was cut short or altered")]
+    Length {
+        /// Length that the header announces.
+        expected: u128,
+        /// Length of the file.
+        found: u64,
+    },
+    /// Its content is not what was written.
+    #[error("is damaged: its checksum does not match its content")]
     Checksum,
+    /// Its content passes the checksum and makes no sense.
+    #[error("is no valid checkpoint: {0}")]
     Malformed(String),
 }
 

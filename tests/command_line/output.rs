@@ -2,7 +2,7 @@
 
 use mesoscope::families::Model;
 use mesoscope::measure::statistics;
-use mesoscope::output::checkpoint::{self, CheckpointError};
+use mesoscope::output::checkpoint::{self, CheckpointError, ContentError};
 use mesoscope::output::summary::AdapterSummary;
 use mesoscope::output::{
     EnergiesFile, Extent, Id, OutputError, RunDirectory, Summary, TrajectoryWriter, files, read_table,
@@ -391,9 +391,9 @@ fn a_damaged_checkpoint_is_refused_whatever_the_damage() {
     for length in 0..whole.len() {
         let error = load(&whole[..length]).unwrap_err();
         let expected = if length == 0 {
-            matches!(error, CheckpointError::Magic { .. })
+            matches!(error, CheckpointError::Content { source: ContentError::Magic, .. })
         } else {
-            matches!(error, CheckpointError::Length { .. })
+            matches!(error, CheckpointError::Content { source: ContentError::Length { .. }, .. })
         };
         assert!(expected, "{length} bytes: {error}");
     }
@@ -402,15 +402,15 @@ fn a_damaged_checkpoint_is_refused_whatever_the_damage() {
         bytes[place] ^= 0x10;
         let error = load(&bytes).unwrap_err();
         let expected = match place {
-            0..8 => matches!(error, CheckpointError::Magic { .. }),
-            8..12 => matches!(error, CheckpointError::Version { .. }),
-            12..20 => matches!(error, CheckpointError::Length { .. }),
-            _ => matches!(error, CheckpointError::Checksum { .. }),
+            0..8 => matches!(error, CheckpointError::Content { source: ContentError::Magic, .. }),
+            8..12 => matches!(error, CheckpointError::Content { source: ContentError::Version { .. }, .. }),
+            12..20 => matches!(error, CheckpointError::Content { source: ContentError::Length { .. }, .. }),
+            _ => matches!(error, CheckpointError::Content { source: ContentError::Checksum, .. }),
         };
         assert!(expected, "byte {place}: {error}");
     }
     let longer = [&whole[..], b"x"].concat();
-    assert!(matches!(load(&longer), Err(CheckpointError::Length { .. })));
+    assert!(matches!(load(&longer), Err(CheckpointError::Content { source: ContentError::Length { .. }, .. })));
     fs::remove_file(&path).unwrap();
     assert!(matches!(checkpoint::load(&path), Err(CheckpointError::Output(_))));
     assert!(matches!(checkpoint::load(root.path()), Err(CheckpointError::Output(_))));
@@ -443,7 +443,10 @@ fn hostile_lengths_in_a_checkpoint_allocate_nothing() {
             fs::write(&path, sealed(&altered)).unwrap();
             // Where the eight bytes are a position, a momentum or the step, the file is as good as before.
             if let Err(error) = checkpoint::load(&path) {
-                let refused = matches!(error, CheckpointError::Malformed { .. } | CheckpointError::Scene { .. });
+                let refused = matches!(
+                    error,
+                    CheckpointError::Content { source: ContentError::Malformed(_), .. } | CheckpointError::Scene { .. }
+                );
                 assert!(refused, "{place}: {error}");
             }
         }
@@ -452,7 +455,10 @@ fn hostile_lengths_in_a_checkpoint_allocate_nothing() {
         let mut altered = payload.to_vec();
         altered[place..place + 8].copy_from_slice(&(u64::MAX / 12).to_le_bytes());
         fs::write(&path, sealed(&altered)).unwrap();
-        assert!(matches!(checkpoint::load(&path), Err(CheckpointError::Malformed { .. })));
+        assert!(matches!(
+            checkpoint::load(&path),
+            Err(CheckpointError::Content { source: ContentError::Malformed(_), .. })
+        ));
     }
 }
 

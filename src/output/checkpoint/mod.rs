@@ -25,6 +25,7 @@ mod read;
 use super::{Extent, Id, OutputError, write_atomically};
 use crate::scene::{Scene, SceneError};
 use crate::state::{State, StateArray};
+pub use crate::state_file::checkpoint::ContentError;
 use crate::state_file::checkpoint::{Fnv, MAGIC, START, VERSION};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -54,41 +55,13 @@ pub enum CheckpointError {
     /// The file cannot be read.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The file is something else.
-    #[error("`{}` is not a checkpoint of mesoscope", crate::printable::path(path))]
-    Magic {
+    /// The file is no checkpoint of this version, or damaged.
+    #[error("`{}` {source}", crate::printable::path(path))]
+    Content {
         /// The file.
         path: PathBuf,
-    },
-    /// The file was written by another version of the format.
-    #[error(
-        "`{}` has checkpoint format {found}, and this program reads format {VERSION}; resume with the version of mesoscope that wrote it",
-        crate::printable::path(path)
-    )]
-    Version {
-        /// The file.
-        path: PathBuf,
-        /// The version in the file.
-        found: u32,
-    },
-    /// The file is too short or too long.
-    #[error(
-        "`{}` should have {expected} bytes and has {found}: it was cut short or altered",
-        crate::printable::path(path)
-    )]
-    Length {
-        /// The file.
-        path: PathBuf,
-        /// Length the header announces.
-        expected: u128,
-        /// Length of the file.
-        found: u64,
-    },
-    /// The content is not what was written.
-    #[error("`{}` is damaged: its checksum does not match its content", crate::printable::path(path))]
-    Checksum {
-        /// The file.
-        path: PathBuf,
+        /// The reason.
+        source: ContentError,
     },
     /// The scene in it is refused, as it would be in a file of its own.
     #[error("`{}` is no valid checkpoint: {source}", crate::printable::path(path))]
@@ -98,14 +71,13 @@ pub enum CheckpointError {
         /// The mistakes of the scene.
         source: SceneError,
     },
-    /// The content passes the checksum and makes no sense.
-    #[error("`{}` is no valid checkpoint: {problem}", crate::printable::path(path))]
-    Malformed {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        problem: String,
-    },
+}
+
+impl CheckpointError {
+    /// That the content of a file passes the checksum and makes no sense.
+    pub(crate) fn malformed(path: &Path, problem: String) -> Self {
+        Self::Content { path: path.to_path_buf(), source: ContentError::Malformed(problem) }
+    }
 }
 
 /// Writes a checkpoint of a run, its scene and state, which replaces an earlier one only when it is complete on the disk.

@@ -33,7 +33,7 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
     };
     let file = own_file::open(path).map_err(|error| Refusal::from(ContentError::Io(error)).of(path))?;
     let content = checkpoint::read(file, check).map_err(|refusal: Refusal| refusal.of(path))?;
-    let malformed = |problem: &str| Refusal::from(ContentError::Malformed(problem.to_owned())).of(path);
+    let malformed = |problem: &str| CheckpointError::malformed(path, problem.to_owned());
     let run_id = Id::parse(&content.run_id).ok_or_else(|| malformed("its run id is none"))?;
     let Content { scene: text, state, files, mut sections, .. } = content;
     let mut scene: Scene = early.ok_or_else(|| malformed("it has no scene"))?;
@@ -84,13 +84,7 @@ impl Refusal {
         match self {
             Self::Scene(source) => CheckpointError::Scene { path: own, source },
             Self::Content(ContentError::Io(error)) => OutputError::io("read the checkpoint", path)(error).into(),
-            Self::Content(ContentError::Magic) => CheckpointError::Magic { path: own },
-            Self::Content(ContentError::Version { found }) => CheckpointError::Version { path: own, found },
-            Self::Content(ContentError::Length { expected, found }) => {
-                CheckpointError::Length { path: own, expected, found }
-            }
-            Self::Content(ContentError::Checksum) => CheckpointError::Checksum { path: own },
-            Self::Content(ContentError::Malformed(problem)) => CheckpointError::Malformed { path: own, problem },
+            Self::Content(source) => CheckpointError::Content { path: own, source },
         }
     }
 }

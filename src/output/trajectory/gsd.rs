@@ -241,37 +241,18 @@ fn write_constants(frame: &mut Frame, description: &Description, state: &Reporte
         frame.scalars(FROZEN_IN_GSD, [frozen as u32])?;
     }
     frame.scalars(RUN, description.run.to_string().into_bytes())?;
-    write_links(frame, &BONDS, &description.bonds)?;
-    write_links(frame, &ANGLES, &description.angles)
+    write_links(frame, "bond", &description.bonds)?;
+    write_links(frame, "angle", &description.angles)
 }
-
-/// The names of the arrays that join particles, and of a type of them.
-struct Links {
-    count: &'static str,
-    types: &'static str,
-    type_ids: &'static str,
-    groups: &'static str,
-    kind: &'static str,
-}
-
-const BONDS: Links =
-    Links { count: "bonds/N", types: "bonds/types", type_ids: "bonds/typeid", groups: "bonds/group", kind: "bond" };
-const ANGLES: Links = Links {
-    count: "angles/N",
-    types: "angles/types",
-    type_ids: "angles/typeid",
-    groups: "angles/group",
-    kind: "angle",
-};
 
 /// Bonds or angles, if there are any.
-fn write_links<const N: usize>(frame: &mut Frame, names: &Links, links: &[([u32; N], u32)]) -> io::Result<()> {
+fn write_links<const N: usize>(frame: &mut Frame, noun: &str, links: &[([u32; N], u32)]) -> io::Result<()> {
     let Some(last) = links.iter().map(|(_, kind)| *kind).max() else { return Ok(()) };
-    frame.scalars(names.count, [links.len() as u32])?;
-    let types: Vec<[i8; NAME]> = (0..=last).map(|kind| type_name(&format!("{} {kind}", names.kind))).collect();
-    frame.arrays(names.types, types)?;
-    frame.scalars(names.type_ids, links.iter().map(|(_, kind)| *kind))?;
-    frame.arrays(names.groups, links.iter().map(|(ends, _)| *ends))
+    frame.scalars(&format!("{noun}s/N"), [links.len() as u32])?;
+    let types: Vec<[i8; NAME]> = (0..=last).map(|kind| type_name(&format!("{noun} {kind}"))).collect();
+    frame.arrays(&format!("{noun}s/types"), types)?;
+    frame.scalars(&format!("{noun}s/typeid"), links.iter().map(|(_, kind)| *kind))?;
+    frame.arrays(&format!("{noun}s/group"), links.iter().map(|(ends, _)| *ends))
 }
 
 /// The box of the file: that between the walls, or where particles are frozen behind them the whole period, which no position is outside of.
@@ -353,21 +334,24 @@ impl Walk {
     }
 }
 
+/// Arrays of whole numbers, one a row.
+const INTEGERS: [&str; 7] =
+    ["particles/N", "particles/typeid", FROZEN_IN_GSD, "bonds/N", "bonds/typeid", "angles/N", "angles/typeid"];
+
 /// Whether a trajectory of ours has an array of this name and kind.
 fn is_ours(name: &str, chunk: Chunk) -> bool {
     let [byte, integer, long, real, double] = [u8::KIND, u32::KIND, u64::KIND, f32::KIND, f64::KIND];
     let expected = match name {
         "configuration/box" | "particles/mass" => (real, 1),
         "configuration/dimensions" | RUN => (byte, 1),
-        "particles/N" | "particles/typeid" | FROZEN_IN_GSD => (integer, 1),
+        _ if INTEGERS.contains(&name) => (integer, 1),
+        "particles/types" | "bonds/types" | "angles/types" => (i8::KIND, NAME as u32),
+        "bonds/group" => (integer, 2),
+        "angles/group" => (integer, 3),
         "configuration/step" => (long, 1),
         "log/time" => (double, 1),
         "particles/position" | "particles/velocity" => (real, 3),
         "particles/image" => (i32::KIND, 3),
-        _ if [BONDS.count, BONDS.type_ids, ANGLES.count, ANGLES.type_ids].contains(&name) => (integer, 1),
-        _ if ["particles/types", BONDS.types, ANGLES.types].contains(&name) => (i8::KIND, NAME as u32),
-        _ if name == BONDS.groups => (integer, 2),
-        _ if name == ANGLES.groups => (integer, 3),
         _ => return false,
     };
     (chunk.kind, chunk.columns) == expected

@@ -112,6 +112,7 @@ struct Description {
 
 impl Description {
     fn new(model: &Model, run: Id) -> Self {
+        let particles = model.particles();
         Self {
             run,
             units: model.units,
@@ -120,23 +121,9 @@ impl Description {
             mass_unit: model.physics().mass_unit(),
             specific_momenta: model.physics().has_specific_momenta(),
             changing_masses: model.physics().changes_masses(),
-            shear: model.particles().shear.map(|shear| (shear, model.clock(0))),
-            bonds: model
-                .particles()
-                .bonds
-                .as_ref()
-                .into_iter()
-                .flat_map(Bonds::iter)
-                .map(|bond| (bond.ends, bond.kind))
-                .collect(),
-            angles: model
-                .particles()
-                .angles
-                .as_ref()
-                .into_iter()
-                .flat_map(Angles::iter)
-                .map(|angle| (angle.ends, angle.kind))
-                .collect(),
+            shear: particles.shear.map(|shear| (shear, model.clock(0))),
+            bonds: particles.bonds.iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind)).collect(),
+            angles: particles.angles.iter().flat_map(Angles::iter).map(|angle| (angle.ends, angle.kind)).collect(),
         }
     }
 
