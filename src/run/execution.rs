@@ -239,13 +239,13 @@ impl<'a> Run<'a> {
             trajectory.flush()?;
         }
         engine.keep_alive();
-        let mut sections = self.analyses.sections_of_samples();
+        let [mut sections, of_states] = self.analyses.sections();
         sections.extend(self.analyses.open_windows(engine)?);
         if !self.notices.is_empty() {
             sections.push((NOTICES.to_owned(), serde_json::json!(self.notices).to_string().into_bytes()));
         }
         sections.push((energies::SECTION.to_owned(), self.energies.section()));
-        sections.extend(self.analyses.sections_of_states());
+        sections.extend(of_states);
         sections.extend(self.kept_sums.sections());
         sections.extend(self.pictures.sections());
         sections.extend(self.carried.section(self.model, engine)?);

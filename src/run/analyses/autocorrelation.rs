@@ -1,8 +1,8 @@
 //! Normalised autocorrelations of velocities and forces, and the curves fitted to them.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Planner, Sampling, Setting, SumSampler, bytes,
-    found, windows_missing,
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, Planner, Sampling, Setting, SumSampler, bytes, found,
+    windows_missing,
 };
 use crate::engine::Sample;
 use crate::families::Model;
@@ -60,23 +60,26 @@ impl Descriptor for Autocorrelation {
         };
         let bytes = 16 * planner.plan.particles;
         planner.plan.add_buffer(origins, bytes);
+        let id = AnalysisId::Autocorrelation(self.0);
         planner.add_sums(&SumSampler {
-            id: AnalysisId::Autocorrelation(self.0),
-            entry: Entry::CorrelateVectors,
             choices,
             constants: vec![(Constant::Window, asked.window as f64), (Constant::Product, unit * unit / quantum)],
             renamed: vec![(Array::Origins, origins)],
             before,
-            sums,
-            samples,
-            quantities: 1,
-            every: asked.every,
             window: Some(Window { buffer: origins, samples: asked.window.max(1) }),
+            ..SumSampler::new(id, Entry::CorrelateVectors, [sums, samples], 1, asked.every)
         });
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::Samples(Box::new(Correlation::new(setting, self.of(&setting.scene.output)?))))
+        let asked = self.of(&setting.scene.output)?;
+        Some(Gathering::Samples(Box::new(Correlation {
+            asked: asked.clone(),
+            particles: setting.model.mobile_particles() as f64,
+            interval: asked.every as f64 * setting.model.time_step,
+            scale: quantum(setting.plan, asked.quantity),
+            products: Vec::new(),
+        })))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -115,20 +118,6 @@ struct Correlation {
 }
 
 impl Correlation {
-    fn new(setting: &Setting<'_>, asked: &scene::Autocorrelation) -> Self {
-        Self {
-            asked: asked.clone(),
-            particles: setting.model.mobile_particles() as f64,
-            interval: asked.every as f64 * setting.model.time_step,
-            scale: quantum(setting.plan, asked.quantity),
-            products: Vec::new(),
-        }
-    }
-
-    fn window(&self) -> usize {
-        self.asked.window as usize
-    }
-
     /// The fit and its parameters; why there is none, if one was asked for.
     fn fit(&self, average: &WindowedAverage) -> (Option<FittedDecay>, Value, Vec<String>) {
         if self.asked.fit == DecayFit::None {
@@ -152,14 +141,12 @@ impl Correlation {
     }
 }
 
-impl OfSamples for Correlation {
+impl Analysis for Correlation {
     fn add(&mut self, sample: &Sample) {
         let sum = sample.sums.first().map_or(f64::NAN, |sum| *sum as f64);
         self.products.push(sum * self.scale / self.particles);
     }
-}
 
-impl Analysis for Correlation {
     fn section(&self) -> Vec<u8> {
         bytes(self.products.iter().copied())
     }
@@ -173,7 +160,7 @@ impl Analysis for Correlation {
     }
 
     fn conclude(&self) -> Conclusion {
-        let average = WindowedAverage::of(self.window(), &self.products);
+        let average = WindowedAverage::of(self.asked.window as usize, &self.products);
         let (covariances, normalised) = (average.average(), average.normalised());
         let first = covariances.first().copied();
         let missing = windows_missing(&average, self.particles)

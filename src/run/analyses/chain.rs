@@ -1,6 +1,6 @@
 //! What a run of harmonic chains measures and writes.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfStates, Sampling, Setting, bytes};
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, Sampling, Setting, bytes};
 use crate::families::{ChainTrios, Likeness, Model, Strand};
 use crate::measure::harmonic_chain::{MemoryKernel, NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses};
 use crate::measure::statistics::Estimate;
@@ -12,16 +12,24 @@ use crate::state::{Reported, Units};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
-/// The tables, in the order in which their names are listed.
-const TABLES: [Kind; 5] = [Kind::Profiles, Kind::Pulse, Kind::Correlation, Kind::Memory, Kind::Equilibrium];
+/// The charts of the tables, in the order in which their names are listed, and what they say below their titles.
+const CHARTS: [(ChartOfTable, Conditions); 5] = [
+    (chain_profile_chart, Conditions::Pulse),
+    (chain_pulse_chart, Conditions::Pulse),
+    (chain_correlation_chart, Conditions::Equilibrium),
+    (chain_memory_chart, Conditions::Memory),
+    (chain_equilibrium_chart, Conditions::Equilibrium),
+];
 
+/// Makes a chart of a title, a subtitle and a table.
+type ChartOfTable = fn(&str, &str, &Table) -> Chart;
+
+/// The conditions under which the numbers of a table are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Profiles,
+enum Conditions {
     Pulse,
-    Correlation,
-    Memory,
     Equilibrium,
+    Memory,
 }
 
 const REDUCED_TIME: &str = "reduced_time";
@@ -38,20 +46,15 @@ impl Descriptor for Chain {
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
         let (asked, model) = (setting.scene.output.chain.as_ref()?, setting.model);
-        let chains = Chains::new(model.particles().chains.as_ref()?.clone(), model.units, model.time_step, asked.every);
-        Some(Gathering::States(Box::new(chains)))
+        let trios = model.particles().chains.as_ref()?.clone();
+        let thermal = std::array::from_fn(|_| ThermalSeries::new(trios.thermal.clusters));
+        let (units, time_step, every, pulses) = (model.units, model.time_step, asked.every, Vec::new());
+        Some(Gathering::States(Box::new(Chains { trios, units, time_step, every, pulses, thermal })))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
-        let kind = TABLES[drawn.place.min(TABLES.len() - 1)];
-        let chart = match kind {
-            Kind::Profiles => chain_profile_chart,
-            Kind::Pulse => chain_pulse_chart,
-            Kind::Correlation => chain_correlation_chart,
-            Kind::Memory => chain_memory_chart,
-            Kind::Equilibrium => chain_equilibrium_chart,
-        };
-        chart(drawn.title(), &subtitle(kind, drawn.scene), drawn.table)
+        let (chart, conditions) = CHARTS[drawn.place.min(CHARTS.len() - 1)];
+        chart(drawn.title(), &subtitle(conditions, drawn.scene), drawn.table)
     }
 
     fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
@@ -99,12 +102,6 @@ struct Chains {
 }
 
 impl Chains {
-    /// Begins, with a sample every so many steps.
-    fn new(trios: ChainTrios, units: Units, time_step: f64, every: u64) -> Self {
-        let thermal = std::array::from_fn(|_| ThermalSeries::new(trios.thermal.clusters));
-        Self { trios, units, time_step, every, pulses: Vec::new(), thermal }
-    }
-
     /// τ = ω₀t/n of a step.
     fn reduced_time(&self, step: f64) -> f64 {
         step * self.time_step / self.trios.pulse.cluster_time()
@@ -268,8 +265,8 @@ impl Chains {
     }
 }
 
-impl OfStates for Chains {
-    fn add(&mut self, state: &Reported, _: &Model) {
+impl Analysis for Chains {
+    fn add_state(&mut self, state: &Reported, _: &Model) {
         let step = state.step as f64;
         if self.pulses.last().is_some_and(|last| last.step >= step) {
             return;
@@ -291,9 +288,7 @@ impl OfStates for Chains {
             series.push(displacements, momenta);
         }
     }
-}
 
-impl Analysis for Chains {
     fn section(&self) -> Vec<u8> {
         let pulse = |sample: &PulseSample| {
             let mut numbers = vec![sample.step];
@@ -333,14 +328,9 @@ impl Analysis for Chains {
         let kernels = self.kernels();
         let pulse = self.pulse();
         let result = self.results(&pulse, &kernels);
-        let table = |kind: Kind| match kind {
-            Kind::Profiles => self.profiles(),
-            Kind::Pulse => pulse.clone(),
-            Kind::Correlation => self.correlation(),
-            Kind::Memory => memory(&kernels),
-            Kind::Equilibrium => self.equilibrium(),
-        };
-        Conclusion { tables: TABLES.map(table).to_vec(), result: Ok(result), warnings: Vec::new() }
+        let (correlation, memory) = (self.correlation(), memory(&kernels));
+        let tables = vec![self.profiles(), pulse, correlation, memory, self.equilibrium()];
+        Conclusion { tables, result: Ok(result), warnings: Vec::new() }
     }
 }
 
@@ -415,7 +405,7 @@ fn memory(kernels: &[MemoryKernel]) -> Table {
 }
 
 /// The conditions under which the numbers of a table were found, for its plot.
-fn subtitle(table: Kind, scene: &Scene) -> String {
+fn subtitle(conditions: Conditions, scene: &Scene) -> String {
     let Some(chain) = scene.interactions.iter().find_map(|interaction| match interaction {
         Interaction::HarmonicChain(chain) => Some(chain),
         _ => None,
@@ -423,16 +413,16 @@ fn subtitle(table: Kind, scene: &Scene) -> String {
         return String::new();
     };
     let [size, friction, temperature] = [f64::from(chain.cluster_size), chain.friction, scene.temperature];
-    match table {
-        Kind::Profiles | Kind::Pulse => format!(
+    match conditions {
+        Conditions::Pulse => format!(
             "{} clusters of {size} beads, Gaussian pulse of width {} clusters at rest, kT = 0, γ* = {friction}",
             chain.pulse.clusters, chain.pulse.width
         ),
-        Kind::Memory => {
+        Conditions::Memory => {
             "exact, of clusters of n beads whose centres are held; the plateau lasts while ω_{0}t is far below n"
                 .to_owned()
         }
-        Kind::Correlation | Kind::Equilibrium => {
+        Conditions::Equilibrium => {
             format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", chain.equilibrium.clusters)
         }
     }

@@ -1,8 +1,8 @@
 //! Sizes of chains: mean squared distance of the ends and radius of gyration.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, SumSampler,
-    bytes, mean, printed_mean,
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Planner, Sampling, Setting, SumSampler, bytes, mean,
+    printed_mean,
 };
 use crate::engine::Sample;
 use crate::families::{ChainGroup, Model, Walks};
@@ -44,23 +44,21 @@ impl Descriptor for ChainSizes {
         let mut constants = planner.between();
         constants.push((Constant::Chains, chains as f64));
         constants.push((Constant::ChainLength, 1.0 / planner.plan.quanta.length_squared));
+        let buffers = [Array::ChainSums, Array::ChainSamples];
         planner.add_sums(&SumSampler {
-            id: AnalysisId::ChainSizes,
-            entry: Entry::MeasureChains,
             choices: Choices::new().with_if(listed, Walk::Listed),
             constants,
-            renamed: Vec::new(),
-            before: Vec::new(),
-            sums: Array::ChainSums,
-            samples: Array::ChainSamples,
-            quantities: 2 * groups.len(),
-            every: asked.every,
-            window: None,
+            ..SumSampler::new(AnalysisId::ChainSizes, Entry::MeasureChains, buffers, 2 * groups.len(), asked.every)
         });
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::Samples(Box::new(Sizes::new(setting))))
+        Some(Gathering::Samples(Box::new(Sizes {
+            groups: setting.model.particles().chain_groups.clone(),
+            time_step: setting.model.time_step,
+            scale: setting.plan.quanta.length_squared,
+            rows: Vec::new(),
+        })))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -149,16 +147,6 @@ struct Sizes {
 }
 
 impl Sizes {
-    fn new(setting: &Setting<'_>) -> Self {
-        let model = setting.model;
-        Self {
-            groups: model.particles().chain_groups.clone(),
-            time_step: model.time_step,
-            scale: setting.plan.quanta.length_squared,
-            rows: Vec::new(),
-        }
-    }
-
     fn result(&self, number: usize) -> Value {
         let group = &self.groups[number];
         let column = |index: usize| -> Value {
@@ -177,7 +165,7 @@ impl Sizes {
     }
 }
 
-impl OfSamples for Sizes {
+impl Analysis for Sizes {
     fn add(&mut self, sample: &Sample) {
         let means = sample.sums.iter().enumerate().map(|(index, sum)| {
             let chains = self.groups.get(index / 2).map_or(1, |group| group.chains.max(1));
@@ -185,9 +173,7 @@ impl OfSamples for Sizes {
         });
         self.rows.push(std::iter::once(sample.step as f64).chain(means).collect());
     }
-}
 
-impl Analysis for Sizes {
     fn section(&self) -> Vec<u8> {
         bytes(self.rows.iter().flatten().copied())
     }

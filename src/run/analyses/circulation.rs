@@ -1,6 +1,6 @@
 //! The circulations of material loops over a run.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Planner, Sampling, Setting, bytes};
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, Planner, Sampling, Setting, bytes};
 use crate::engine::Sample;
 use crate::families::{MaterialLoops, Model};
 use crate::measure::circulation::{circulation, largest_gap};
@@ -69,8 +69,10 @@ impl Descriptor for Circulation {
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let found = setting.model.physics().material_loops(setting.model)?;
-        Some(Gathering::Samples(Box::new(Circulations::new(setting.model, found))))
+        let model = setting.model;
+        let MaterialLoops { rotation, spacing, loops, .. } = model.physics().material_loops(model)?;
+        let (units, time_step, rows) = (model.units, model.time_step, Vec::new());
+        Some(Gathering::Samples(Box::new(Circulations { units, rotation, time_step, spacing, loops, rows })))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -112,17 +114,6 @@ struct Circulations {
 }
 
 impl Circulations {
-    fn new(model: &Model, found: MaterialLoops) -> Self {
-        Self {
-            units: model.units,
-            rotation: found.rotation,
-            time_step: model.time_step,
-            spacing: found.spacing,
-            loops: found.loops,
-            rows: Vec::new(),
-        }
-    }
-
     fn table(&self) -> Table {
         let names = std::iter::once("time").chain(self.loops.iter().map(|(name, _)| name.as_str()));
         Table::new(names, self.rows.clone())
@@ -150,7 +141,7 @@ impl Circulations {
     }
 }
 
-impl OfSamples for Circulations {
+impl Analysis for Circulations {
     /// Adds a sample of all tracers: position and velocity of each, two integers a word.
     fn add(&mut self, sample: &Sample) {
         let halves = |word: &i64| [*word as u32, (*word >> 32) as u32];
@@ -172,9 +163,7 @@ impl OfSamples for Circulations {
         }
         self.rows.push(row);
     }
-}
 
-impl Analysis for Circulations {
     fn section(&self) -> Vec<u8> {
         bytes(self.rows.iter().flatten().copied())
     }

@@ -1,6 +1,7 @@
 //! What an analysis has to say of itself, and what it does with what it takes.
 
 use super::Planner;
+use super::results::printed;
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::numbers::grouped;
@@ -33,10 +34,15 @@ pub(super) trait Descriptor {
     /// The chart of a table that it left.
     fn chart(&self, drawn: &Drawn<'_>) -> Chart;
 
+    /// What is printed of its result at the end of a run, as far as it is there: labels, and the names of means or coefficients.
+    fn labels(&self) -> &'static [(&'static str, &'static str)] {
+        &[]
+    }
+
     /// Lines of the table that is printed at the end of a run: what, and its value.
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        let _ = result;
-        Vec::new()
+        let line = |(label, name): &(&str, &str)| Some(((*label).to_owned(), printed(&result[*name])?));
+        self.labels().iter().filter_map(line).collect()
     }
 
     /// The names of the numbers that it finds, as they stand at the top of its result; counts of samples and what was asked for are none.
@@ -71,6 +77,11 @@ impl Sampling {
     /// Samples after equilibration.
     pub(super) fn after_equilibration(scene: &Scene, every: u64) -> Self {
         Self { first: scene.time.equilibration, every, ..Self::default() }
+    }
+
+    /// Number of samples of a scene.
+    pub(super) fn count(&self, scene: &Scene) -> u64 {
+        scene.time.steps.saturating_sub(self.first) / self.every.max(1) + 1
     }
 
     /// The same in windows of so many samples.
@@ -112,13 +123,23 @@ impl Drawn<'_> {
 /// An analysis under way, by what it takes.
 pub(super) enum Gathering {
     /// Rows of its sampler.
-    Samples(Box<dyn OfSamples>),
+    Samples(Box<dyn Analysis>),
     /// States.
-    States(Box<dyn OfStates>),
+    States(Box<dyn Analysis>),
 }
 
 /// What has been gathered for an analysis.
 pub(super) trait Analysis {
+    /// Adds a row of its sampler, if it takes these.
+    fn add(&mut self, sample: &Sample) {
+        let _ = sample;
+    }
+
+    /// Adds a state with full-step momenta, if it takes these. A step that was added already, before a run went back, is left out.
+    fn add_state(&mut self, state: &Reported, model: &Model) {
+        let _ = (state, model);
+    }
+
     /// What a checkpoint has to keep.
     fn section(&self) -> Vec<u8>;
     /// How many numbers that is after so many samples.
@@ -131,18 +152,6 @@ pub(super) trait Analysis {
     }
     /// Tables and result.
     fn conclude(&self) -> Conclusion;
-}
-
-/// An analysis of the rows of a sampler.
-pub(super) trait OfSamples: Analysis {
-    /// Adds a row.
-    fn add(&mut self, sample: &Sample);
-}
-
-/// An analysis of states.
-pub(super) trait OfStates: Analysis {
-    /// Adds a state with full-step momenta. A step that was added already, before a run went back, is left out.
-    fn add(&mut self, state: &Reported, model: &Model);
 }
 
 /// What an analysis leaves.

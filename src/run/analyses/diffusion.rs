@@ -1,8 +1,8 @@
 //! Mean squared displacement and velocity autocorrelation, and the diffusion coefficients they give.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Planner, Sampling, Setting, SumSampler, bytes,
-    found, printed, windows_missing,
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, Planner, Sampling, Setting, SumSampler, bytes, found,
+    windows_missing,
 };
 use crate::engine::Sample;
 use crate::families::Model;
@@ -11,10 +11,10 @@ use crate::measure::diffusion::DiffusionWindows;
 use crate::plan::paths::PATH;
 use crate::plan::{Need, Paths, Window};
 use crate::plot::{Chart, diffusion_chart};
-use crate::scene::{self, AnalysisId, Output, Scene};
-use crate::shaders::{Array, Choices, Constant, Entry};
+use crate::scene::{AnalysisId, Output, Scene};
+use crate::shaders::{Array, Constant, Entry};
 use crate::table::Table;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// The buffer of what is known of each particle.
 const TRACKERS: Array = Array::Trackers;
@@ -52,23 +52,27 @@ impl Descriptor for Diffusion {
             (Constant::Displacement, 1.0 / plan.quanta.length_squared),
             (Constant::Velocity, unit * unit / plan.quanta.velocity_squared),
         ]);
+        let buffers = [Array::DiffusionSums, Array::DiffusionSamples];
         planner.add_sums(&SumSampler {
-            id: AnalysisId::Diffusion,
-            entry: Entry::TrackParticles,
-            choices: Choices::new(),
             constants,
             renamed: of_all_ranks.then_some((Paths::BUFFER, Array::GatheredPaths)).into_iter().collect(),
-            before: Vec::new(),
-            sums: Array::DiffusionSums,
-            samples: Array::DiffusionSamples,
-            quantities: 2,
-            every: asked.every,
             window: Some(Window { buffer: TRACKERS, samples: asked.window.max(1) }),
+            ..SumSampler::new(AnalysisId::Diffusion, Entry::TrackParticles, buffers, 2, asked.every)
         });
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::Samples(Box::new(Averages::new(setting, setting.scene.output.diffusion.as_ref()?))))
+        let (asked, model) = (setting.scene.output.diffusion.as_ref()?, setting.model);
+        let quanta = setting.plan.quanta;
+        Some(Gathering::Samples(Box::new(Averages {
+            particles: model.mobile_particles() as f64,
+            dimension: model.units.dimension,
+            interval: asked.every as f64 * model.time_step,
+            window: asked.window as usize,
+            scales: [quanta.length_squared, quanta.velocity_squared],
+            displacement: Vec::new(),
+            velocity: Vec::new(),
+        })))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -77,11 +81,8 @@ impl Descriptor for Diffusion {
         diffusion_chart(drawn.title(), drawn.table, dimension, einstein, green_kubo)
     }
 
-    fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        [("diffusion (Einstein)", EINSTEIN), ("diffusion (Green-Kubo)", GREEN_KUBO)]
-            .into_iter()
-            .filter_map(|(label, key)| printed(label, &result[key]))
-            .collect()
+    fn labels(&self) -> &'static [(&'static str, &'static str)] {
+        &[("diffusion (Einstein)", EINSTEIN), ("diffusion (Green-Kubo)", GREEN_KUBO)]
     }
 
     fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
@@ -100,31 +101,14 @@ struct Averages {
     velocity: Vec<f64>,
 }
 
-impl Averages {
-    fn new(setting: &Setting<'_>, asked: &scene::Diffusion) -> Self {
-        let quanta = setting.plan.quanta;
-        Self {
-            particles: setting.model.mobile_particles() as f64,
-            dimension: setting.model.units.dimension,
-            interval: asked.every as f64 * setting.model.time_step,
-            window: asked.window as usize,
-            scales: [quanta.length_squared, quanta.velocity_squared],
-            displacement: Vec::new(),
-            velocity: Vec::new(),
-        }
-    }
-}
-
-impl OfSamples for Averages {
+impl Analysis for Averages {
     fn add(&mut self, sample: &Sample) {
         let [displacement, velocity] = &mut [&mut self.displacement, &mut self.velocity];
         for ((series, sum), scale) in [displacement, velocity].into_iter().zip(&sample.sums).zip(self.scales) {
             series.push(*sum as f64 * scale / self.particles);
         }
     }
-}
 
-impl Analysis for Averages {
     fn section(&self) -> Vec<u8> {
         bytes(self.displacement.iter().chain(&self.velocity).copied())
     }

@@ -2,14 +2,13 @@
 
 use super::histogram_range::range;
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, bytes,
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Planner, Sampling, Setting, SumSampler, bytes,
 };
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::histogram::{self, PowerMeans, gaussian_mean, maxwell_mean};
 use crate::numbers::grouped;
-use crate::plan::recording::{SAMPLE_ROWS, record_histogram};
-use crate::plan::{Need, Sampler, SamplerId};
+use crate::plan::Need;
 use crate::plot::{Chart, histogram_chart};
 use crate::scene::{self, AnalysisId, CountedQuantity, Output, Scene};
 use crate::shaders::analyses::{Counted, Sampled};
@@ -62,60 +61,41 @@ impl Descriptor for Histogram {
 
     fn add_sampler(&self, planner: &mut Planner<'_>) {
         let Some(asked) = self.of(planner.output) else { return };
-        let (counts, samples, unit, choices, before) = match self.0 {
+        let buffers = match self.0 {
+            CountedQuantity::Velocity => [Array::VelocityCounts, Array::VelocityCountSamples],
+            CountedQuantity::Speed => [Array::SpeedCounts, Array::SpeedCountSamples],
+            CountedQuantity::Acceleration => [Array::AccelerationCounts, Array::AccelerationCountSamples],
+        };
+        let (unit, (choices, before)) = match self.0 {
             CountedQuantity::Velocity | CountedQuantity::Speed => {
-                let (velocities, before) = planner.velocities(asked.frame);
-                let [counts, samples] = if self.0 == CountedQuantity::Velocity {
-                    [Array::VelocityCounts, Array::VelocityCountSamples]
-                } else {
-                    [Array::SpeedCounts, Array::SpeedCountSamples]
-                };
-                (counts, samples, planner.model.units.momentum, velocities, before)
+                (planner.model.units.momentum, planner.velocities(asked.frame))
             }
             CountedQuantity::Acceleration => {
-                let choices = Choices::new().with(Sampled::Acceleration);
-                (
-                    Array::AccelerationCounts,
-                    Array::AccelerationCountSamples,
-                    planner.plan.force_unit,
-                    choices,
-                    Vec::new(),
-                )
+                (planner.plan.force_unit, (Choices::new().with(Sampled::Acceleration), Vec::new()))
             }
         };
         let groups = planner.groups().min(GROUPS);
         let (constants, counted) = counting(asked, planner, unit, groups);
-        let choices = choices.with(counted);
-        let id = AnalysisId::Histogram(self.0);
-        let renamed = [(Array::Histogram, counts)];
-        let kernel = planner.kernel_of_particles(id.name(), Entry::CountHistogram, &choices, groups, &renamed);
-        let Some(kernel) = kernel else { return };
-        let plan = &mut *planner.plan;
-        let count = plan.add_kernel(kernel.with(constants));
-        let entries = u64::from(asked.bins) + (EXTRA + MOMENTS) as u64;
-        let record = record_histogram(entries).renamed(vec![(Array::Histogram, counts), (Array::Samples, samples)]);
-        let record = plan.add_kernel(record);
-        // About a mebibyte.
-        let capacity = ((1 << 17) / (1 + entries)).clamp(16, SAMPLE_ROWS);
-        plan.add_buffer(counts, 8 * entries);
-        plan.add_buffer(samples, 8 * (1 + capacity * (1 + entries)));
-        plan.samplers.push(Sampler {
-            id: SamplerId::Analysis(id),
-            first: planner.equilibration,
-            every: asked.every,
-            kernels: [&before[..], &[count, record]].concat(),
-            samples,
-            quantities: entries as usize,
-            capacity,
-            needs_report: true,
-            gathered: false,
-            window: None,
-            whole: 0..0,
-        });
+        let (id, entries) = (AnalysisId::Histogram(self.0), asked.bins as usize + EXTRA + MOMENTS);
+        let sampler = SumSampler::new(id, Entry::CountHistogram, buffers, entries, asked.every);
+        planner.add_counts(&SumSampler { choices: choices.with(counted), constants, before, ..sampler }, groups);
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::Samples(Box::new(Counts::new(setting, self.of(&setting.scene.output)?))))
+        let asked = self.of(&setting.scene.output)?;
+        let range = range(setting.model, asked);
+        let low = if asked.quantity == CountedQuantity::Speed { 0.0 } else { -range };
+        Some(Gathering::Samples(Box::new(Counts {
+            asked: asked.clone(),
+            particles: setting.model.mobile_particles() as f64,
+            quantum: moment_quantum(setting.plan.particles),
+            dimension: setting.model.units.dimension,
+            range,
+            samples: 0.0,
+            histogram: histogram::Histogram::new([low, range], asked.bins as usize),
+            far: 0.0,
+            powers: [0.0; MOMENTS],
+        })))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -208,22 +188,6 @@ struct Counts {
 }
 
 impl Counts {
-    fn new(setting: &Setting<'_>, asked: &scene::Histogram) -> Self {
-        let range = range(setting.model, asked);
-        let low = if asked.quantity == CountedQuantity::Speed { 0.0 } else { -range };
-        Self {
-            asked: asked.clone(),
-            particles: setting.model.mobile_particles() as f64,
-            quantum: moment_quantum(setting.plan.particles),
-            dimension: setting.model.units.dimension,
-            range,
-            samples: 0.0,
-            histogram: histogram::Histogram::new([low, range], asked.bins as usize),
-            far: 0.0,
-            powers: [0.0; MOMENTS],
-        }
-    }
-
     /// Values of a particle.
     fn values(&self) -> f64 {
         let components = self.asked.quantity != CountedQuantity::Speed && self.asked.axis.is_none();
@@ -233,25 +197,16 @@ impl Counts {
     /// Means of powers of the value and of the magnitude of the vector, over particles that are not far beyond.
     fn means(&self) -> [PowerMeans; 2] {
         let particles = self.samples * self.particles - self.far;
+        let mean = |sum: f64, power: i32, count: f64| sum * self.range.powi(power) / count;
         let values = particles * self.values();
-        let scale = |power: i32| self.range.powi(power);
         let [first, second, fourth, square, square_of_square] = self.powers;
-        [
-            PowerMeans {
-                first: first * scale(1) / values,
-                second: second * scale(2) / values,
-                fourth: fourth * scale(4) / values,
-            },
-            PowerMeans {
-                first: f64::NAN,
-                second: square * scale(2) / particles,
-                fourth: square_of_square * scale(4) / particles,
-            },
-        ]
+        let [first, second, fourth] = [mean(first, 1, values), mean(second, 2, values), mean(fourth, 4, values)];
+        let [square, square_of_square] = [mean(square, 2, particles), mean(square_of_square, 4, particles)];
+        [PowerMeans { first, second, fourth }, PowerMeans { first: f64::NAN, second: square, fourth: square_of_square }]
     }
 }
 
-impl OfSamples for Counts {
+impl Analysis for Counts {
     fn add(&mut self, sample: &Sample) {
         let bins = self.histogram.counts.len();
         if sample.sums.len() != bins + EXTRA + MOMENTS {
@@ -268,9 +223,7 @@ impl OfSamples for Counts {
         }
         self.powers.iter_mut().zip(powers).for_each(|(power, found)| *power += *found as f64 * self.quantum);
     }
-}
 
-impl Analysis for Counts {
     fn section(&self) -> Vec<u8> {
         let histogram = &self.histogram;
         let single = [self.samples, histogram.below, histogram.above, self.far].into_iter();

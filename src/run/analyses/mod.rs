@@ -27,9 +27,9 @@ pub(super) use results::mean;
 pub use results::printed_mean;
 pub(super) use under_way::Analyses;
 
-use descriptor::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, OfStates, Sampling, Setting};
+use descriptor::{Analysis, Conclusion, Descriptor, Drawn, Gathering, Sampling, Setting};
 use planner::SumSampler;
-use results::{NO_SAMPLE, found, printed, windows_missing};
+use results::{NO_SAMPLE, found, windows_missing};
 
 use super::sections::bytes;
 use crate::families::Model;
@@ -56,6 +56,11 @@ fn describe(id: AnalysisId) -> Box<dyn Descriptor> {
         AnalysisId::Profiles => Box::new(profiles::Profiles),
         AnalysisId::Stress => Box::new(stress::Stress),
     }
+}
+
+/// The mass of all particles.
+fn total_mass(model: &Model) -> f64 {
+    model.species.iter().map(|species| species.mass * species.count as f64).sum()
 }
 
 /// What reports have to leave for the analyses that a scene asks for.

@@ -1,8 +1,6 @@
 //! Numbers of neighbours of the cells of a tessellation.
 
-use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfStates, Sampling, Setting, bytes, printed_mean,
-};
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Sampling, Setting, bytes};
 use crate::families::Model;
 use crate::measure::neighbours::{MOST_NEIGHBOURS, NeighbourCounts, RANDOM_POINTS};
 use crate::measure::statistics::Estimate;
@@ -11,7 +9,7 @@ use crate::scene::Scene;
 use crate::state::Reported;
 use crate::table::Table;
 use crate::tessellation::Tessellation;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Names in the result.
 const MEAN: &str = "mean";
@@ -33,11 +31,8 @@ impl Descriptor for Neighbours {
         neighbours_chart(drawn.title(), drawn.table)
     }
 
-    fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        [("neighbours of a cell", MEAN), ("their variance", VARIANCE)]
-            .into_iter()
-            .filter_map(|(label, key)| Some((label.to_owned(), printed_mean(&result[key])?)))
-            .collect()
+    fn labels(&self) -> &'static [(&'static str, &'static str)] {
+        &[("neighbours of a cell", MEAN), ("their variance", VARIANCE)]
     }
 
     fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
@@ -53,17 +48,15 @@ struct Counts {
     counts: NeighbourCounts,
 }
 
-impl OfStates for Counts {
-    fn add(&mut self, state: &Reported, model: &Model) {
+impl Analysis for Counts {
+    fn add_state(&mut self, state: &Reported, model: &Model) {
         if self.last.is_none_or(|last| last < state.step) {
             self.last = Some(state.step);
             let lengths = [model.units.lengths[0], model.units.lengths[1]];
             self.counts.push(&Tessellation::of_fractions(lengths, &state.positions));
         }
     }
-}
 
-impl Analysis for Counts {
     fn section(&self) -> Vec<u8> {
         let last = self.last.map(|last| last as f64);
         bytes(last.into_iter().chain(self.counts.numbers()))
@@ -122,7 +115,7 @@ mod tests {
         let mut counts = Counts::default();
         for step in [0, 10, 10, 5] {
             state.step = step;
-            counts.add(&state, &model);
+            counts.add_state(&state, &model);
         }
         assert_eq!(counts.counts.len(), 2);
         let mut restored = Counts::default();

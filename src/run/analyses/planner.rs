@@ -1,7 +1,7 @@
 //! What descriptors add their samplers to a plan with.
 
 use crate::families::Model;
-use crate::plan::recording::{SAMPLE_ROWS, record_sums};
+use crate::plan::recording::{SAMPLE_ROWS, record_histogram, record_sums};
 use crate::plan::{Kernel, Options, Ordered, PARTICLE_WORDS, PhysicsPlan, Plan, Reported, Sampler, SamplerId, Window};
 use crate::scene::{AnalysisId, Frame, Output};
 use crate::shaders::analyses::{Frame as CentreFrame, Sampled};
@@ -51,6 +51,31 @@ pub(super) struct SumSampler {
     pub every: u64,
     /// What is kept from one sample to the next, if anything.
     pub window: Option<Window>,
+}
+
+impl SumSampler {
+    /// A sampler of so many sums, into a buffer of those of workgroups and one of rows, without anything else.
+    pub(super) fn new(
+        id: AnalysisId,
+        entry: Entry,
+        [sums, samples]: [Array; 2],
+        quantities: usize,
+        every: u64,
+    ) -> Self {
+        Self {
+            id,
+            entry,
+            choices: Choices::new(),
+            constants: Vec::new(),
+            renamed: Vec::new(),
+            before: Vec::new(),
+            sums,
+            samples,
+            quantities,
+            every,
+            window: None,
+        }
+    }
 }
 
 impl<'a> Planner<'a> {
@@ -124,16 +149,36 @@ impl<'a> Planner<'a> {
         let recorded = record_sums("record_sample", sampler.quantities as u64, groups);
         let record = self.plan.add_kernel(recorded.renamed(rows));
         self.plan.add_buffer(sampler.sums, 8 * sampler.quantities as u64 * groups);
-        let row = 8 * (1 + sampler.quantities as u64);
-        self.plan.add_buffer(sampler.samples, 8 + SAMPLE_ROWS * row);
+        self.push(sampler, [sums, record], SAMPLE_ROWS, gathered);
+    }
+
+    /// Adds a sampler whose kernel reads the particles by id in so many workgroups and adds to as many places as there are quantities, which
+    /// `record_histogram` records.
+    pub(super) fn add_counts(&mut self, sampler: &SumSampler, groups: u64) {
+        let renamed = [(Array::Histogram, sampler.sums)];
+        let kernel = self.kernel_of_particles(sampler.id.name(), sampler.entry, &sampler.choices, groups, &renamed);
+        let Some(kernel) = kernel else { return };
+        let count = self.plan.add_kernel(kernel.with(sampler.constants.clone()));
+        let entries = sampler.quantities as u64;
+        let rows = vec![(Array::Histogram, sampler.sums), (Array::Samples, sampler.samples)];
+        let record = self.plan.add_kernel(record_histogram(entries).renamed(rows));
+        // About a mebibyte, or sixteen rows.
+        let capacity = ((1 << 17) / (1 + entries)).clamp(16, SAMPLE_ROWS);
+        self.plan.add_buffer(sampler.sums, 8 * entries);
+        self.push(sampler, [count, record], capacity, false);
+    }
+
+    /// Adds a sampler with room for so many rows.
+    fn push(&mut self, sampler: &SumSampler, kernels: [usize; 2], capacity: u64, gathered: bool) {
+        self.plan.add_buffer(sampler.samples, 8 * (1 + capacity * (1 + sampler.quantities as u64)));
         self.plan.samplers.push(Sampler {
             id: SamplerId::Analysis(sampler.id),
             first: self.equilibration,
             every: sampler.every,
-            kernels: [&sampler.before[..], &[sums, record]].concat(),
+            kernels: [&sampler.before[..], &kernels].concat(),
             samples: sampler.samples,
             quantities: sampler.quantities,
-            capacity: SAMPLE_ROWS,
+            capacity,
             needs_report: true,
             gathered,
             window: sampler.window,

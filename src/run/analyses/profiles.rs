@@ -1,8 +1,8 @@
 //! Profiles of density, velocity, temperature and stress along an axis of the box.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, bytes,
-    printed_mean,
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Planner, Sampling, Setting, SumSampler, bytes,
+    total_mass,
 };
 use crate::engine::Sample;
 use crate::families::Model;
@@ -10,14 +10,13 @@ use crate::measure::blocks::BlockSums;
 use crate::measure::statistics::Estimate;
 use crate::measure::stress::Components;
 use crate::numbers::grouped;
-use crate::plan::recording::{SAMPLE_ROWS, record_histogram};
-use crate::plan::{Need, Sampler, SamplerId};
+use crate::plan::Need;
 use crate::plot::{Chart, ProfiledSpecies, profiles_chart};
 use crate::scene::{self, AnalysisId, Frame, Output, ProfiledQuantity, Scene};
 use crate::shaders::analyses::{self, Layered, LayeredStress};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Names of columns, and of the mean in the result.
 const POSITION: &str = "position";
@@ -76,36 +75,28 @@ impl Descriptor for Profiles {
             constants.push((Constant::LayeredKinetic, energy));
         }
         let choices = choices.with_if(end > 0, analyses::Layers::BetweenWalls);
-        let renamed = [(Array::Histogram, Array::LayerSums)];
-        let name = AnalysisId::Profiles.name();
-        let kernel = planner.kernel_of_particles(name, Entry::SumLayers, &choices, planner.groups(), &renamed);
-        let Some(kernel) = kernel else { return };
-        let entries = u64::from(asked.bins) * sums.sampled() as u64;
-        let plan = &mut *planner.plan;
-        let sum = plan.add_kernel(kernel.with(constants));
-        let rows = vec![(Array::Histogram, Array::LayerSums), (Array::Samples, Array::LayerSamples)];
-        let record = plan.add_kernel(record_histogram(entries).renamed(rows));
-        // About a mebibyte, or sixteen rows.
-        let capacity = ((1 << 17) / (1 + entries)).clamp(16, SAMPLE_ROWS);
-        plan.add_buffer(Array::LayerSums, 8 * entries);
-        plan.add_buffer(Array::LayerSamples, 8 * (1 + capacity * (1 + entries)));
-        plan.samplers.push(Sampler {
-            id: SamplerId::Analysis(AnalysisId::Profiles),
-            first: planner.equilibration,
-            every: asked.every,
-            kernels: vec![sum, record],
-            samples: Array::LayerSamples,
-            quantities: entries as usize,
-            capacity,
-            needs_report: true,
-            gathered: false,
-            window: None,
-            whole: 0..0,
-        });
+        let (buffers, entries) = ([Array::LayerSums, Array::LayerSamples], asked.bins as usize * sums.sampled());
+        let sampler = SumSampler::new(AnalysisId::Profiles, Entry::SumLayers, buffers, entries, asked.every);
+        planner.add_counts(&SumSampler { choices, constants, ..sampler }, planner.groups());
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::Samples(Box::new(Layers::new(setting, setting.scene.output.profiles.as_ref()?))))
+        let (asked, model, plan) = (setting.scene.output.profiles.as_ref()?, setting.model, setting.plan);
+        let (sums, species) = (Sums::of(model, asked), &model.species);
+        Some(Gathering::Samples(Box::new(Layers {
+            asked: asked.clone(),
+            sums,
+            names: species.iter().map(|species| species.name.clone()).collect(),
+            moves: species.iter().map(|species| !species.fixed).collect(),
+            frozen: species.iter().map(|species| species.frozen).collect(),
+            length: model.units.edges()[asked.axis as usize],
+            volume: model.units.volume() / f64::from(asked.bins),
+            mass: mass_quantum(model),
+            momentum: model.units.momentum,
+            energy: plan.quanta.energy,
+            virial: plan.stress_unit,
+            blocks: BlockSums::new(asked.bins as usize * sums.kept()),
+        })))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -123,14 +114,13 @@ impl Descriptor for Profiles {
         profiles_chart(drawn.title(), axis, drawn.table, &species, temperature)
     }
 
-    fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        let temperature = printed_mean(&result[TEMPERATURE]);
-        temperature.map(|mean| ("temperature about the flow".to_owned(), mean)).into_iter().collect()
+    fn labels(&self) -> &'static [(&'static str, &'static str)] {
+        &[("temperature about the flow", TEMPERATURE)]
     }
 
     fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
         let Some(asked) = &scene.output.profiles else { return 0 };
-        let samples = scene.time.steps.saturating_sub(scene.time.equilibration) / asked.every.max(1) + 1;
+        let samples = Sampling::after_equilibration(scene, asked.every).count(scene);
         8 * BlockSums::blocks_after(samples) * u64::from(asked.bins) * Sums::of(model, asked).kept() as u64
     }
 
@@ -146,10 +136,6 @@ fn density_of(species: usize) -> String {
 
 fn with_error(name: &str) -> [String; 2] {
     [name.to_owned(), format!("{name}_error")]
-}
-
-fn total_mass(model: &Model) -> f64 {
-    model.species.iter().map(|species| species.mass * species.count as f64).sum()
 }
 
 /// The value of one unit of the sums of masses: all together are less than 2^62 of them.
@@ -215,25 +201,6 @@ struct Layers {
 }
 
 impl Layers {
-    fn new(setting: &Setting<'_>, asked: &scene::Profiles) -> Self {
-        let (model, plan) = (setting.model, setting.plan);
-        let sums = Sums::of(model, asked);
-        Self {
-            asked: asked.clone(),
-            sums,
-            names: model.species.iter().map(|species| species.name.clone()).collect(),
-            moves: model.species.iter().map(|species| !species.fixed).collect(),
-            frozen: model.species.iter().map(|species| species.frozen).collect(),
-            length: model.units.edges()[asked.axis as usize],
-            volume: model.units.volume() / f64::from(asked.bins),
-            mass: mass_quantum(model),
-            momentum: model.units.momentum,
-            energy: plan.quanta.energy,
-            virial: plan.stress_unit,
-            blocks: BlockSums::new(asked.bins as usize * sums.kept()),
-        }
-    }
-
     /// What is kept of the sums of a layer. Twice the energy of n particles relative to their centre of mass has d(n - 1) kT.
     fn kept(&self, sums: &[i64]) -> Vec<f64> {
         let Sums { species, dimension, motion, stress } = self.sums;
@@ -328,7 +295,7 @@ impl Layers {
     }
 }
 
-impl OfSamples for Layers {
+impl Analysis for Layers {
     fn add(&mut self, sample: &Sample) {
         let width = self.sums.sampled();
         if sample.sums.len() == self.asked.bins as usize * width {
@@ -336,9 +303,7 @@ impl OfSamples for Layers {
             self.blocks.add(&row);
         }
     }
-}
 
-impl Analysis for Layers {
     fn section(&self) -> Vec<u8> {
         bytes(self.blocks.sums().iter().copied())
     }

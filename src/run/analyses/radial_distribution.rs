@@ -1,14 +1,12 @@
 //! The radial distribution function.
 
 use super::pair_histogram::PairHistogram;
-use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, bytes,
-};
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Planner, Sampling, Setting, bytes};
 use crate::engine::Sample;
 use crate::families::Model;
-use crate::plan::{Need, Sampler};
+use crate::plan::Need;
 use crate::plot::{Chart, radial_distribution_chart};
-use crate::scene::{self, Output, Scene};
+use crate::scene::{Output, Scene};
 use crate::table::Table;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -46,7 +44,16 @@ impl Descriptor for RadialDistribution {
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
         let asked = setting.scene.output.radial_distribution.as_ref()?;
-        Some(Gathering::Samples(Box::new(Pairs::new(setting, asked, setting.sampler?))))
+        let (model, units) = (setting.model, &setting.model.units);
+        Some(Gathering::Samples(Box::new(Pairs {
+            particles: (setting.plan.particles - model.frozen_particles()) as f64,
+            volume: units.volume(),
+            dimension: units.dimension,
+            gaps: model.particles().walls.iter().map(|walls| units.edges()[walls.axis]).collect(),
+            range: asked.range,
+            samples: 0.0,
+            counts: vec![0.0; setting.sampler?.quantities],
+        })))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -76,29 +83,12 @@ struct Pairs {
     counts: Vec<f64>,
 }
 
-impl Pairs {
-    fn new(setting: &Setting<'_>, asked: &scene::RadialDistribution, sampler: &Sampler) -> Self {
-        let units = &setting.model.units;
-        Self {
-            particles: (setting.plan.particles - setting.model.frozen_particles()) as f64,
-            volume: units.volume(),
-            dimension: units.dimension,
-            gaps: setting.model.particles().walls.iter().map(|walls| units.edges()[walls.axis]).collect(),
-            range: asked.range,
-            samples: 0.0,
-            counts: vec![0.0; sampler.quantities],
-        }
-    }
-}
-
-impl OfSamples for Pairs {
+impl Analysis for Pairs {
     fn add(&mut self, sample: &Sample) {
         self.samples += 1.0;
         self.counts.iter_mut().zip(&sample.sums).for_each(|(count, found)| *count += *found as f64);
     }
-}
 
-impl Analysis for Pairs {
     fn section(&self) -> Vec<u8> {
         bytes(std::iter::once(self.samples).chain(self.counts.iter().copied()))
     }

@@ -24,10 +24,9 @@ pub(super) fn found(result: &Value) -> Option<Found> {
     Some((result["value"].as_f64()?, result["standard_error"].as_f64()))
 }
 
-/// A coefficient with its error as a line of the table printed at the end.
-pub(super) fn printed(label: &str, coefficient: &Value) -> Option<(String, String)> {
-    let (value, error) = found(coefficient)?;
-    Some((label.to_owned(), with_error(value, error)))
+/// A coefficient or a mean of a result with its error, in words.
+pub(super) fn printed(result: &Value) -> Option<String> {
+    found(result).map(|(value, error)| with_error(value, error)).or_else(|| printed_mean(result))
 }
 
 /// A mean of a result or a summary, as charts take it.

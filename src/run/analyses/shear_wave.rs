@@ -1,6 +1,6 @@
 //! The decay of the shear wave that particles start with.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, OfStates, Sampling, Setting, bytes, found, printed};
+use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, Sampling, Setting, bytes, found, total_mass};
 use crate::families::Model;
 use crate::measure::shear_wave::WaveDecay;
 use crate::numbers::with_error;
@@ -39,8 +39,8 @@ impl Descriptor for ShearWave {
         shear_wave_chart(drawn.title(), &subtitle, fit.as_deref().unwrap_or("exponential decay"), drawn.table)
     }
 
-    fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        printed("shear viscosity (wave)", &result[SHEAR_VISCOSITY]).into_iter().collect()
+    fn labels(&self) -> &'static [(&'static str, &'static str)] {
+        &[("shear viscosity (wave)", SHEAR_VISCOSITY)]
     }
 
     fn finds(&self, _: &Scene, model: &Model) -> Vec<&'static str> {
@@ -62,15 +62,13 @@ struct Decay {
     samples: Vec<[f64; 2]>,
 }
 
-impl OfStates for Decay {
-    fn add(&mut self, state: &Reported, model: &Model) {
+impl Analysis for Decay {
+    fn add_state(&mut self, state: &Reported, model: &Model) {
         if self.samples.last().is_none_or(|[last, _]| *last < state.step as f64) {
             self.samples.push([state.step as f64, amplitude(state, model, self.periods)]);
         }
     }
-}
 
-impl Analysis for Decay {
     fn section(&self) -> Vec<u8> {
         bytes(self.samples.as_flattened().iter().copied())
     }
@@ -97,11 +95,7 @@ fn amplitude(state: &Reported, model: &Model, periods: f64) -> f64 {
         let turns = f64::from(position[1]) / 4_294_967_296.0 * periods;
         f64::from(momentum[0]) * (TAU * turns).sin()
     });
-    2.0 * each.sum::<f64>() * model.units.momentum / mass(model)
-}
-
-fn mass(model: &Model) -> f64 {
-    model.species.iter().map(|species| species.mass * species.count as f64).sum()
+    2.0 * each.sum::<f64>() * model.units.momentum / total_mass(model)
 }
 
 impl Decay {
@@ -109,7 +103,7 @@ impl Decay {
         Self {
             periods: f64::from(periods),
             wave_number: TAU * f64::from(periods) / model.units.lengths[1],
-            density: mass(model) / model.units.volume(),
+            density: total_mass(model) / model.units.volume(),
             time_step: model.time_step,
             known: model.physics().known_viscosities(),
             samples: Vec::new(),
@@ -196,10 +190,10 @@ pub(super) mod tests {
             state.step = step;
             analyses.add_state(&state, &model);
         }
-        let sections = analyses.sections_of_states();
+        let [_, sections] = analyses.sections();
         assert_eq!(sections[1].1.len(), 3 * 16);
-        assert_eq!(at(11, &sections).unwrap().sections_of_states(), sections);
-        assert_ne!(at(0, &[]).unwrap().sections_of_states(), sections);
+        assert_eq!(at(11, &sections).unwrap().sections()[1], sections);
+        assert_ne!(at(0, &[]).unwrap().sections()[1], sections);
         for step in [10, 16] {
             let refused = at(step, &sections).err().unwrap().to_string();
             assert!(refused.contains("is no valid checkpoint"), "{refused}");

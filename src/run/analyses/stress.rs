@@ -1,8 +1,8 @@
 //! The pressure tensor, the surface tension of a slab, and the viscosity from the autocorrelation of the stress or from shear.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, OfSamples, Planner, Sampling, Setting, SumSampler,
-    bytes, found, mean, printed, printed_mean,
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Planner, Sampling, Setting, SumSampler, bytes,
+    found, mean,
 };
 use crate::engine::Sample;
 use crate::families::Model;
@@ -35,10 +35,9 @@ impl Descriptor for Stress {
     fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling> {
         let asked = scene.output.stress.as_ref()?;
         let sampling = Sampling::after_equilibration(scene, asked.every);
-        let samples = scene.time.steps.saturating_sub(sampling.first) / asked.every.max(1) + 1;
         let columns = 1 + 4 * Components::of(model.units.dimension).len() as u64;
         let left_out = usize::from(asked.window.is_none());
-        Some(Sampling { numbers: samples.saturating_mul(columns), left_out, ..sampling })
+        Some(Sampling { numbers: sampling.count(scene).saturating_mul(columns), left_out, ..sampling })
     }
 
     fn needs(&self, _: &Output) -> &'static [Need] {
@@ -49,23 +48,28 @@ impl Descriptor for Stress {
         let Some(asked) = &planner.output.stress else { return };
         let (velocities, _) = planner.velocities(Some(Frame::Box));
         let motion = planner.model.units.momentum.powi(2) / planner.plan.quanta.energy;
+        let buffers = [Array::StressSums, Array::StressSamples];
         planner.add_sums(&SumSampler {
-            id: AnalysisId::Stress,
-            entry: Entry::SumStresses,
             choices: velocities,
             constants: vec![(Constant::StressMotion, motion)],
-            renamed: Vec::new(),
-            before: Vec::new(),
-            sums: Array::StressSums,
-            samples: Array::StressSamples,
-            quantities: 18,
-            every: asked.every,
-            window: None,
+            ..SumSampler::new(AnalysisId::Stress, Entry::SumStresses, buffers, 18, asked.every)
         });
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::Samples(Box::new(Tensors::new(setting, setting.scene.output.stress.as_ref()?))))
+        let (asked, model, plan) = (setting.scene.output.stress.as_ref()?, setting.model, setting.plan);
+        Some(Gathering::Samples(Box::new(Tensors {
+            asked: asked.clone(),
+            components: Components::of(model.units.dimension),
+            time_step: model.time_step,
+            volume: model.units.volume(),
+            temperature: model.temperature,
+            length: asked.normal.map_or(0.0, |axis| model.units.edges()[axis as usize]),
+            is_driven: model.is_driven(),
+            shear: sheared(model),
+            units: [plan.quanta.energy, plan.stress_unit, plan.stress_unit],
+            samples: Vec::new(),
+        })))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -76,21 +80,17 @@ impl Descriptor for Stress {
         stress_chart(drawn.title(), drawn.table, &|component| means(PRESSURE, component))
     }
 
-    fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        let means = [
+    fn labels(&self) -> &'static [(&'static str, &'static str)] {
+        &[
             ("surface tension, conservative part", CONSERVATIVE_TENSION),
             ("surface tension", SURFACE_TENSION),
             ("viscosity in shear", SHEARED),
-        ];
-        let means =
-            means.into_iter().filter_map(|(label, name)| Some((label.to_owned(), printed_mean(&result[name])?)));
-        means.chain(printed("shear viscosity (Green–Kubo)", &result[VISCOSITY])).collect()
+            ("shear viscosity (Green–Kubo)", VISCOSITY),
+        ]
     }
 
-    fn kept_bytes(&self, scene: &Scene, _: &Model) -> u64 {
-        let Some(asked) = &scene.output.stress else { return 0 };
-        let samples = scene.time.steps.saturating_sub(scene.time.equilibration) / asked.every.max(1) + 1;
-        samples.saturating_mul(8 * KEPT as u64)
+    fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
+        self.asked(scene, model).map_or(0, |sampling| sampling.count(scene).saturating_mul(8 * KEPT as u64))
     }
 
     fn finds(&self, scene: &Scene, model: &Model) -> Vec<&'static str> {
@@ -133,22 +133,6 @@ fn sheared(model: &Model) -> Option<(f64, usize)> {
 }
 
 impl Tensors {
-    fn new(setting: &Setting<'_>, asked: &scene::Stress) -> Self {
-        let (model, plan) = (setting.model, setting.plan);
-        Self {
-            asked: asked.clone(),
-            components: Components::of(model.units.dimension),
-            time_step: model.time_step,
-            volume: model.units.volume(),
-            temperature: model.temperature,
-            length: asked.normal.map_or(0.0, |axis| model.units.edges()[axis as usize]),
-            is_driven: model.is_driven(),
-            shear: sheared(model),
-            units: [plan.quanta.energy, plan.stress_unit, plan.stress_unit],
-            samples: Vec::new(),
-        }
-    }
-
     /// A part of the tensor of a sample.
     fn part(sample: &[f64; KEPT], part: usize) -> [f64; 6] {
         std::array::from_fn(|component| sample[1 + 6 * part + component])
@@ -190,7 +174,7 @@ impl Tensors {
     }
 }
 
-impl OfSamples for Tensors {
+impl Analysis for Tensors {
     fn add(&mut self, sample: &Sample) {
         if sample.sums.len() + 1 == KEPT {
             self.samples.push(std::array::from_fn(|place| match place.checked_sub(1) {
@@ -199,9 +183,7 @@ impl OfSamples for Tensors {
             }));
         }
     }
-}
 
-impl Analysis for Tensors {
     fn section(&self) -> Vec<u8> {
         bytes(self.samples.as_flattened().iter().copied())
     }

@@ -1,79 +1,86 @@
 //! The analyses of a run under way: begun or continued from a checkpoint, fed, kept and concluded.
 
 use super::describe;
-use super::descriptor::{Analysis, Conclusion, Gathering, OfSamples, OfStates, Sampling, Setting};
+use super::descriptor::{Analysis, Conclusion, Gathering, Sampling, Setting};
 use crate::engine::{Sample, Stepper};
 use crate::families::Model;
 use crate::output::checkpoint::CheckpointError;
-use crate::output::{OutputError, RunDirectory, Summary, write_table};
+use crate::output::{RunDirectory, Summary, write_table};
 use crate::plan::{Plan, SamplerId};
 use crate::run::RunError;
 use crate::run::sections::{Sections, samples};
 use crate::scene::{AnalysisId, Scene};
 use crate::state::Reported;
 
-/// An analysis of samples under way.
-struct Sampled {
+/// An analysis under way.
+struct UnderWay {
     id: AnalysisId,
-    /// Index of its sampler.
-    sampler: usize,
-    analysis: Box<dyn OfSamples>,
+    source: Source,
+    analysis: Box<dyn Analysis>,
 }
 
-/// An analysis of states under way.
-struct Observed {
-    id: AnalysisId,
-    first: u64,
-    every: u64,
-    analysis: Box<dyn OfStates>,
+/// What an analysis takes.
+enum Source {
+    /// Rows of the sampler with this index.
+    Sampler(usize),
+    /// States.
+    States { first: u64, every: u64 },
 }
 
-impl Observed {
-    fn is_due(&self, step: u64) -> bool {
-        step >= self.first && step.is_multiple_of(self.every)
+impl UnderWay {
+    fn sampler(&self) -> Option<usize> {
+        match self.source {
+            Source::Sampler(index) => Some(index),
+            Source::States { .. } => None,
+        }
+    }
+
+    fn takes_state(&self, step: u64) -> bool {
+        matches!(self.source, Source::States { first, every } if step >= first && step.is_multiple_of(every))
     }
 }
 
-/// The analyses that a scene asks for.
+/// The analyses that a scene asks for: of samples in the order of their samplers, then of states in the order in which their files are
+/// listed.
 #[derive(Default)]
-pub(in crate::run) struct Analyses {
-    /// In the order of their samplers.
-    sampled: Vec<Sampled>,
-    /// In the order in which their files are listed.
-    observed: Vec<Observed>,
-}
+pub(in crate::run) struct Analyses(Vec<UnderWay>);
 
 impl Analyses {
     /// Begins the analyses, or continues from the sections of a checkpoint.
     ///
     /// # Errors
-    /// [`CheckpointError::Malformed`] where a section is not as long as its samples make it.
+    /// [`CheckpointError::Content`] where a section is not as long as its samples make it.
     pub(in crate::run) fn new(
         scene: &Scene,
         model: &Model,
         plan: &Plan,
         sections: &Sections<'_>,
     ) -> Result<Self, CheckpointError> {
-        let mut analyses = Self::default();
+        let mut all = Vec::new();
+        let mut begin = |id: AnalysisId, source: Source, mut analysis: Box<dyn Analysis>, samples: u64| {
+            if let Some(numbers) = sections.numbers(id.name(), analysis.numbers_after(samples))? {
+                analysis.restore(&numbers, samples);
+            }
+            all.push(UnderWay { id, source, analysis });
+            Ok::<_, CheckpointError>(())
+        };
         for (index, sampler) in plan.samplers.iter().enumerate() {
             let SamplerId::Analysis(id) = sampler.id else { continue };
             let setting = Setting { scene, model, plan, sampler: Some(sampler) };
-            if let Some(Gathering::Samples(mut analysis)) = describe(id).begin(&setting) {
-                restore(analysis.as_mut(), id, sampler.samples_before(sections.step), sections)?;
-                analyses.sampled.push(Sampled { id, sampler: index, analysis });
+            if let Some(Gathering::Samples(analysis)) = describe(id).begin(&setting) {
+                begin(id, Source::Sampler(index), analysis, sampler.samples_before(sections.step))?;
             }
         }
         let setting = Setting { scene, model, plan, sampler: None };
         for id in AnalysisId::ALL {
             let descriptor = describe(id);
             let Some(Sampling { first, every, .. }) = descriptor.asked(scene, model) else { continue };
-            if let Some(Gathering::States(mut analysis)) = descriptor.begin(&setting) {
+            if let Some(Gathering::States(analysis)) = descriptor.begin(&setting) {
                 let every = every.max(1);
-                restore(analysis.as_mut(), id, samples(every, first, sections.step), sections)?;
-                analyses.observed.push(Observed { id, first, every, analysis });
+                begin(id, Source::States { first, every }, analysis, samples(every, first, sections.step))?;
             }
         }
-        Ok(analyses)
+        Ok(Self(all))
     }
 
     /// Gives the device back the windows that were open when the checkpoint was saved.
@@ -85,49 +92,55 @@ impl Analyses {
         engine: &mut dyn Stepper,
         sections: &Sections<'_>,
     ) -> Result<(), RunError> {
-        for Sampled { id, sampler, .. } in &self.sampled {
-            let Some((buffer, taken)) = engine.plan().samplers[*sampler].open_window(sections.step) else { continue };
+        for (id, sampler) in self.samplers() {
+            let Some((buffer, taken)) = engine.plan().samplers[sampler].open_window(sections.step) else { continue };
             let planned = engine.plan().buffers.iter().find(|planned| planned.array == buffer);
             let words = planned.map_or(0, |planned| planned.bytes / 4);
-            if let Some(words) = sections.words(&window_name(*id), words)? {
-                engine.continue_window(*sampler, taken, &words)?;
+            if let Some(words) = sections.words(&window_name(id), words)? {
+                engine.continue_window(sampler, taken, &words)?;
             }
         }
         Ok(())
     }
 
+    /// The analyses of samples, with the indices of their samplers.
+    fn samplers(&self) -> impl Iterator<Item = (AnalysisId, usize)> {
+        self.0.iter().filter_map(|one| Some((one.id, one.sampler()?)))
+    }
+
     /// Adds a sample of any sampler but the first.
     pub(in crate::run) fn add(&mut self, sample: &Sample) {
-        if let Some(found) = self.sampled.iter_mut().find(|sampled| sampled.sampler == sample.sampler) {
+        if let Some(found) = self.0.iter_mut().find(|one| one.sampler() == Some(sample.sampler)) {
             found.analysis.add(sample);
         }
     }
 
     /// Steps between two states, of all that take states.
     pub(in crate::run) fn state_intervals(&self) -> Vec<u64> {
-        self.observed.iter().map(|observed| observed.every).collect()
+        let interval = |one: &UnderWay| match one.source {
+            Source::Sampler(_) => None,
+            Source::States { every, .. } => Some(every),
+        };
+        self.0.iter().filter_map(interval).collect()
     }
 
     /// Whether any takes the state of a step.
     pub(in crate::run) fn take_state(&self, step: u64) -> bool {
-        self.observed.iter().any(|observed| observed.is_due(step))
+        self.0.iter().any(|one| one.takes_state(step))
     }
 
     /// Adds a state to those that take it.
     pub(in crate::run) fn add_state(&mut self, state: &Reported, model: &Model) {
-        for observed in self.observed.iter_mut().filter(|observed| observed.is_due(state.step)) {
-            observed.analysis.add(state, model);
+        for one in self.0.iter_mut().filter(|one| one.takes_state(state.step)) {
+            one.analysis.add_state(state, model);
         }
     }
 
-    /// What a checkpoint has to keep of what the host has gathered of samples.
-    pub(in crate::run) fn sections_of_samples(&self) -> Vec<(String, Vec<u8>)> {
-        self.sampled.iter().map(|sampled| (sampled.id.name().to_owned(), sampled.analysis.section())).collect()
-    }
-
-    /// What a checkpoint has to keep of what the host has gathered of states.
-    pub(in crate::run) fn sections_of_states(&self) -> Vec<(String, Vec<u8>)> {
-        self.observed.iter().map(|observed| (observed.id.name().to_owned(), observed.analysis.section())).collect()
+    /// What a checkpoint has to keep of what the host has gathered of samples, and of states.
+    pub(in crate::run) fn sections(&self) -> [Vec<(String, Vec<u8>)>; 2] {
+        let (samples, states): (Vec<_>, Vec<_>) = self.0.iter().partition(|one| one.sampler().is_some());
+        let section = |one: &UnderWay| (one.id.name().to_owned(), one.analysis.section());
+        [samples, states].map(|all| all.into_iter().map(section).collect())
     }
 
     /// What a checkpoint of the current step, of which no sample is taken yet, has to keep of the windows that are open
@@ -137,10 +150,10 @@ impl Analyses {
     /// [`RunError`] if the device failed.
     pub(in crate::run) fn open_windows(&self, engine: &mut dyn Stepper) -> Result<Vec<(String, Vec<u8>)>, RunError> {
         let mut sections = Vec::new();
-        for Sampled { id, sampler, .. } in &self.sampled {
-            if let Some((buffer, _)) = engine.plan().samplers[*sampler].open_window(engine.step()) {
+        for (id, sampler) in self.samplers() {
+            if let Some((buffer, _)) = engine.plan().samplers[sampler].open_window(engine.step()) {
                 let words = engine.words(buffer)?;
-                sections.push((window_name(*id), words.into_iter().flat_map(u32::to_le_bytes).collect()));
+                sections.push((window_name(id), words.into_iter().flat_map(u32::to_le_bytes).collect()));
             }
         }
         Ok(sections)
@@ -154,50 +167,22 @@ impl Analyses {
         summary: &mut Summary,
         proceed: &dyn Fn() -> Result<(), RunError>,
     ) -> Result<(), RunError> {
-        for (id, analysis) in self.all().filter(|(_, analysis)| !analysis.is_idle()) {
+        for UnderWay { id, analysis, .. } in self.0.iter().filter(|one| !one.analysis.is_idle()) {
             proceed()?;
-            conclude(id, analysis, directory, summary)?;
+            let Conclusion { tables, result, warnings } = analysis.conclude();
+            match result {
+                Ok(result) => {
+                    summary.results.insert(id.name().to_owned(), result);
+                    summary.warnings.extend(warnings);
+                }
+                Err(reason) => summary.warnings.push(format!("no result for `{}`: {reason}", id.path())),
+            }
+            for (names, table) in id.tables().iter().zip(&tables) {
+                write_table(&directory.file(names.file), table)?;
+            }
         }
         Ok(())
     }
-
-    fn all(&self) -> impl Iterator<Item = (AnalysisId, &dyn Analysis)> {
-        let sampled = self.sampled.iter().map(|sampled| (sampled.id, sampled.analysis.as_ref() as &dyn Analysis));
-        sampled.chain(self.observed.iter().map(|observed| (observed.id, observed.analysis.as_ref() as &dyn Analysis)))
-    }
-}
-
-/// Continues an analysis from its section after so many samples.
-fn restore<Kind: Analysis + ?Sized>(
-    analysis: &mut Kind,
-    id: AnalysisId,
-    samples: u64,
-    sections: &Sections<'_>,
-) -> Result<(), CheckpointError> {
-    if let Some(numbers) = sections.numbers(id.name(), analysis.numbers_after(samples))? {
-        analysis.restore(&numbers, samples);
-    }
-    Ok(())
-}
-
-fn conclude(
-    id: AnalysisId,
-    analysis: &dyn Analysis,
-    directory: &RunDirectory,
-    summary: &mut Summary,
-) -> Result<(), OutputError> {
-    let Conclusion { tables, result, warnings } = analysis.conclude();
-    match result {
-        Ok(result) => {
-            summary.results.insert(id.name().to_owned(), result);
-            summary.warnings.extend(warnings);
-        }
-        Err(reason) => summary.warnings.push(format!("no result for `{}`: {reason}", id.path())),
-    }
-    for (names, table) in id.tables().iter().zip(&tables) {
-        write_table(&directory.file(names.file), table)?;
-    }
-    Ok(())
 }
 
 /// The section with the open window of an analysis.
@@ -257,11 +242,13 @@ mod tests {
                 analyses.add(&Sample { sampler, step: step as u64, sums });
             }
         }
-        assert_eq!(analyses.sampled.len(), 8);
-        let sections = analyses.sections_of_samples();
+        assert_eq!(analyses.0.len(), 8);
+        let [sections, _] = analyses.sections();
         let restored = after(3, &sections, run).unwrap();
         let fresh = after(0, &[], run).unwrap();
-        for (((id, analysis), (_, restored)), (_, fresh)) in analyses.all().zip(restored.all()).zip(fresh.all()) {
+        for ((one, restored), fresh) in analyses.0.iter().zip(&restored.0).zip(&fresh.0) {
+            let id = one.id;
+            let [analysis, restored, fresh] = [one, restored, fresh].map(|one| one.analysis.as_ref());
             let text = |analysis: &dyn Analysis| {
                 let conclusion = analysis.conclude();
                 format!("{:?} {:?} {:?}", conclusion.tables, conclusion.result, conclusion.warnings)
@@ -308,7 +295,7 @@ mod tests {
             for (step, sums) in samples.iter().enumerate() {
                 analyses.add(&Sample { sampler: 1, step: step as u64, sums: sums.to_vec() });
             }
-            analyses.sampled[0].analysis.conclude()
+            analyses.0[0].analysis.conclude()
         };
         let correlated = scene(r#"{"autocorrelations": [{"quantity": "velocity", "every": 2, "window": 2}]}"#);
         let conclusion = gathered(&correlated, &[&[8], &[4], &[16], &[4]]);

@@ -1,16 +1,16 @@
 //! The decay of transverse momentum waves and the viscosity it gives.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, OfSamples, Planner, Sampling, Setting, SumSampler, bytes,
-    found, printed,
+    Analysis, Conclusion, Descriptor, Drawn, Gathering, Planner, Sampling, Setting, SumSampler, bytes, found,
+    total_mass,
 };
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::shear_viscosity::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
 use crate::plan::Need;
 use crate::plot::{Chart, Found, viscosity_chart};
-use crate::scene::{self, AnalysisId, Output, Scene};
-use crate::shaders::{Array, Choices, Entry};
+use crate::scene::{AnalysisId, Output, Scene};
+use crate::shaders::{Array, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -36,23 +36,22 @@ impl Descriptor for Viscosity {
     fn add_sampler(&self, planner: &mut Planner<'_>) {
         let Some(asked) = &planner.output.viscosity else { return };
         let dimension = planner.model.units.dimension;
-        planner.add_sums(&SumSampler {
-            id: AnalysisId::Viscosity,
-            entry: Entry::SumTransverseModes,
-            choices: Choices::new(),
-            constants: planner.of_all_particles(),
-            renamed: Vec::new(),
-            before: Vec::new(),
-            sums: Array::ModeSums,
-            samples: Array::ModeSamples,
-            quantities: 2 * dimension * (dimension - 1),
-            every: asked.every,
-            window: None,
-        });
+        let buffers = [Array::ModeSums, Array::ModeSamples];
+        let quantities = 2 * dimension * (dimension - 1);
+        let sampler =
+            SumSampler::new(AnalysisId::Viscosity, Entry::SumTransverseModes, buffers, quantities, asked.every);
+        planner.add_sums(&SumSampler { constants: planner.of_all_particles(), ..sampler });
     }
 
     fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::Samples(Box::new(Amplitudes::new(setting, setting.scene.output.viscosity.as_ref()?))))
+        let (asked, model) = (setting.scene.output.viscosity.as_ref()?, setting.model);
+        Some(Gathering::Samples(Box::new(Amplitudes {
+            density: total_mass(model) / model.units.volume(),
+            interval: asked.every as f64 * model.time_step,
+            window: asked.window as usize,
+            unit: model.units.momentum,
+            modes: transverse_modes(model),
+        })))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -61,8 +60,8 @@ impl Descriptor for Viscosity {
         viscosity_chart(drawn.title(), drawn.table, &waves, found(&drawn.result[SHEAR_VISCOSITY]))
     }
 
-    fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        printed("shear viscosity", &result[SHEAR_VISCOSITY]).into_iter().collect()
+    fn labels(&self) -> &'static [(&'static str, &'static str)] {
+        &[("shear viscosity", SHEAR_VISCOSITY)]
     }
 
     fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
@@ -77,19 +76,6 @@ struct Amplitudes {
     window: usize,
     unit: f64,
     modes: Vec<TransverseMode>,
-}
-
-impl Amplitudes {
-    fn new(setting: &Setting<'_>, asked: &scene::Viscosity) -> Self {
-        let mass: f64 = setting.model.species.iter().map(|species| species.mass * species.count as f64).sum();
-        Self {
-            density: mass / setting.model.units.volume(),
-            interval: asked.every as f64 * setting.model.time_step,
-            window: asked.window as usize,
-            unit: setting.model.units.momentum,
-            modes: transverse_modes(setting.model),
-        }
-    }
 }
 
 /// Empty series in the order in which the kernel sums them: for each axis the momenta across it.
@@ -110,7 +96,7 @@ fn autocorrelations(found: &ShearViscosity, interval: f64) -> Vec<Vec<f64>> {
     found.waves.iter().flat_map(wave).collect()
 }
 
-impl OfSamples for Amplitudes {
+impl Analysis for Amplitudes {
     fn add(&mut self, sample: &Sample) {
         let sums: Vec<f64> = sample.sums.iter().map(|sum| *sum as f64 * self.unit).collect();
         for (mode, pair) in self.modes.iter_mut().zip(sums.chunks_exact(2)) {
@@ -118,9 +104,7 @@ impl OfSamples for Amplitudes {
             mode.amplitudes.push([pair[0], -pair[1]]);
         }
     }
-}
 
-impl Analysis for Amplitudes {
     fn section(&self) -> Vec<u8> {
         bytes(self.modes.iter().flat_map(|mode| mode.amplitudes.as_flattened()).copied())
     }
