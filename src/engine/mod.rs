@@ -20,7 +20,6 @@ pub use stepper::{RankReport, Stepper};
 pub use timing::{StageClock, StageTime};
 
 use std::collections::{HashMap, VecDeque};
-use std::mem::offset_of;
 use std::ops::Range;
 
 use crate::gpu::{Gpu, GpuError, compute_pass};
@@ -179,8 +178,7 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] as for [`Self::new`], or if the plan is not of a part.
     pub fn of_part(gpu: &'a Gpu, plan: Plan, swap: Box<dyn Swap + 'a>) -> Result<Self, EngineError> {
-        let part = plan.part.clone();
-        let part = part.ok_or_else(|| EngineError::State { reason: "the plan is of no part".to_owned() })?;
+        let part = plan.part.clone().ok_or_else(no_part)?;
         let mut engine = Self::without_state(gpu, plan)?;
         engine.exchange = Some(Exchange::new(gpu, part, swap, &engine.buffers));
         Ok(engine)
@@ -340,9 +338,7 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError::Crowded`] if they are more than the part can store.
     pub fn upload_part(&mut self, step: u64, particles: &[u32], others: &[Vec<u32>]) -> Result<(), EngineError> {
-        let Some(exchange) = &mut self.exchange else {
-            return Err(EngineError::State { reason: "the plan is of no part".to_owned() });
-        };
+        let exchange = self.exchange.as_mut().ok_or_else(no_part)?;
         let bytes: &[u8] = bytemuck::cast_slice(particles);
         let buffer = &self.buffers[&Array::Particles];
         if bytes.len() as u64 > buffer.size() {
@@ -386,7 +382,11 @@ impl<'a> Engine<'a> {
         }
         self.step = first;
         self.first_step = first;
-        self.prepare(&mut encoder, &self.plan.prepare);
+        let mut pass = compute_pass(&mut encoder, "preparation");
+        for &kernel in &self.plan.prepare {
+            self.stages[kernel].dispatch(&mut pass);
+        }
+        drop(pass);
         for sampler in &self.plan.samplers {
             // Rows and windows of the state before are discarded.
             encoder.clear_buffer(&self.buffers[&sampler.samples], 0, Some(8));
@@ -395,26 +395,6 @@ impl<'a> Engine<'a> {
         self.in_flight.clear();
         self.collected.clear();
         self.phase = Phase::Advanced;
-    }
-
-    /// Continues a window of a sampler that was open when the state was saved: this many of its samples had been taken, and its buffer held
-    /// these words. Only directly after an upload.
-    ///
-    /// # Errors
-    /// [`EngineError::State`] if the sampler has no window of more samples, or its buffer another number of words.
-    pub fn continue_window(&mut self, sampler: usize, taken: u64, words: &[u32]) -> Result<(), EngineError> {
-        let refuse = |reason: &str| EngineError::State { reason: reason.to_owned() };
-        let planned = self.plan.samplers.get(sampler).ok_or_else(|| refuse("there is no such sampler"))?;
-        let window = planned.window.filter(|window| taken < window.samples);
-        let window = window.ok_or_else(|| refuse("the sampler has no window of so many samples"))?;
-        let buffer = &self.buffers[&window.buffer];
-        if buffer.size() != 4 * words.len() as u64 {
-            return Err(refuse("the window has another number of particles"));
-        }
-        self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(words));
-        // The second word counts the samples since the upload; the place in the window follows from it.
-        self.gpu.queue.write_buffer(&self.buffers[&planned.samples], 4, bytemuck::bytes_of(&(taken as u32)));
-        Ok(())
     }
 
     /// Advances by `steps`, taking every sample that is due at the start of each step, in submissions of at most `batch`
@@ -524,8 +504,7 @@ impl<'a> Engine<'a> {
     }
 
     fn part(&self) -> Result<&Exchange<'a>, EngineError> {
-        let none = || EngineError::State { reason: "the plan is of no part".to_owned() };
-        self.exchange.as_ref().ok_or_else(none)
+        self.exchange.as_ref().ok_or_else(no_part)
     }
 
     /// What has been exchanged with other ranks.
@@ -608,9 +587,7 @@ impl<'a> Engine<'a> {
         let mut recording = Recording::new(self.gpu, "samples of all ranks");
         for (number, sampler) in self.plan.samplers.iter().enumerate() {
             if sampler.gathered && sampler.due(self.step) {
-                for &kernel in &sampler.kernels {
-                    recording.dispatch(&self.stages[kernel]);
-                }
+                recording.dispatch_all(&self.stages, &sampler.kernels);
                 self.pending_rows[number] += 1;
             }
         }
@@ -622,16 +599,6 @@ impl<'a> Engine<'a> {
         self.record_sample(&mut recording)?;
         self.record_report(&mut recording)?;
         self.submit(recording.finish())
-    }
-
-    /// Exchanges that a limit has cut since the upload.
-    ///
-    /// # Errors
-    /// [`EngineError`] if the device failed.
-    pub fn limited_exchanges(&mut self) -> Result<u64, EngineError> {
-        let control = self.words(Array::Control)?;
-        let word = |offset: usize| u64::from(control.get(offset / size_of::<u32>()).copied().unwrap_or(0));
-        Ok(word(offset_of!(Control, limited_high)) << 32 | word(offset_of!(Control, limited)))
     }
 
     /// The words of a buffer or texture of the plan, as they are once the device is done.
@@ -690,17 +657,6 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    fn prepare(&self, encoder: &mut wgpu::CommandEncoder, kernels: &[usize]) {
-        let mut pass = compute_pass(encoder, "preparation");
-        for &kernel in kernels {
-            self.dispatch(kernel, &mut pass);
-        }
-    }
-
-    fn dispatch(&self, kernel: usize, pass: &mut wgpu::ComputePass<'_>) {
-        self.stages[kernel].dispatch(pass);
-    }
-
     /// Whether the particles are sorted in memory at the current step.
     fn tidies(&self) -> bool {
         let has_gaps = self.exchange.as_ref().is_some_and(Exchange::has_gaps);
@@ -709,21 +665,18 @@ impl<'a> Engine<'a> {
 
     /// Sorts, unless that has been done, and takes the samples that are due.
     fn record_sample(&mut self, recording: &mut Recording<'_>) -> Result<(), EngineError> {
-        if self.phase == Phase::Advanced {
-            if self.plan.paths.are_followed() && (self.step - self.first_step).is_multiple_of(self.plan.paths.every) {
-                for &kernel in &self.plan.paths.kernels {
-                    recording.dispatch(&self.stages[kernel]);
-                }
-            }
-            let tidy = if self.tidies() { self.plan.tidy.as_slice() } else { &[] };
-            for kernels in [self.plan.sort.as_slice(), tidy, self.plan.before_report.as_slice()] {
-                record(kernels, &self.stages, &mut self.exchange, self.step, recording)?;
-            }
-            self.phase = Phase::Sorted { reported: false };
-        } else {
+        if self.phase != Phase::Advanced {
             // Already sorted: the samples of this step have been taken.
             return Ok(());
         }
+        if self.plan.paths.are_followed() && (self.step - self.first_step).is_multiple_of(self.plan.paths.every) {
+            recording.dispatch_all(&self.stages, &self.plan.paths.kernels);
+        }
+        let tidy = if self.tidies() { self.plan.tidy.as_slice() } else { &[] };
+        for kernels in [self.plan.sort.as_slice(), tidy, self.plan.before_report.as_slice()] {
+            record(kernels, &self.stages, &mut self.exchange, self.step, recording)?;
+        }
+        self.phase = Phase::Sorted { reported: false };
         let here = |&sampler: &usize| {
             let sampler = &self.plan.samplers[sampler];
             sampler.due(self.step) && !sampler.gathered
@@ -733,9 +686,7 @@ impl<'a> Engine<'a> {
             self.record_report(recording)?;
         }
         for sampler in due {
-            for &kernel in &self.plan.samplers[sampler].kernels {
-                recording.dispatch(&self.stages[kernel]);
-            }
+            recording.dispatch_all(&self.stages, &self.plan.samplers[sampler].kernels);
             self.pending_rows[sampler] += 1;
         }
         Ok(())
@@ -773,11 +724,10 @@ impl<'a> Engine<'a> {
     }
 
     /// Submits a batch with the readback of its samples, and collects older batches if too many wait.
-    fn submit(&mut self, mut encoder: wgpu::CommandEncoder) -> Result<(), EngineError> {
-        let readback = Readback::record(self.gpu, &mut encoder, &self.plan, &self.buffers, &self.pending_rows)?;
+    fn submit(&mut self, encoder: wgpu::CommandEncoder) -> Result<(), EngineError> {
+        let readback = Readback::begin(self.gpu, encoder, &self.plan, &self.buffers, &self.pending_rows)?;
         self.pending_rows.fill(0);
-        let submission = self.gpu.queue.submit([encoder.finish()]);
-        self.in_flight.push_back(readback.submitted(submission));
+        self.in_flight.push_back(readback);
         while self.in_flight.len() > BATCHES_IN_FLIGHT {
             self.collect_oldest()?;
         }
@@ -823,6 +773,10 @@ impl<'a> Engine<'a> {
         }
         Err(EngineError::Unstable(failure))
     }
+}
+
+pub(crate) fn no_part() -> EngineError {
+    EngineError::State { reason: "the plan is of no part".to_owned() }
 }
 
 /// Records kernels, and exchanges with other ranks what they ask for.

@@ -12,10 +12,9 @@ use crate::shaders::Array;
 /// A device that has not finished a batch by then counts as lost.
 const PATIENCE: Duration = Duration::from_mins(10);
 
+/// The control block and the samples of a batch on their way to the host.
 pub(super) struct Readback {
-    staging: wgpu::Buffer,
-    submission: Option<wgpu::SubmissionIndex>,
-    arrival: mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
+    reading: Reading,
     /// Sampler, rows and first byte of each stretch of samples in the staging buffer.
     stretches: Vec<(usize, u64, u64)>,
 }
@@ -25,10 +24,10 @@ fn row_bytes(plan: &Plan, sampler: usize) -> u64 {
 }
 
 impl Readback {
-    /// Records the copies of the control block and of the samples taken in this batch, and resets their count within the batch.
-    pub(super) fn record(
+    /// Runs a batch and begins to read the control block and the samples taken in it, whose count within the batch is reset.
+    pub(super) fn begin(
         gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
+        encoder: wgpu::CommandEncoder,
         plan: &Plan,
         buffers: &HashMap<Array, wgpu::Buffer>,
         rows: &[u64],
@@ -40,35 +39,19 @@ impl Readback {
             stretches.push((sampler, rows, bytes));
             bytes += rows * row_bytes(plan, sampler);
         }
-        let staging = gpu.scoped("creating a readback buffer", bytes, || {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("readback"),
-                size: bytes,
-                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
+        let reading = Reading::begin(gpu, encoder, bytes, |encoder, staging| {
+            encoder.copy_buffer_to_buffer(&buffers[&Array::Control], 0, staging, 0, control_bytes);
+            for &(sampler, rows, offset) in &stretches {
+                let samples = &buffers[&plan.samplers[sampler].samples];
+                encoder.copy_buffer_to_buffer(samples, 8, staging, offset, rows * row_bytes(plan, sampler));
+                encoder.clear_buffer(samples, 0, Some(4));
+            }
         })?;
-        encoder.copy_buffer_to_buffer(&buffers[&Array::Control], 0, &staging, 0, control_bytes);
-        for &(sampler, rows, offset) in &stretches {
-            let samples = &buffers[&plan.samplers[sampler].samples];
-            encoder.copy_buffer_to_buffer(samples, 8, &staging, offset, rows * row_bytes(plan, sampler));
-            encoder.clear_buffer(samples, 0, Some(4));
-        }
-        let (sender, arrival) = mpsc::channel();
-        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {
-            // The receiver is gone only if the whole run is.
-            let _ = sender.send(result);
-        });
-        Ok(Self { staging, submission: None, arrival, stretches })
-    }
-
-    pub(super) fn submitted(mut self, submission: wgpu::SubmissionIndex) -> Self {
-        self.submission = Some(submission);
-        self
+        Ok(Self { reading, stretches })
     }
 
     pub(super) fn collect(self, gpu: &Gpu, plan: &Plan) -> Result<(Control, Vec<Sample>), GpuError> {
-        let bytes = arrived(gpu, &self.staging, self.submission, &self.arrival)?;
+        let bytes = self.reading.finish(gpu)?;
         let control_bytes = size_of::<Control>();
         let control: Control = bytemuck::pod_read_unaligned(&bytes[..control_bytes]);
         let mut samples = Vec::new();
@@ -84,25 +67,6 @@ impl Readback {
         samples.sort_by_key(|sample| (sample.step, sample.sampler));
         Ok((control, samples))
     }
-}
-
-fn arrived(
-    gpu: &Gpu,
-    staging: &wgpu::Buffer,
-    submission: Option<wgpu::SubmissionIndex>,
-    arrival: &mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
-) -> Result<Vec<u8>, GpuError> {
-    let lost = |reason: String| GpuError::Lost { adapter: gpu.description().name.clone(), reason };
-    gpu.device
-        .poll(wgpu::PollType::Wait { submission_index: submission, timeout: Some(PATIENCE) })
-        .map_err(|error| lost(error.to_string()))?;
-    gpu.health()?;
-    arrival
-        .recv_timeout(PATIENCE)
-        .map_err(|error| lost(error.to_string()))?
-        .map_err(|error| lost(error.to_string()))?;
-    let view = staging.get_mapped_range(..).map_err(|error| lost(error.to_string()))?;
-    Ok(view.to_vec())
 }
 
 /// Waits for the device and reads as many bytes as `copy` copies into a buffer.
@@ -148,6 +112,16 @@ impl Reading {
 
     /// Waits for them, and for nothing that was submitted later.
     pub(super) fn finish(self, gpu: &Gpu) -> Result<Vec<u8>, GpuError> {
-        arrived(gpu, &self.staging, Some(self.submission), &self.arrival)
+        let lost = |reason: &dyn std::fmt::Display| GpuError::Lost {
+            adapter: gpu.description().name.clone(),
+            reason: reason.to_string(),
+        };
+        let finished = wgpu::PollType::Wait { submission_index: Some(self.submission), timeout: Some(PATIENCE) };
+        gpu.device.poll(finished).map_err(|error| lost(&error))?;
+        gpu.health()?;
+        let arrived = self.arrival.recv_timeout(PATIENCE).map_err(|error| lost(&error))?;
+        arrived.map_err(|error| lost(&error))?;
+        let view = self.staging.get_mapped_range(..).map_err(|error| lost(&error))?;
+        Ok(view.to_vec())
     }
 }

@@ -26,6 +26,13 @@ impl<'a> Recording<'a> {
         }
     }
 
+    /// Records kernels, one after the other.
+    pub(super) fn dispatch_all(&mut self, stages: &[Stage], kernels: &[usize]) {
+        for &kernel in kernels {
+            self.dispatch(&stages[kernel]);
+        }
+    }
+
     /// Records that a buffer is filled with zeros.
     pub(super) fn clear(&mut self, buffer: &wgpu::Buffer) {
         self.pass = None;

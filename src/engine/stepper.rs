@@ -1,9 +1,10 @@
 //! What advances a state step by step: an engine, or several that share a run.
 
-use super::{Engine, EngineError, Sample, Shown, Traffic};
+use super::{Control, Engine, EngineError, Sample, Shown, Traffic};
 use crate::plan::Plan;
 use crate::shaders::Array;
 use crate::state::{Reported, State};
+use std::mem::offset_of;
 
 /// One of several ranks that share a state.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -50,16 +51,15 @@ pub trait Stepper {
         Ok(0)
     }
 
-    /// The words of an array, of what lies on one device.
-    fn words(&mut self, array: Array) -> Result<Vec<u32>, EngineError> {
-        let reason = format!("`{}` lies on several devices", array.name());
-        Err(EngineError::State { reason })
-    }
+    /// The words of a buffer or texture of the plan, as they are once the device is done; of several ranks those that all have alike.
+    fn words(&mut self, array: Array) -> Result<Vec<u32>, EngineError>;
 
-    /// Continues a window of samples, of what lies on one device.
-    fn continue_window(&mut self, _: usize, _: u64, _: &[u32]) -> Result<(), EngineError> {
-        Err(EngineError::State { reason: "windows of samples lie on several devices".to_owned() })
-    }
+    /// Continues a window of a sampler that was open when the state was saved: this many of its samples had been taken, and its buffer held
+    /// these words. Only directly after an upload.
+    ///
+    /// # Errors
+    /// [`EngineError::State`] if the sampler has no window of more samples, or its buffer another number of words.
+    fn continue_window(&mut self, sampler: usize, taken: u64, words: &[u32]) -> Result<(), EngineError>;
 }
 
 impl Stepper for Engine<'_> {
@@ -96,7 +96,9 @@ impl Stepper for Engine<'_> {
     }
 
     fn limited_exchanges(&mut self) -> Result<u64, EngineError> {
-        self.limited_exchanges()
+        let control = self.words(Array::Control)?;
+        let word = |offset: usize| u64::from(control.get(offset / size_of::<u32>()).copied().unwrap_or(0));
+        Ok(word(offset_of!(Control, limited_high)) << 32 | word(offset_of!(Control, limited)))
     }
 
     fn words(&mut self, array: Array) -> Result<Vec<u32>, EngineError> {
@@ -104,6 +106,17 @@ impl Stepper for Engine<'_> {
     }
 
     fn continue_window(&mut self, sampler: usize, taken: u64, words: &[u32]) -> Result<(), EngineError> {
-        self.continue_window(sampler, taken, words)
+        let refuse = |reason: &str| EngineError::State { reason: reason.to_owned() };
+        let planned = self.plan.samplers.get(sampler).ok_or_else(|| refuse("there is no such sampler"))?;
+        let window = planned.window.filter(|window| taken < window.samples);
+        let window = window.ok_or_else(|| refuse("the sampler has no window of so many samples"))?;
+        let buffer = &self.buffers[&window.buffer];
+        if buffer.size() != 4 * words.len() as u64 {
+            return Err(refuse("the window has another number of particles"));
+        }
+        self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(words));
+        // The second word counts the samples since the upload; the place in the window follows from it.
+        self.gpu.queue.write_buffer(&self.buffers[&planned.samples], 4, bytemuck::bytes_of(&(taken as u32)));
+        Ok(())
     }
 }

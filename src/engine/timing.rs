@@ -126,7 +126,7 @@ impl Engine<'_> {
                     end_of_pass_write_index: Some(2 * place + 1),
                 }),
             });
-            self.dispatch(kernel, &mut pass);
+            self.stages[kernel].dispatch(&mut pass);
         }
         encoder.resolve_query_set(&queries, 0..count, &ticks, 0);
         self.submit(encoder)?;
@@ -159,7 +159,7 @@ impl Engine<'_> {
         {
             let mut pass = compute_pass(&mut encoder, "kernel alone");
             if let Some(kernel) = kernel {
-                self.dispatch(kernel, &mut pass);
+                self.stages[kernel].dispatch(&mut pass);
             }
         }
         let commands = encoder.finish();

@@ -3,7 +3,7 @@
 use super::Channel;
 use super::member::{Portions, execute};
 use super::message::{Answer, Command, Contents, Introduction, Problem, join, read, written};
-use crate::engine::{Engine, EngineError, RankReport, Sample, Sampling, Shown, Stepper, Traffic};
+use crate::engine::{Engine, EngineError, RankReport, Sample, Sampling, Shown, Stepper, Traffic, no_part};
 use crate::plan::{PARTICLE_WORDS, Places, Plan, Sampler};
 use crate::shaders::Array;
 use crate::state::{Reported, State};
@@ -151,8 +151,7 @@ impl<'a> Team<'a> {
 
     /// The numbers of the particles of each message that passes on a state.
     fn portions(&self) -> Result<Vec<Range<u64>>, EngineError> {
-        let none = || EngineError::State { reason: "the plan is of no part".to_owned() };
-        self.engine.plan().part.as_ref().map(|part| part.portions().collect()).ok_or_else(none)
+        self.engine.plan().part.as_ref().map(|part| part.portions().collect()).ok_or_else(no_part)
     }
 
     /// Gathers so many particles of those that all ranks share out, in several messages; `begin` sees what else belongs to the state, before
@@ -284,49 +283,26 @@ impl<'a> Team<'a> {
         }
     }
 
-    /// A state of the particles of all ranks.
-    fn joined(&mut self, command: Command, reported: bool) -> Result<State, EngineError> {
+    /// A state of the particles of all ranks, or of those with some numbers alone.
+    fn joined(&mut self, command: Command, reported: bool, numbers: Option<&[u32]>) -> Result<State, EngineError> {
         let plan = self.engine.plan();
-        let layout = match &plan.reported {
-            Some((_, layout)) if reported => layout.clone(),
-            _ => plan.layout.clone(),
-        };
+        let layout = plan.reported.as_ref().filter(|_| reported).map_or(&plan.layout, |(_, layout)| layout).clone();
+        let (count, words) = (plan.particles as usize, plan.part.as_ref().map(|part| part.particle));
+        let count = numbers.map_or(count, <[u32]>::len);
+        let given = numbers.map_or(self.shared(), |_| count as u64);
         let problem = |reason: String| EngineError::Ranks { reason };
         let begin = |team: &Self, given: &Contents| {
-            let plan = team.engine.plan();
             let contents: Vec<&[u32]> = given.iter().map(Vec::as_slice).collect();
-            let count = plan.particles as usize;
             let mut state = layout.begin(team.engine.step(), &contents, count).map_err(problem)?;
-            if plan.paths.are_followed() {
+            if numbers.is_none() && team.engine.plan().paths.are_followed() {
                 state.images = images(given);
             }
             Ok((state, Places::of(count)))
         };
         let place = |(state, places): &mut (State, Places), particles: &[u32]| {
-            layout.place(particles, places, state).map_err(problem)
-        };
-        let (mut state, _) = self.gather((command, self.shared()), begin, place)?;
-        if state.species.is_empty() {
-            state.species.clone_from(&self.species);
-        }
-        Ok(state)
-    }
-
-    /// A sample of the particles of a report.
-    fn sample(&mut self, sampling: Sampling) -> Result<Shown, EngineError> {
-        let plan = self.engine.plan();
-        let numbers = sampling.numbers(plan.particles);
-        let layout = plan.reported.as_ref().map_or(&plan.layout, |(_, layout)| layout).clone();
-        let words = plan.part.as_ref().map(|part| part.particle);
-        let problem = |reason: String| EngineError::Ranks { reason };
-        let count = numbers.len();
-        let begin = |team: &Self, contents: &Contents| {
-            let contents: Vec<&[u32]> = contents.iter().map(Vec::as_slice).collect();
-            let state = layout.begin(team.engine.step(), &contents, count).map_err(problem)?;
-            Ok((state, Places::of(count)))
-        };
-        let place = |(state, places): &mut (State, Places), particles: &[u32]| -> Result<(), EngineError> {
-            let Some(words) = words else { return Ok(()) };
+            let (Some(numbers), Some(words)) = (numbers, words) else {
+                return layout.place(particles, places, state).map_err(problem);
+            };
             let mut particles = particles.to_vec();
             for particle in particles.chunks_exact_mut(words.count) {
                 let place = numbers.binary_search(&particle[words.number]);
@@ -334,11 +310,23 @@ impl<'a> Team<'a> {
             }
             layout.place(&particles, places, state).map_err(problem)
         };
-        let (state, _) = self.gather((Command::Show { sample: sampling.word() }, count as u64), begin, place)?;
-        let Reported { step, positions, momenta, mut species, .. } = state.into();
-        if species.is_empty() {
-            species = numbers.iter().filter_map(|number| self.species.get(*number as usize).copied()).collect();
+        let (mut state, _) = self.gather((command, given), begin, place)?;
+        if state.species.is_empty() {
+            state.species = match numbers {
+                None => self.species.clone(),
+                Some(numbers) => {
+                    numbers.iter().filter_map(|number| self.species.get(*number as usize)).copied().collect()
+                }
+            };
         }
+        Ok(state)
+    }
+
+    /// A sample of the particles of a report.
+    fn sample(&mut self, sampling: Sampling) -> Result<Shown, EngineError> {
+        let numbers = sampling.numbers(self.engine.plan().particles);
+        let state = self.joined(Command::Show { sample: sampling.word() }, true, Some(&numbers))?;
+        let Reported { step, positions, momenta, species, .. } = state.into();
         let state = Reported { step, positions, momenta, species, ..Reported::default() };
         Ok(Shown { state, numbers: Some(numbers) })
     }
@@ -412,7 +400,7 @@ impl Stepper for Team<'_> {
     }
 
     fn state(&mut self) -> Result<State, EngineError> {
-        self.joined(Command::State, false)
+        self.joined(Command::State, false, None)
     }
 
     fn shown(&mut self, most: u64) -> Result<Shown, EngineError> {
@@ -423,7 +411,7 @@ impl Stepper for Team<'_> {
     }
 
     fn reported(&mut self) -> Result<Reported, EngineError> {
-        Ok(self.joined(Command::Report, true)?.into())
+        Ok(self.joined(Command::Report, true, None)?.into())
     }
 
     fn frame(&mut self) -> Result<Reported, EngineError> {
