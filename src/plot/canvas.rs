@@ -1,8 +1,8 @@
 //! The list of shapes that make up a picture, in the order in which they are painted. Pure data: no device needed.
 
 use super::error::PlotError;
-use super::palette::Colour;
-use super::text::{CAPITAL_HEIGHT, Typesetter, Weight};
+use super::palette::{Colour, Inks};
+use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Typesetter, Weight};
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
 
@@ -33,6 +33,17 @@ pub(super) struct Area {
 }
 
 impl Area {
+    /// The area with a centre, a width and a height.
+    pub(super) fn around([x, y]: [f64; 2], size: [f64; 2]) -> Self {
+        let [wide, high] = size.map(|side| 0.5 * side);
+        Self { left: x - wide, top: y - high, right: x + wide, bottom: y + high }
+    }
+
+    /// The corners clockwise from the upper left one.
+    pub(super) fn corners(&self) -> [[f64; 2]; 4] {
+        [[self.left, self.top], [self.right, self.top], [self.right, self.bottom], [self.left, self.bottom]]
+    }
+
     pub(super) fn width(&self) -> f64 {
         self.right - self.left
     }
@@ -68,6 +79,12 @@ pub(super) struct Type {
     pub size: f64,
     pub weight: Weight,
     pub colour: Colour,
+}
+
+/// A line of the headings of a page.
+pub(super) struct Heading {
+    pub text: String,
+    pub style: Type,
 }
 
 /// Shapes that share a clipping rectangle.
@@ -175,6 +192,31 @@ impl Canvas {
     /// A line of text whose capitals are centred on the height of `at`.
     pub(super) fn text_centred(&mut self, text: &str, at: [f64; 2], anchor: Anchor, style: Type) {
         self.text(text, [at[0], at[1] + 0.5 * CAPITAL_HEIGHT * style.size], anchor, style);
+    }
+
+    /// The headings of a page in lines of a width: a title of two lines at most, and notes below it of so many, of these sizes.
+    pub(super) fn headings(
+        &self,
+        (title, title_size): (&str, f64),
+        (notes, size, most): (&str, f64, usize),
+        inks: &Inks,
+        width: f64,
+    ) -> Vec<Heading> {
+        let title = (title, Type { size: title_size, weight: Weight::SemiBold, colour: inks.ink }, 2);
+        let notes = (notes, Type { size, weight: Weight::Regular, colour: inks.muted }, most);
+        let lines = |(text, style, most): (&str, Type, usize)| {
+            let lines = self.typesetter.wrap(text, style.weight, style.size, width, most);
+            lines.into_iter().map(move |text| Heading { text, style })
+        };
+        [title, notes].into_iter().flat_map(lines).collect()
+    }
+
+    /// Writes headings from a place down; returns where they end.
+    pub(super) fn write_headings(&mut self, headings: &[Heading], [left, top]: [f64; 2]) -> f64 {
+        headings.iter().fold(top, |y, Heading { text, style }| {
+            self.text(text, [left, y + CAPITAL_HEIGHT * style.size], Anchor::Start, *style);
+            y + LINE_HEIGHT * style.size
+        })
     }
 
     fn shift(&self, text: &str, anchor: Anchor, style: Type) -> f64 {

@@ -4,7 +4,7 @@ use super::canvas::{Area, Canvas};
 use super::color_map::{ColorMap, ColorScale};
 use super::error::PlotError;
 use super::palette::{Colour, inks, scale_colour};
-use super::snapshot_page::{Key, Page};
+use super::snapshot_page::{Key, Page, check};
 use crate::scene::{Snapshot, Theme};
 use crate::tessellation::Tessellation;
 
@@ -46,33 +46,16 @@ const MUCH_LONGER: f64 = 1.3;
 const LINE: f64 = 0.06;
 const THINNEST_LINE: f64 = 0.2;
 
-fn check(picture: &CellPicture<'_>) -> Result<(), PlotError> {
-    let count = picture.positions.len();
-    let refuse = |message: String| Err(PlotError::Input(message));
-    let values = picture.shown.map_or(count, |shown| shown.values.len());
-    for (length, name) in
-        [(picture.tessellation.cells.len(), "cells"), (picture.species.len(), "species"), (values, "values")]
-    {
-        if length != count {
-            return refuse(format!("{count} positions but {length} {name}"));
-        }
-    }
-    if let Some(species) = picture.species.iter().find(|species| **species as usize >= picture.species_names.len()) {
-        return refuse(format!("species {species} has no name"));
-    }
-    match picture.lengths.iter().position(|length| !(length.is_finite() && *length > 0.0)) {
-        Some(axis) => refuse(format!("the box has length {} along axis {axis}", picture.lengths[axis])),
-        None => Ok(()),
-    }
-}
-
 /// Lays out a picture of Voronoi cells. A cell that crosses an edge of the box is cut off there and comes in again on the
 /// other side.
 ///
 /// # Errors
 /// [`PlotError::Input`] if the lists differ in length or a length is not positive; [`PlotError::Font`].
 pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme) -> Result<Canvas, PlotError> {
-    check(picture)?;
+    let count = picture.positions.len();
+    let values = picture.shown.map_or(count, |shown| shown.values.len());
+    let lists = [(picture.tessellation.cells.len(), "cells"), (picture.species.len(), "species"), (values, "values")];
+    check(count, &lists, (picture.species, picture.species_names), &picture.lengths)?;
     let inks = inks(theme);
     let page = Page::new(style, picture.lengths);
     let [width, height] = page.pixels();
@@ -98,14 +81,7 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
     let rule = page.rule;
     let pixels_per_length =
         ((frame.width() - 2.0 * rule) / width).min((frame.height() - 2.0 * rule) / height).max(1e-9 / width);
-    let centre = frame.centre();
-    let half = [0.5 * width * pixels_per_length, 0.5 * height * pixels_per_length];
-    let outline = Area {
-        left: centre[0] - half[0],
-        top: centre[1] - half[1],
-        right: centre[0] + half[0],
-        bottom: centre[1] + half[1],
-    };
+    let outline = Area::around(frame.centre(), [width, height].map(|length| length * pixels_per_length));
     let colour = |cell: usize| match picture.shown {
         Some(shown) => scale_colour(scale.bar.fraction(shown.values[cell]).unwrap_or(0.0)),
         None => key.colour_of(picture.species[cell]),
@@ -113,13 +89,9 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
     canvas.clip(Some(outline));
     draw(&mut canvas, picture, [outline.left, outline.bottom], pixels_per_length, inks.paper, colour);
     canvas.clip(None);
-    for (from, to) in [
-        ([outline.left, outline.top], [outline.right, outline.top]),
-        ([outline.right, outline.top], [outline.right, outline.bottom]),
-        ([outline.right, outline.bottom], [outline.left, outline.bottom]),
-        ([outline.left, outline.bottom], [outline.left, outline.top]),
-    ] {
-        canvas.line(from, to, rule, inks.ink);
+    let corners = outline.corners();
+    for (number, from) in corners.iter().enumerate() {
+        canvas.line(*from, corners[(number + 1) % corners.len()], rule, inks.ink);
     }
     let corner = [outline.left, outline.bottom];
     page.edge_length(&mut canvas, ("x", width), [corner, [outline.right, outline.bottom]], &inks);

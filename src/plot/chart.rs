@@ -174,6 +174,12 @@ impl Series {
         self
     }
 
+    /// The series with an error for every point, if any of them is known.
+    #[must_use]
+    pub(super) fn with_known_errors(self, errors: Vec<f64>) -> Self {
+        if errors.iter().any(|error| error.is_finite()) { self.with_errors(errors) } else { self }
+    }
+
     /// The series with an error for every point.
     #[must_use]
     pub fn with_errors(mut self, errors: Vec<f64>) -> Self {

@@ -7,7 +7,7 @@ use super::error::PlotError;
 use super::palette::{Colour, Inks, inks};
 use super::series_path::{length, runs, thinned};
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
-use super::ticks::{AxisMap, Ticks, ticks};
+use super::ticks::{AxisMap, Ticks, ticks, ticks_along};
 use crate::numbers::grouped;
 use crate::scene::{PlotStyle, Theme};
 
@@ -168,20 +168,10 @@ impl Layout<'_> {
             let separator = if notes.is_empty() { "" } else { "; " };
             notes = format!("{notes}{separator}off the scale: {}", beyond.join(", "));
         }
-        let Sizes { title, label, .. } = self.sizes;
+        let Sizes { title, label, gap, .. } = self.sizes;
         let width = f64::from(self.canvas.width) - 2.0 * margin;
-        let mut y = margin;
-        for (text, size, weight, colour, lines) in [
-            (chart.title.as_str(), title, Weight::SemiBold, self.inks.ink, 2),
-            (notes.as_str(), label, Weight::Regular, self.inks.muted, 3),
-        ] {
-            for line in self.canvas.typesetter.wrap(text, weight, size, width, lines) {
-                let baseline = y + CAPITAL_HEIGHT * size;
-                self.canvas.text(&line, [margin, baseline], Anchor::Start, Type { size, weight, colour });
-                y += LINE_HEIGHT * size;
-            }
-        }
-        y + self.sizes.gap
+        let headings = self.canvas.headings((&chart.title, title), (&notes, label, 3), &self.inks, width);
+        self.canvas.write_headings(&headings, [margin; 2]) + gap
     }
 
     /// Gives every panel its area.
@@ -238,23 +228,13 @@ impl Layout<'_> {
         let mut all = Vec::new();
         for prepared in &self.prepared {
             let width = frame.right - left;
-            let mut wanted = ((width / (3.0 * label)) as usize).clamp(2, 10);
-            let mut x_ticks = ticks(&prepared.x, wanted);
             if !prepared.panel.x.categories.is_empty() {
                 let names = &prepared.panel.x.categories;
                 let room = width / names.len() as f64 - 0.6 * label;
                 all.push(named(names, room));
                 continue;
             }
-            // Labels of many digits need more room than the first guess gave them.
-            while wanted > 1 {
-                let widest = x_ticks.major.iter().map(|(_, text)| text_width(text)).fold(0.0, f64::max);
-                if x_ticks.major.len() as f64 * (widest + 1.2 * label) <= width * 1.1 {
-                    break;
-                }
-                wanted -= 1;
-                x_ticks = ticks(&prepared.x, wanted);
-            }
+            let x_ticks = ticks_along(&prepared.x, width, label, 1, text_width);
             for (value, text) in &x_ticks.major {
                 let fraction = prepared.x.fraction(*value).unwrap_or(0.0);
                 overhang = overhang.max(0.5 * text_width(text) - (1.0 - fraction) * width);

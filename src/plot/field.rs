@@ -1,6 +1,6 @@
 //! Pictures of a field: what is shown, and its layout: the image of the box with axes, and the colour bar.
 
-use super::canvas::{Anchor, Area, Canvas, Type};
+use super::canvas::{Anchor, Area, Canvas, Heading, Type};
 use super::chart::Scale;
 use super::chart_layout::Sizes;
 use super::color_map::{ColorMap, ColorScale};
@@ -8,7 +8,7 @@ use super::error::PlotError;
 use super::palette::{Colour, Inks, inks};
 use super::periodic_curve::segments;
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
-use super::ticks::{AxisMap, Ticks, ticks};
+use super::ticks::{AxisMap, Ticks, ticks, ticks_along};
 use crate::measure::Field;
 use crate::numbers::grouped;
 use crate::scene::PlotStyle;
@@ -170,12 +170,6 @@ struct Place {
     ticks: AllTicks,
 }
 
-/// A line of the headings.
-struct Heading {
-    text: String,
-    style: Type,
-}
-
 impl Layout<'_> {
     fn text_style(&self) -> Type {
         Type { size: self.sizes.label, weight: Weight::Regular, colour: self.inks.ink }
@@ -197,16 +191,7 @@ impl Layout<'_> {
         self.colour_bar(&place);
         let widest = headings.iter().map(|heading| self.heading_width(heading)).fold(0.0, f64::max);
         let left = place.left.min(f64::from(self.canvas.width) - margin - widest).max(margin);
-        let mut y = place.top;
-        for heading in headings {
-            self.canvas.text(
-                &heading.text,
-                [left, y + CAPITAL_HEIGHT * heading.style.size],
-                Anchor::Start,
-                heading.style,
-            );
-            y += LINE_HEIGHT * heading.style.size;
-        }
+        self.canvas.write_headings(&headings, [left, place.top]);
         place
     }
 
@@ -224,33 +209,13 @@ impl Layout<'_> {
         }
         let width = f64::from(self.canvas.width) - 2.0 * margin;
         let Sizes { title, label, .. } = self.sizes;
-        let texts = [
-            (self.picture.title, title, Weight::SemiBold, self.inks.ink, 2),
-            (notes.as_str(), label, Weight::Regular, self.inks.muted, 3),
-        ];
-        let mut headings = Vec::new();
-        for (text, size, weight, colour, lines) in texts {
-            for text in self.canvas.typesetter.wrap(text, weight, size, width, lines) {
-                headings.push(Heading { text, style: Type { size, weight, colour } });
-            }
-        }
-        headings
+        self.canvas.headings((self.picture.title, title), (&notes, label, 3), &self.inks, width)
     }
 
     fn ticks(&self, image: [f64; 2], bar_height: f64) -> AllTicks {
         let label = self.sizes.label;
         let upwards = |height: f64| ((height / (1.55 * label)) as usize).clamp(2, 9);
-        let mut wanted = ((image[0] / (3.0 * label)) as usize).clamp(2, 10);
-        let mut x = ticks(&self.axes[0], wanted);
-        // Labels of many digits need more room than the first guess gave them.
-        while wanted > 2 {
-            let widest = self.widest(&x);
-            if x.major.len() as f64 * (widest + 1.2 * label) <= image[0] * 1.1 {
-                break;
-            }
-            wanted -= 1;
-            x = ticks(&self.axes[0], wanted);
-        }
+        let x = ticks_along(&self.axes[0], image[0], label, 2, |text| self.width(text));
         AllTicks { x, y: ticks(&self.axes[1], upwards(image[1])), bar: ticks(&self.scale.bar, upwards(bar_height)) }
     }
 
@@ -422,18 +387,25 @@ impl Layout<'_> {
         self.canvas.text(&text, [middle, baseline], Anchor::Middle, style);
     }
 
+    /// Ticks on the side of an area where their labels end, which is the left one, or start.
+    fn side_ticks(&mut self, ticks: &Ticks, axis: AxisMap, area: Area, anchor: Anchor) {
+        let Sizes { label, gap, .. } = self.sizes;
+        let (style, rule, long) = (self.text_style(), self.rule(), self.tick_length());
+        let (foot, outward) = if anchor == Anchor::End { (area.left - rule, -1.0) } else { (area.right + rule, 1.0) };
+        let at = |value| area.bottom - axis.fraction(value).unwrap_or(0.0) * area.height();
+        for (y, text) in Self::marks(ticks, at, |_| label) {
+            let end = foot + outward * if text.is_some() { long } else { 0.45 * gap };
+            self.canvas.horizontal_rule(foot.min(end), foot.max(end), y, rule, style.colour);
+            let beside = [foot + outward * long + outward * 0.6 * gap, y];
+            self.canvas.text_centred(text.as_deref().unwrap_or(""), beside, anchor, style);
+        }
+    }
+
     fn y_axis(&mut self, place: &Place) {
         let Sizes { label, gap, .. } = self.sizes;
         let (area, style, rule) = (place.image, self.text_style(), self.rule());
         let foot = area.left - rule;
-        let fraction = |value| self.axes[1].fraction(value).unwrap_or(0.0);
-        let at = |value| area.bottom - fraction(value) * area.height();
-        for (y, text) in Self::marks(&place.ticks.y, at, |_| label) {
-            let length = if text.is_some() { self.tick_length() } else { 0.45 * gap };
-            self.canvas.horizontal_rule(foot - length, foot, y, rule, style.colour);
-            let end = [foot - self.tick_length() - 0.6 * gap, y];
-            self.canvas.text_centred(text.as_deref().unwrap_or(""), end, Anchor::End, style);
-        }
+        self.side_ticks(&place.ticks.y, self.axes[1], area, Anchor::End);
         if let Some(multiplier) = &place.ticks.y.multiplier {
             self.canvas.text(multiplier, [foot - self.tick_length(), area.top - 0.8 * gap], Anchor::Start, style);
         }
@@ -455,14 +427,7 @@ impl Layout<'_> {
         }
         self.frame(bar);
         let foot = bar.right + rule;
-        let fraction = |value| self.scale.bar.fraction(value).unwrap_or(0.0);
-        let at = |value| bar.bottom - fraction(value) * bar.height();
-        for (y, text) in Self::marks(&place.ticks.bar, at, |_| label) {
-            let length = if text.is_some() { self.tick_length() } else { 0.45 * gap };
-            self.canvas.horizontal_rule(foot, foot + length, y, rule, style.colour);
-            let start = [foot + self.tick_length() + 0.6 * gap, y];
-            self.canvas.text_centred(text.as_deref().unwrap_or(""), start, Anchor::Start, style);
-        }
+        self.side_ticks(&place.ticks.bar, self.scale.bar, bar, Anchor::Start);
         let name = &self.picture.field.label;
         let labels_end = foot + self.tick_length() + 0.6 * gap + self.widest(&place.ticks.bar);
         if let Some(multiplier) = &place.ticks.bar.multiplier {

@@ -101,28 +101,14 @@ fn check(picture: &ParticlePicture<'_>, style: &Snapshot) -> Result<(), PlotErro
     if picture.dimension != 2 && picture.dimension != 3 {
         return refuse(format!("{} dimensions; there must be 2 or 3", picture.dimension));
     }
-    if picture.species.len() != count {
-        return refuse(format!("{count} positions but {} species", picture.species.len()));
-    }
-    if let Some(species) = picture.species.iter().find(|species| **species as usize >= picture.species_names.len()) {
-        return refuse(format!("species {species} has no name"));
-    }
+    let lists = [(picture.species.len(), "species"), (picture.speeds.map_or(count, <[f64]>::len), "speeds")];
+    let lengths = &picture.lengths[..picture.dimension as usize];
+    snapshot_page::check(count, &lists, (picture.species, picture.species_names), lengths)?;
     if let Some([a, b]) = picture.bonds.iter().find(|ends| ends.iter().any(|end| *end as usize >= count)) {
         return refuse(format!("a bond of {a} and {b} among {count} particles"));
     }
-    match picture.speeds {
-        Some(speeds) if speeds.len() != count => {
-            return refuse(format!("{count} positions but {} speeds", speeds.len()));
-        }
-        None if style.color == SnapshotColor::Speed => {
-            return refuse("colouring by speed needs the speeds".to_owned());
-        }
-        _ => {}
-    }
-    for (axis, length) in picture.lengths.iter().take(picture.dimension as usize).enumerate() {
-        if !(length.is_finite() && *length > 0.0) {
-            return refuse(format!("the box has length {length} along axis {axis}"));
-        }
+    if picture.speeds.is_none() && style.color == SnapshotColor::Speed {
+        return refuse("colouring by speed needs the speeds".to_owned());
     }
     if !(picture.radius.is_finite() && picture.radius > 0.0) {
         return refuse(format!("the radius of the discs is {}", picture.radius));
@@ -181,13 +167,7 @@ pub(super) fn lay_out(
         let relative = [0, 1, 2].map(|axis| (corner[axis] - 0.5) * lengths[axis]);
         [centre[0] + dot(relative, right) * pixels_per_length, centre[1] - dot(relative, up) * pixels_per_length]
     };
-    let half = [0.5 * extent(right) * pixels_per_length, 0.5 * extent(up) * pixels_per_length];
-    let outline = Area {
-        left: centre[0] - half[0],
-        top: centre[1] - half[1],
-        right: centre[0] + half[0],
-        bottom: centre[1] + half[1],
-    };
+    let outline = Area::around(centre, [right, up].map(|axis| extent(axis) * pixels_per_length));
 
     let edges = box_edges(picture.dimension, toward);
     for (from, to, _) in edges.iter().filter(|(_, _, front)| !front) {
@@ -255,11 +235,7 @@ fn box_edges(dimension: u32, toward: [f64; 3]) -> Vec<([f64; 3], [f64; 3], bool)
 
 /// The edge along an axis beside which its length is written: at the outline of the view, below it or to its left.
 fn measured_edge(axis: usize, dimension: u32) -> [[f64; 3]; 2] {
-    let from = match (axis, dimension) {
-        (_, 2) | (0, _) => [0.0; 3],
-        (1, _) => [1.0, 0.0, 0.0],
-        _ => [0.0; 3],
-    };
+    let from = if axis == 1 && dimension == 3 { [1.0, 0.0, 0.0] } else { [0.0; 3] };
     let mut to = from;
     to[axis] = 1.0;
     [from, to]
@@ -288,18 +264,15 @@ fn instances(
             let shift = lengths[axis];
             let beyond = 0.5 * shift - radius;
             if relative[axis] > beyond {
-                [0.0, -shift]
+                vec![0.0, -shift]
             } else if relative[axis] < -beyond {
-                [0.0, shift]
+                vec![0.0, shift]
             } else {
-                [0.0, 0.0]
+                vec![0.0]
             }
         });
-        for (i, x) in images[0].iter().enumerate() {
-            for (j, y) in images[1].iter().enumerate() {
-                if (i == 1 && *x == 0.0) || (j == 1 && *y == 0.0) {
-                    continue;
-                }
+        for x in &images[0] {
+            for y in &images[1] {
                 let position = [(relative[0] + x) as f32, (relative[1] + y) as f32, 0.0];
                 instances.push(ParticleInstance { position, colour });
             }

@@ -2,7 +2,9 @@
 
 use super::chart::{Chart, Panel, Series, SeriesInk, SeriesStyle};
 use super::points::{pairs, since_first, steps};
-use super::quantities::{Averages, TEMPERATURE, TIME, panel, pressure_label, series, with_set_temperature};
+use super::quantities::{
+    Averages, TEMPERATURE, TIME, capitalised, panel, pressure_label, series, with_set_temperature,
+};
 use crate::numbers::grouped;
 use crate::table::Table;
 
@@ -167,8 +169,7 @@ pub fn autocorrelation_chart(
     } else {
         Series { style: SeriesStyle::Band, ..Series::line(name, pairs(lags, values)) }
     };
-    let known = errors.iter().any(|error| error.is_finite());
-    panel.series.push(if known { measured.with_errors(errors.to_vec()) } else { measured });
+    panel.series.push(measured.with_known_errors(errors.to_vec()));
     if !fit.is_empty() {
         // Over separate points; under a line, which it would hide.
         let ink = SeriesInk::Ink { pattern: usize::from(!few) };
@@ -201,8 +202,8 @@ pub fn histogram_chart(
     (name, compared): (&str, &[[f64; 2]]),
 ) -> Chart {
     let unit = if quantity == "acceleration" { "length units/time unit²" } else { "length units/time unit" };
-    let mut panel =
-        Panel::new(&format!("{} ({unit})", capitalised(quantity)), &format!("Probability density (1/({unit}))"));
+    let density = format!("Probability density (1/({unit}))");
+    let mut panel = Panel::new(&format!("{} ({unit})", capitalised(quantity)), &density);
     let bins = edges.windows(2).zip(densities).map(|(edges, density)| ([edges[0], edges[1]], *density));
     panel.series.push(Series::line("histogram", steps(bins)));
     panel.series.push(Series::compared(name, compared.to_vec()));
@@ -215,11 +216,6 @@ pub fn histogram_chart(
         panel.x.range = Some([*first, *last]);
     }
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
-}
-
-fn capitalised(word: &str) -> String {
-    let mut letters = word.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]

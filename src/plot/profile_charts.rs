@@ -48,10 +48,8 @@ pub fn profiles_chart(
         let values = table.column(column)?;
         let points = positions.iter().zip(values).map(|(x, y)| [*x, y]).collect();
         let style = if few { SeriesStyle::LineMarkers } else { SeriesStyle::Band };
-        let errors = table.values(&format!("{column}_error"));
         let series = Series { style, ..Series::line(name, points) };
-        let known = errors.iter().any(|error| error.is_finite());
-        Some(if known { series.with_errors(errors) } else { series })
+        Some(series.with_known_errors(table.values(&format!("{column}_error"))))
     };
     let along = format!("Position along {axis} (length units)");
     let panel = |label: &str, columns: &[(&str, &str)]| {

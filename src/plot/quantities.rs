@@ -93,6 +93,11 @@ pub fn averages_note(averages: &Averages) -> String {
     }
 }
 
+pub(super) fn capitalised(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
+}
+
 /// A power of a unit of length: nothing, the unit, its square, its cube.
 fn per_volume(dimension: usize) -> &'static str {
     match dimension {
@@ -116,9 +121,7 @@ pub(super) fn pressure_label(dimension: usize) -> String {
 /// ```
 #[must_use]
 pub fn quantity_label(quantity: &str, relative: bool) -> String {
-    let spaced = quantity.replace("center", "centre").replace('_', " ");
-    let mut letters = spaced.chars();
-    let name: String = letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect();
+    let name = capitalised(&quantity.replace("center", "centre").replace('_', " "));
     if relative {
         return format!("{name} relative to its first value");
     }

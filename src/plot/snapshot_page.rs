@@ -2,12 +2,32 @@
 
 use super::canvas::{Anchor, Area, Canvas, Type};
 use super::chart::Scale;
+use super::error::PlotError;
 use super::palette::{Colour, Inks, scale_colour};
 use super::species_colours::species_colours;
-use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
+use super::text::{CAPITAL_HEIGHT, Weight};
 use super::ticks::{AxisMap, nice_length, ticks};
 use crate::numbers::{grouped, short};
 use crate::scene::Snapshot;
+
+/// Looks whether lists of so many particles or cells, species with their names and edges of the box can be drawn.
+///
+/// # Errors
+/// [`PlotError::Input`] says what cannot.
+pub(super) fn check(
+    count: usize,
+    lists: &[(usize, &str)],
+    (species, names): (&[u32], &[String]),
+    lengths: &[f64],
+) -> Result<(), PlotError> {
+    let lists = lists.iter().filter(|(length, _)| *length != count);
+    let lists = lists.map(|(length, name)| format!("{count} positions but {length} {name}"));
+    let unnamed = species.iter().filter(|species| **species as usize >= names.len());
+    let unnamed = unnamed.map(|species| format!("species {species} has no name"));
+    let edges = lengths.iter().enumerate().filter(|(_, length)| !(length.is_finite() && **length > 0.0));
+    let edges = edges.map(|(axis, length)| format!("the box has length {length} along axis {axis}"));
+    lists.chain(unnamed).chain(edges).next().map_or(Ok(()), |problem| Err(PlotError::Input(problem)))
+}
 
 /// What the colours of a picture mean.
 pub(super) enum Key<'a> {
@@ -151,18 +171,10 @@ impl Page {
     }
 
     fn headings(&self, canvas: &mut Canvas, [title, subtitle]: [&str; 2], inks: &Inks) -> f64 {
-        let mut y = self.margin;
         let width = self.width - 2.0 * self.margin;
-        for (text, size, weight, colour) in
-            [(title, self.title, Weight::SemiBold, inks.ink), (subtitle, self.label, Weight::Regular, inks.muted)]
-        {
-            for line in canvas.typesetter.wrap(text, weight, size, width, 2) {
-                let baseline = [self.margin, y + CAPITAL_HEIGHT * size];
-                canvas.text(&line, baseline, Anchor::Start, Type { size, weight, colour });
-                y += LINE_HEIGHT * size;
-            }
-        }
-        if y > self.margin { y + 0.5 * self.gap } else { y }
+        let headings = canvas.headings((title, self.title), (subtitle, self.label, 2), inks, width);
+        let end = canvas.write_headings(&headings, [self.margin; 2]);
+        if end > self.margin { end + 0.5 * self.gap } else { end }
     }
 
     fn line(&self) -> f64 {

@@ -63,14 +63,9 @@ pub fn stress_correlation_chart(title: &str, table: &Table, viscosity: Option<Fo
     let panel = |column: &str, label: &str, name: &str| {
         let mut panel = Panel::new("Lag (time units)", label);
         if let Some(points) = table.over_time(column, 1.0) {
-            let errors = table.values(&format!("{column}_error"));
-            let series = Series { style: SeriesStyle::Band, ..Series::line(name, points) };
-            let known = errors.iter().any(|error| error.is_finite());
-            panel.series.push(if known {
-                series.with_errors(errors)
-            } else {
-                Series { style: SeriesStyle::Line, ..series }
-            });
+            let series = Series::line(name, points).with_known_errors(table.values(&format!("{column}_error")));
+            let style = if series.errors.is_some() { SeriesStyle::Band } else { SeriesStyle::Line };
+            panel.series.push(Series { style, ..series });
         }
         panel.with_reference("zero", 0.0)
     };

@@ -50,6 +50,20 @@ pub(super) fn ticks(map: &AxisMap, count: usize) -> Ticks {
     }
 }
 
+/// Ticks along an axis of a length, with labels of a size and these widths: as many as have room, or so few.
+pub(super) fn ticks_along(map: &AxisMap, length: f64, label: f64, fewest: usize, width: impl Fn(&str) -> f64) -> Ticks {
+    let mut wanted = ((length / (3.0 * label)) as usize).clamp(2, 10);
+    loop {
+        let found = ticks(map, wanted);
+        // Labels of many digits need more room than the first guess gave them.
+        let widest = found.major.iter().map(|(_, text)| width(text)).fold(0.0, f64::max);
+        if wanted <= fewest || found.major.len() as f64 * (widest + 1.2 * label) <= length * 1.1 {
+            return found;
+        }
+        wanted -= 1;
+    }
+}
+
 /// A minor step is a larger part of the axis than this.
 const SMALLEST_STEP: f64 = 1e-6;
 
