@@ -46,8 +46,8 @@ pub(super) fn read(file: File, length: u64, frame: i64, fits: &Fits<'_>) -> Resu
     };
     let comment = comment.to_owned();
     let place = lines.place();
-    let header = Header::of(&comment, &place)?;
-    particles(&mut lines, count, &header)
+    let (file, columns) = header(&comment, &place)?;
+    particles(&mut lines, count, &columns, file)
 }
 
 /// The frames as far as they are needed, and which of them is meant.
@@ -100,16 +100,6 @@ fn count_of(lines: &mut Lines, length: u64) -> Result<Option<u64>, Mistakes> {
     }
 }
 
-/// What the line of keys says.
-struct Header {
-    lengths: Option<[f64; 3]>,
-    displacements: [f64; 3],
-    origin: [f64; 3],
-    dimension: Option<usize>,
-    open_axes: [bool; 3],
-    columns: Columns,
-}
-
 /// The first columns of what is read.
 #[derive(Debug, Default)]
 struct Columns {
@@ -123,69 +113,58 @@ struct Columns {
     mass: Option<usize>,
     image: Option<usize>,
     id: Option<usize>,
-    unused: Vec<String>,
 }
 
-impl Header {
-    fn of(comment: &str, place: &str) -> Result<Self, Mistakes> {
-        let keys = Keys::of(comment, place)?;
-        let value = |name: &str| keys.value(name, place);
-        let numbers = |name: &str, count: usize| -> Result<Option<Vec<f64>>, Mistake> {
-            let Some(text) = value(name)? else { return Ok(None) };
-            let separators = |letter: char| letter.is_whitespace() || [',', '[', ']'].contains(&letter);
-            let parts = text.split(separators).filter(|part| !part.is_empty());
-            let numbers: Option<Vec<f64>> = parts.map(real).collect();
-            match numbers.filter(|numbers| numbers.len() == count) {
-                Some(numbers) => Ok(Some(numbers)),
-                None => Err(Mistake::new(
-                    place,
-                    format!("found {name}=\"{}\"", shortened(text)),
-                    format!("{count} numbers"),
-                )),
-            }
+/// Numbers of a key, of which there have to be so many.
+fn numbers<const COUNT: usize>(keys: &Keys, name: &str, place: &str) -> Result<Option<[f64; COUNT]>, Mistake> {
+    let Some(text) = keys.value(name, place)? else { return Ok(None) };
+    let separators = |letter: char| letter.is_whitespace() || [',', '[', ']'].contains(&letter);
+    let parts = text.split(separators).filter(|part| !part.is_empty());
+    let numbers = parts.map(real).collect::<Option<Vec<f64>>>().and_then(|numbers| numbers.try_into().ok());
+    let wrong = || Mistake::new(place, format!("found {name}=\"{}\"", shortened(text)), format!("{COUNT} numbers"));
+    numbers.map(Some).ok_or_else(wrong)
+}
+
+/// What the line of keys says: a file without particles, and the columns of their lines.
+fn header(comment: &str, place: &str) -> Result<(ParticleFile, Columns), Mistakes> {
+    let keys = Keys::of(comment, place)?;
+    let value = |name: &str| keys.value(name, place);
+    if let Some(count) = value(FROZEN)?.and_then(|text| text.parse().ok()) {
+        return Err(frozen_layers(place, count).into());
+    }
+    let mut file = ParticleFile { labelled: true, ..ParticleFile::default() };
+    if let Some(lattice) = numbers::<9>(&keys, "Lattice", place)? {
+        let edges = [lattice[0], lattice[4], lattice[8]];
+        let longest = edges.iter().fold(0.0, |most: f64, edge| most.max(edge.abs()));
+        let across = [1, 2, 3, 5, 6, 7].map(|at| if lattice[at].abs() > 1e-12 * longest { lattice[at] } else { 0.0 });
+        let [first_y, first_z, second, second_z, third, third_y] = across;
+        let leaning = displacements(second, third, third_y).filter(|_| [first_y, first_z, second_z] == [0.0; 3]);
+        let Some(leaning) = leaning else {
+            let lattice = shortened(value("Lattice")?.unwrap_or_default());
+            return Err(triclinic(place, &format!("Lattice=\"{lattice}\"")).into());
         };
-        if let Some(count) = value(FROZEN)?.and_then(|text| text.parse().ok()) {
-            return Err(frozen_layers(place, count).into());
+        if let Some(mistake) = box_mistake(&edges) {
+            return Err(Mistake { place: place.to_owned(), ..mistake }.into());
         }
-        let (mut lengths, mut tilts) = (None, [0.0; 3]);
-        if let Some(lattice) = numbers("Lattice", 9)? {
-            let edges = [lattice[0], lattice[4], lattice[8]];
-            let longest = edges.iter().fold(0.0, |most: f64, edge| most.max(edge.abs()));
-            let across =
-                [1, 2, 3, 5, 6, 7].map(|at| if lattice[at].abs() > 1e-12 * longest { lattice[at] } else { 0.0 });
-            let [first_y, first_z, second, second_z, third, third_y] = across;
-            let leaning = displacements(second, third, third_y).filter(|_| [first_y, first_z, second_z] == [0.0; 3]);
-            let Some(leaning) = leaning else {
-                return Err(triclinic(
-                    place,
-                    &format!("Lattice=\"{}\"", shortened(value("Lattice")?.unwrap_or_default())),
-                )
-                .into());
-            };
-            if let Some(mistake) = box_mistake(&edges) {
-                return Err(Mistake { place: place.to_owned(), ..mistake }.into());
-            }
-            (lengths, tilts) = (Some(edges), leaning);
-        }
-        let origin = numbers("Origin", 3)?.map_or([0.0; 3], |origin| [origin[0], origin[1], origin[2]]);
-        let mut periodic = None;
-        if let Some(text) = value("pbc")? {
-            let wrong = || {
-                let found = format!("found pbc=\"{}\"", shortened(text));
-                Mistake::new(place, found, "`T` or `F` for each of three axes")
-            };
-            periodic = Some(truths(text).ok_or_else(wrong)?);
-        }
-        let dimension = periodic.map(|periodic| match periodic {
+        (file.lengths, file.displacements) = (Some(edges), leaning);
+    }
+    file.origin = numbers(&keys, "Origin", place)?.unwrap_or_default();
+    if let Some(text) = value("pbc")? {
+        let wrong = || {
+            let found = format!("found pbc=\"{}\"", shortened(text));
+            Mistake::new(place, found, "`T` or `F` for each of three axes")
+        };
+        let periodic = truths(text).ok_or_else(wrong)?;
+        file.dimension = Some(match periodic {
             [true, false, false] => 1,
             [true, true, false] => 2,
             _ => 3,
         });
         // Without a box of its own a file leaves it to the scene.
-        let open_axes = periodic.filter(|_| lengths.is_some()).map_or([false; 3], |periodic| periodic.map(|is| !is));
-        let columns = Columns::of(value("Properties")?.unwrap_or("species:S:1:pos:R:3"), place)?;
-        Ok(Self { lengths, displacements: tilts, origin, dimension, open_axes, columns })
+        file.open_axes = periodic.map(|is| !is && file.lengths.is_some());
     }
+    let columns = Columns::of(value("Properties")?.unwrap_or("species:S:1:pos:R:3"), place, &mut file.unused)?;
+    Ok((file, columns))
 }
 
 /// Three values that are true or false.
@@ -202,7 +181,8 @@ fn truths(text: &str) -> Option<[bool; 3]> {
 }
 
 impl Columns {
-    fn of(properties: &str, place: &str) -> Result<Self, Mistakes> {
+    /// The columns that are read; `unused` are told of the others.
+    fn of(properties: &str, place: &str, unused: &mut Vec<String>) -> Result<Self, Mistakes> {
         let wrong = |accepted: &str| {
             Mistakes::from(Mistake::new(place, format!("found Properties={}", shortened(properties)), accepted))
         };
@@ -230,7 +210,7 @@ impl Columns {
                 "map_shift" | "images" => (&mut columns.image, 3),
                 "id" => (&mut columns.id, 1),
                 other => {
-                    columns.unused.push(format!("the column `{}`", shortened(other)));
+                    unused.push(format!("the column `{}`", shortened(other)));
                     continue;
                 }
             };
@@ -239,14 +219,14 @@ impl Columns {
             }
             match place {
                 None => *place = Some(first),
-                Some(_) => columns.unused.push(format!("the column `{}`, which says it again", triple[0])),
+                Some(_) => unused.push(format!("the column `{}`, which says it again", triple[0])),
             }
         }
         columns.species = names.into_iter().flatten().next();
         columns.is_atomic_number = columns.species.is_some() && columns.species == names[3];
         for (name, place) in [("type", names[2]), ("Z", names[3])] {
             if place.is_some() && place != columns.species {
-                columns.unused.push(format!("the column `{name}`, beside names of species"));
+                unused.push(format!("the column `{name}`, beside names of species"));
             }
         }
         if columns.position.is_none() {
@@ -257,7 +237,7 @@ impl Columns {
         }
         if columns.velocity.is_none() && columns.momentum.is_some() && columns.mass.is_none() {
             columns.momentum = None;
-            columns.unused.push("the column `momenta`, for there are no `masses` in the file".to_owned());
+            unused.push("the column `momenta`, for there are no `masses` in the file".to_owned());
         }
         Ok(columns)
     }
@@ -314,19 +294,13 @@ impl Columns {
     }
 }
 
-fn particles(lines: &mut Lines, count: u64, header: &Header) -> Result<ParticleFile, Mistakes> {
-    let columns = &header.columns;
+fn particles(
+    lines: &mut Lines,
+    count: u64,
+    columns: &Columns,
+    mut file: ParticleFile,
+) -> Result<ParticleFile, Mistakes> {
     let count = usize::try_from(count).unwrap_or(usize::MAX);
-    let mut file = ParticleFile {
-        labelled: true,
-        dimension: header.dimension,
-        origin: header.origin,
-        lengths: header.lengths,
-        displacements: header.displacements,
-        open_axes: header.open_axes,
-        unused: columns.unused.clone(),
-        ..ParticleFile::default()
-    };
     file.positions.reserve(count);
     let mut mistakes = Mistakes::default();
     let mut masses = SpeciesMasses::default();

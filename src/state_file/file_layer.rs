@@ -5,14 +5,14 @@
 //! one that is full is copied to the end of the file with at least twice the room. The index names an array only when that is on the
 //! disk, and the header a copy only when that is: wherever a process or a machine stops, what the index names is there.
 
-use bytemuck::Pod;
+use bytemuck::{Pod, Zeroable};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 const MAGIC: u64 = 0x65df_65df_65df_65df;
 const HEADER: u64 = 256;
-const ENTRY: u64 = 32;
+const ENTRY: u64 = size_of::<Chunk>() as u64;
 /// Bytes of a name in version 1, and the unit of the length of the list in both.
 const NAME: u64 = 64;
 /// Bytes of names: there are at most 65 536 of them.
@@ -65,20 +65,22 @@ macro_rules! numbers {
 
 numbers!(u8: 1, u16: 2, u32: 3, u64: 4, i8: 5, i16: 6, i32: 7, i64: 8, f32: 9, f64: 10);
 
-/// Where an array lies in a file, and what it holds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Where an array lies in a file, and what it holds: an entry of the index, as it is in the file.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
 pub struct Chunk {
     /// The frame, from 0.
     pub frame: u64,
-    /// The place of its name in the list.
-    pub name: u16,
     /// Number of rows.
     pub rows: u64,
+    location: u64,
     /// Numbers in a row.
     pub columns: u32,
+    /// The place of its name in the list.
+    pub name: u16,
     /// Type of the numbers, as [`Number::KIND`]; 11 is text.
     pub kind: u8,
-    location: u64,
+    flags: u8,
 }
 
 impl Chunk {
@@ -102,23 +104,6 @@ impl Chunk {
 
     fn bytes(self) -> Option<u64> {
         self.rows.checked_mul(self.columns.into())?.checked_mul(self.size()?)
-    }
-
-    fn from_entry(entry: &[u8]) -> Self {
-        let name = u16::from_le_bytes([entry[28], entry[29]]);
-        let (frame, rows, location) = (word(entry, 0), word(entry, 8), word(entry, 16));
-        Self { frame, name, rows, columns: half_word(entry, 24), kind: entry[30], location }
-    }
-
-    fn entry(self) -> [u8; ENTRY as usize] {
-        let mut entry = [0; ENTRY as usize];
-        entry[..8].copy_from_slice(&self.frame.to_le_bytes());
-        entry[8..16].copy_from_slice(&self.rows.to_le_bytes());
-        entry[16..24].copy_from_slice(&self.location.to_le_bytes());
-        entry[24..28].copy_from_slice(&self.columns.to_le_bytes());
-        entry[28..30].copy_from_slice(&self.name.to_le_bytes());
-        entry[30] = self.kind;
-        entry
     }
 }
 
@@ -277,7 +262,7 @@ impl GsdReader {
             (cursor.read, cursor.seen) = (cursor.read + more, 0);
         }
         let Some(entry) = cursor.piece.get(cursor.seen..cursor.seen + ENTRY as usize) else { return Ok(None) };
-        let chunk = Chunk::from_entry(entry);
+        let chunk = Chunk { flags: 0, ..bytemuck::pod_read_unaligned(entry) };
         if chunk.location == 0 {
             return Ok(None);
         }
@@ -480,7 +465,7 @@ impl GsdWriter {
             self.names.push(name.to_owned());
         }
         let location = self.length + self.buffer.len() as u64;
-        Ok(Chunk { frame: self.frame, name: id, rows: 0, columns, kind, location })
+        Ok(Chunk { frame: self.frame, rows: 0, location, columns, name: id, kind, flags: 0 })
     }
 
     fn add(&mut self, bytes: &[u8]) -> io::Result<()> {
@@ -528,8 +513,8 @@ impl GsdWriter {
             self.file.sync_all()?;
         }
         self.header = header;
-        let entries: Vec<u8> = self.chunks.drain(..self.ended).flat_map(Chunk::entry).collect();
-        self.write_at(self.header.index[0] + self.indexed * ENTRY, &entries)?;
+        let entries: Vec<Chunk> = self.chunks.drain(..self.ended).collect();
+        self.write_at(self.header.index[0] + self.indexed * ENTRY, bytemuck::cast_slice(&entries))?;
         self.indexed += self.ended as u64;
         self.ended = 0;
         self.file.sync_all()

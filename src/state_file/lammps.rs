@@ -507,11 +507,7 @@ impl Reader<'_> {
             positions: self.atoms.iter().map(|atom| atom.position).collect(),
             velocities,
             velocity_mistakes,
-            images: if with_images > 0 {
-                self.atoms.iter().filter_map(|atom| atom.image).collect()
-            } else {
-                Vec::new()
-            },
+            images: self.atoms.iter().filter_map(|atom| atom.image).collect(),
             bonds,
             angles,
             unused: self.header.unused,
