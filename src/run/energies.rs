@@ -23,7 +23,6 @@ pub(super) const SECTION: &str = "configuration";
 pub(super) struct EnergyRecorder {
     pub file: EnergiesFile,
     pub rows: EnergyRows,
-    equilibration: u64,
     /// Whether means are meant to be those of equilibrium.
     is_about_equilibrium: bool,
 }
@@ -64,8 +63,7 @@ impl EnergyRecorder {
         sections: &Sections<'_>,
     ) -> Result<Self, RunError> {
         let step = sections.step;
-        let equilibration = scene.time.equilibration;
-        let kept = samples(scene.output.energies.every, equilibration, step);
+        let kept = samples(scene.output.energies.every, scene.time.equilibration, step);
         let configuration = sections.numbers(SECTION, kept.saturating_mul(2))?.unwrap_or_default();
         let configuration = configuration.as_chunks().0.to_vec();
         let names: Vec<&str> = model.physics().columns(model).into_iter().map(|column| column.name).collect();
@@ -84,7 +82,7 @@ impl EnergyRecorder {
         };
         let is_about_equilibrium = settling::is_about_equilibrium(scene, model);
         let rows = EnergyRows::continued(scene, model, rows, configuration);
-        Ok(Self { file, rows, equilibration, is_about_equilibrium })
+        Ok(Self { file, rows, is_about_equilibrium })
     }
 
     /// What a checkpoint has to keep besides the table itself.
@@ -113,7 +111,7 @@ impl EnergyRecorder {
             summary.warnings.push(text);
         }
         if self.is_about_equilibrium {
-            summary.unequilibrated = settling::unequilibrated(&self.rows.table(), self.equilibration);
+            summary.unequilibrated = settling::unequilibrated(&self.rows.table(), self.rows.equilibration);
             summary.warnings.extend(summary.unequilibrated.as_ref().map(ToString::to_string));
         }
     }

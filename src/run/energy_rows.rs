@@ -13,7 +13,7 @@ pub(super) struct EnergyRows {
     /// Σ|∇V|² and Σ∇²V of every row after equilibration: an average of the configurational temperature needs both.
     configuration: Vec<[f64; 2]>,
     time_step: f64,
-    equilibration: u64,
+    pub equilibration: u64,
 }
 
 impl EnergyRows {

@@ -71,6 +71,12 @@ impl Descriptor for Chain {
 /// Columns of each chain begin with these, in the order of [`Likeness::ALL`].
 const NAMES: [&str; 3] = ["micro", "dpd", "frictionless"];
 
+/// Columns of all chains after some others.
+fn columns(first: &[&str], of_each: &[&str]) -> Vec<String> {
+    let each = NAMES.iter().flat_map(|name| of_each.iter().map(move |quantity| format!("{name}_{quantity}")));
+    first.iter().map(|name| (*name).to_owned()).chain(each).collect()
+}
+
 /// Largest reduced time of the momentum autocorrelation.
 const LONGEST_LAG: f64 = 5.0;
 
@@ -126,13 +132,8 @@ impl Chains {
 
     /// Peak, variance and energy of the pulses, the mean of both halves, with what is exact at the same times.
     fn pulse(&self) -> Table {
-        let mut columns = vec!["time".to_owned(), "tau".to_owned()];
-        for name in NAMES {
-            for quantity in ["peak", "variance", "energy"] {
-                columns.push(format!("{name}_{quantity}"));
-                columns.push(format!("{name}_exact_{quantity}"));
-            }
-        }
+        let of_each = ["peak", "exact_peak", "variance", "exact_variance", "energy", "exact_energy"];
+        let columns = columns(&["time", "tau"], &of_each);
         let shape = Pulse { amplitude: self.trios.amplitude, width: self.trios.width };
         let exact = ExactPulse::new(&self.trios, shape);
         let describe = |displacements: &[f64]| {
@@ -168,13 +169,12 @@ impl Chains {
         // At least as many origins as lags, where the run is that short.
         let lags = ((LONGEST_LAG * unit / interval) as usize + 1).min(samples.div_ceil(2));
         let times: Vec<f64> = (0..lags).map(|lag| lag as f64 * interval).collect();
-        let mut columns = vec!["tau".to_owned(), "limit".to_owned()];
+        let of_each = ["correlation", "correlation_error", "exact_correlation"];
+        let columns = columns(&["tau", "limit"], &of_each);
         let mut rows: Vec<Vec<f64>> =
             times.iter().map(|time| vec![time / unit, (1.0 - time / unit).max(0.0)]).collect();
         let scale = equilibrium::momentum_variance(&self.trios.thermal, self.trios.temperature);
         for (number, strand) in self.trios.strands()[1].iter().enumerate() {
-            let name = NAMES[number];
-            columns.extend(["correlation", "correlation_error", "exact_correlation"].map(|q| format!("{name}_{q}")));
             let size = if number == 0 { self.trios.thermal.cluster_size } else { 1 };
             let exact = NormalModes::new(strand.chain).momentum_autocorrelation(size, &times);
             let found = self.thermal[number].momentum_correlation(lags);
@@ -189,13 +189,8 @@ impl Chains {
 
     /// Variances of each chain over time, relative to nmkT and to nkT/κ, with what is exact.
     fn equilibrium(&self) -> Table {
-        let mut columns = vec!["tau".to_owned()];
-        for name in NAMES {
-            columns.extend(
-                ["momentum_variance", "separation_variance", "exact_separation_variance"]
-                    .map(|q| format!("{name}_{q}")),
-            );
-        }
+        let of_each = ["momentum_variance", "separation_variance", "exact_separation_variance"];
+        let columns = columns(&["tau"], &of_each);
         let row = |(index, sample): (usize, &PulseSample)| {
             let mut row = vec![self.reduced_time(sample.step)];
             for number in 0..3 {

@@ -48,7 +48,7 @@ pub(super) trait Descriptor {
     /// The names of the numbers that it finds, as they stand at the top of its result; counts of samples and what was asked for are none.
     fn finds(&self, scene: &Scene, model: &Model) -> Vec<&'static str> {
         let _ = (scene, model);
-        Vec::new()
+        self.labels().iter().map(|(_, name)| *name).collect()
     }
 
     /// Bytes that its sections add to a checkpoint, if they are many.

@@ -84,10 +84,6 @@ impl Descriptor for Diffusion {
     fn labels(&self) -> &'static [(&'static str, &'static str)] {
         &[("diffusion (Einstein)", EINSTEIN), ("diffusion (Green-Kubo)", GREEN_KUBO)]
     }
-
-    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
-        vec![EINSTEIN, GREEN_KUBO]
-    }
 }
 
 /// Means over the particles that can move, sample by sample.

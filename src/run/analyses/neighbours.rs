@@ -34,10 +34,6 @@ impl Descriptor for Neighbours {
     fn labels(&self) -> &'static [(&'static str, &'static str)] {
         &[("neighbours of a cell", MEAN), ("their variance", VARIANCE)]
     }
-
-    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
-        vec![MEAN, VARIANCE]
-    }
 }
 
 /// Cells by their number of neighbours, over all samples.

@@ -15,28 +15,16 @@ use crate::state::Reported;
 /// An analysis under way.
 struct UnderWay {
     id: AnalysisId,
-    source: Source,
+    /// The index of its sampler, of one that takes samples; others take states.
+    sampler: Option<usize>,
+    first: u64,
+    every: u64,
     analysis: Box<dyn Analysis>,
 }
 
-/// What an analysis takes.
-enum Source {
-    /// Rows of the sampler with this index.
-    Sampler(usize),
-    /// States.
-    States { first: u64, every: u64 },
-}
-
 impl UnderWay {
-    fn sampler(&self) -> Option<usize> {
-        match self.source {
-            Source::Sampler(index) => Some(index),
-            Source::States { .. } => None,
-        }
-    }
-
     fn takes_state(&self, step: u64) -> bool {
-        matches!(self.source, Source::States { first, every } if step >= first && step.is_multiple_of(every))
+        self.sampler.is_none() && step >= self.first && step.is_multiple_of(self.every)
     }
 }
 
@@ -57,18 +45,20 @@ impl Analyses {
         sections: &Sections<'_>,
     ) -> Result<Self, CheckpointError> {
         let mut all = Vec::new();
-        let mut begin = |id: AnalysisId, source: Source, mut analysis: Box<dyn Analysis>, samples: u64| {
-            if let Some(numbers) = sections.numbers(id.name(), analysis.numbers_after(samples))? {
-                analysis.restore(&numbers, samples);
+        let mut begin = |mut begun: UnderWay, samples: u64| {
+            if let Some(numbers) = sections.numbers(begun.id.name(), begun.analysis.numbers_after(samples))? {
+                begun.analysis.restore(&numbers, samples);
             }
-            all.push(UnderWay { id, source, analysis });
+            all.push(begun);
             Ok::<_, CheckpointError>(())
         };
         for (index, sampler) in plan.samplers.iter().enumerate() {
             let SamplerId::Analysis(id) = sampler.id else { continue };
             let setting = Setting { scene, model, plan, sampler: Some(sampler) };
             if let Some(Gathering::Samples(analysis)) = describe(id).begin(&setting) {
-                begin(id, Source::Sampler(index), analysis, sampler.samples_before(sections.step))?;
+                let (first, every) = (sampler.first, sampler.every);
+                let begun = UnderWay { id, sampler: Some(index), first, every, analysis };
+                begin(begun, sampler.samples_before(sections.step))?;
             }
         }
         let setting = Setting { scene, model, plan, sampler: None };
@@ -77,7 +67,8 @@ impl Analyses {
             let Some(Sampling { first, every, .. }) = descriptor.asked(scene, model) else { continue };
             if let Some(Gathering::States(analysis)) = descriptor.begin(&setting) {
                 let every = every.max(1);
-                begin(id, Source::States { first, every }, analysis, samples(every, first, sections.step))?;
+                let begun = UnderWay { id, sampler: None, first, every, analysis };
+                begin(begun, samples(every, first, sections.step))?;
             }
         }
         Ok(Self(all))
@@ -105,23 +96,19 @@ impl Analyses {
 
     /// The analyses of samples, with the indices of their samplers.
     fn samplers(&self) -> impl Iterator<Item = (AnalysisId, usize)> {
-        self.0.iter().filter_map(|one| Some((one.id, one.sampler()?)))
+        self.0.iter().filter_map(|one| Some((one.id, one.sampler?)))
     }
 
     /// Adds a sample of any sampler but the first.
     pub(in crate::run) fn add(&mut self, sample: &Sample) {
-        if let Some(found) = self.0.iter_mut().find(|one| one.sampler() == Some(sample.sampler)) {
+        if let Some(found) = self.0.iter_mut().find(|one| one.sampler == Some(sample.sampler)) {
             found.analysis.add(sample);
         }
     }
 
     /// Steps between two states, of all that take states.
     pub(in crate::run) fn state_intervals(&self) -> Vec<u64> {
-        let interval = |one: &UnderWay| match one.source {
-            Source::Sampler(_) => None,
-            Source::States { every, .. } => Some(every),
-        };
-        self.0.iter().filter_map(interval).collect()
+        self.0.iter().filter(|one| one.sampler.is_none()).map(|one| one.every).collect()
     }
 
     /// Whether any takes the state of a step.
@@ -138,7 +125,7 @@ impl Analyses {
 
     /// What a checkpoint has to keep of what the host has gathered of samples, and of states.
     pub(in crate::run) fn sections(&self) -> [Vec<(String, Vec<u8>)>; 2] {
-        let (samples, states): (Vec<_>, Vec<_>) = self.0.iter().partition(|one| one.sampler().is_some());
+        let (samples, states): (Vec<_>, Vec<_>) = self.0.iter().partition(|one| one.sampler.is_some());
         let section = |one: &UnderWay| (one.id.name().to_owned(), one.analysis.section());
         [samples, states].map(|all| all.into_iter().map(section).collect())
     }
