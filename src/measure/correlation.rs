@@ -60,10 +60,7 @@ impl WindowedAverage {
     #[must_use]
     pub fn average(&self) -> Vec<LagAverage> {
         let column = |lag: usize| -> Vec<f64> { self.windows().map(|window| window[lag]).collect() };
-        (0..self.lags)
-            .filter_map(|lag| statistics::independent(&column(lag)))
-            .map(|(mean, standard_error)| LagAverage { mean, standard_error })
-            .collect()
+        (0..self.lags).filter_map(|lag| LagAverage::new(&column(lag))).collect()
     }
 
     /// The mean at each lag over the mean at lag 0. The error is that of the ratio to first order, in which the part that
@@ -86,8 +83,7 @@ impl WindowedAverage {
         let first = self.windows().map(|window| window[0]).sum::<f64>() / count;
         let mean = self.windows().map(&of).sum::<f64>() / count / first;
         let deviations: Vec<f64> = self.windows().map(|window| (of(window) - mean * window[0]) / first).collect();
-        let (_, standard_error) = statistics::independent(&deviations)?;
-        Some(LagAverage { mean, standard_error })
+        Some(LagAverage { mean, ..LagAverage::new(&deviations)? })
     }
 }
 
@@ -98,6 +94,13 @@ pub struct LagAverage {
     pub mean: f64,
     /// Standard error from the scatter of the windows; none with a single window.
     pub standard_error: Option<f64>,
+}
+
+impl LagAverage {
+    /// The mean of independent values; none where there are none.
+    pub(super) fn new(values: &[f64]) -> Option<Self> {
+        statistics::independent(values).map(|(mean, standard_error)| Self { mean, standard_error })
+    }
 }
 
 /// A transport coefficient.

@@ -1,7 +1,6 @@
 //! The shear viscosity from the autocorrelation of the stress.
 
 use super::correlation::{Coefficient, LagAverage};
-use super::statistics::independent;
 
 /// The least of the autocorrelation that a sample may leave, where samples are not those of every step: of an exponential 1 % is then missing.
 const KEPT_BY_A_SAMPLE: f64 = 0.7;
@@ -145,14 +144,14 @@ pub fn stress_correlation(
         let here: Vec<f64> = correlations.iter().map(|correlation| factor * correlation[lag]).collect();
         sums.iter_mut().zip(&here).for_each(|(sum, value)| *sum += weight * interval * value);
         for (values, averages) in [(&here, &mut found.autocorrelation), (&sums, &mut found.viscosity)] {
-            averages.extend(independent(values).map(|(mean, standard_error)| LagAverage { mean, standard_error }));
+            averages.extend(LagAverage::new(values));
         }
         if lag == longest_lag / 2 {
             half.clone_from(&sums);
         }
     }
     let growth: Vec<f64> = sums.iter().zip(&half).map(|(all, half)| all - half).collect();
-    found.growth = independent(&growth).map(|(mean, standard_error)| LagAverage { mean, standard_error });
+    found.growth = LagAverage::new(&growth);
     found
 }
 

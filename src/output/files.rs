@@ -32,19 +32,13 @@ pub const TRAJECTORY_XYZ: &str = "trajectory.xyz";
 pub const FIELDS: [&str; 6] = ["depth", "potential_vorticity", "vorticity", "speed", "velocity_x", "velocity_y"];
 
 /// Pictures and arrays of fields at the end of a run.
-const FIELD_FILES: [&str; 12] = [
-    "depth.png",
-    "depth.npy",
-    "potential_vorticity.png",
-    "potential_vorticity.npy",
-    "vorticity.png",
-    "vorticity.npy",
-    "speed.png",
-    "speed.npy",
-    "velocity_x.png",
-    "velocity_x.npy",
-    "velocity_y.png",
-    "velocity_y.npy",
+const FIELD_FILES: [[&str; 2]; 6] = [
+    ["depth.png", "depth.npy"],
+    ["potential_vorticity.png", "potential_vorticity.npy"],
+    ["vorticity.png", "vorticity.npy"],
+    ["speed.png", "speed.npy"],
+    ["velocity_x.png", "velocity_x.npy"],
+    ["velocity_y.png", "velocity_y.npy"],
 ];
 
 /// Every fixed name that a run may write, in the order in which they are listed.
@@ -59,7 +53,10 @@ pub fn all() -> impl Iterator<Item = &'static str> {
     let fixed = [ENERGIES, ENERGIES_PLOT, SNAPSHOT, CHECKPOINT, SUMMARY].into_iter();
     let trajectories = TrajectoryFormat::ALL.into_iter().map(trajectory);
     let tables = AnalysisId::ALL.into_iter().flat_map(AnalysisId::tables);
-    fixed.chain(trajectories).chain(tables.flat_map(|names| [names.file, names.plot])).chain(FIELD_FILES)
+    fixed
+        .chain(trajectories)
+        .chain(tables.flat_map(|names| [names.file, names.plot]))
+        .chain(FIELD_FILES.into_iter().flatten())
 }
 
 /// The name of a numbered snapshot; the first has number 1.

@@ -109,7 +109,8 @@ pub(crate) fn lines(path: &Path) -> io::Result<impl Iterator<Item = io::Result<S
     Ok(std::iter::from_fn(move || Some(next()).filter(|line| !line.as_ref().is_ok_and(String::is_empty))))
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
+#[cfg(unix)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
