@@ -7,6 +7,7 @@ use crate::plan::paths::PATH_WORDS;
 use crate::plan::{Domain, FREE_SHARE, Part, ParticleWords, PlannedPart, SharedSum, Stretch};
 use crate::shaders::Array;
 use crate::state::crossings;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
@@ -28,7 +29,7 @@ pub trait Swap {
 }
 
 /// What has been exchanged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Traffic {
     /// Exchanges.
     pub exchanges: u64,

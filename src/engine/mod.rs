@@ -31,6 +31,7 @@ use exchange::Exchange;
 use pipeline::Stage;
 use readback::Readback;
 use recording::Recording;
+use serde::{Deserialize, Serialize};
 use texels::Texels;
 
 /// Words of the control buffer, as `shaders/core/control.wgsl` declares them.
@@ -64,7 +65,7 @@ pub struct Control {
 }
 
 /// One row of a sampler.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sample {
     /// Index of the sampler in [`Plan::samplers`].
     pub sampler: usize,

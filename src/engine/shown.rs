@@ -1,6 +1,7 @@
 //! The particles of a picture: all, or of very many a sample that their numbers alone decide, so that any number of ranks shows the same.
 
 use crate::state::Reported;
+use serde::{Deserialize, Serialize};
 
 /// Particles as a report leaves them, in order of their numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -12,7 +13,7 @@ pub struct Shown {
 }
 
 /// Which particles belong to a sample.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Sampling {
     /// Scrambled numbers below this.
     below: u32,
@@ -23,16 +24,6 @@ impl Sampling {
     pub(crate) fn new(particles: u64, most: u64) -> Option<Self> {
         let below = (u128::from(most) << 32) / u128::from(particles.max(1));
         u32::try_from(below).ok().map(|below| Self { below })
-    }
-
-    /// The word that a message between ranks tells of it.
-    pub(crate) fn word(self) -> u32 {
-        self.below
-    }
-
-    /// What such a word tells.
-    pub(crate) fn of_word(below: u32) -> Self {
-        Self { below }
     }
 
     /// Whether it holds a particle.

@@ -4,10 +4,11 @@ use super::{Control, Engine, EngineError, Sample, Shown, Traffic};
 use crate::plan::Plan;
 use crate::shaders::Array;
 use crate::state::{Reported, State};
+use serde::{Deserialize, Serialize};
 use std::mem::offset_of;
 
 /// One of several ranks that share a state.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct RankReport {
     /// The machine.
     pub host: String,

@@ -1,8 +1,8 @@
 //! One of the ranks of a run: does what the first rank tells.
 
 use super::Channel;
-use super::message::{Answer, Command, Contents, Introduction, Problem, read, written};
-use crate::engine::{Engine, EngineError, Sampling};
+use super::message::{Answer, Command, Contents, Problem, read, written};
+use crate::engine::{Engine, EngineError, RankReport, Sampling};
 use crate::plan::{ParticleWords, PlannedPart};
 use std::collections::VecDeque;
 
@@ -92,25 +92,25 @@ pub(super) fn execute(
         Command::Report => engine.own_reported().map(|own| portions.divide(engine.plan().part.as_ref(), own)),
         Command::Show { sample } => engine.own_reported().map(|own| {
             let part = engine.plan().part.as_ref();
-            portions.divide(part, sampled(part, Sampling::of_word(sample), own))
+            portions.divide(part, sampled(part, sample, own))
         }),
         Command::Momenta => engine.own_momenta(),
         Command::Next => Ok(vec![portions.next()]),
         Command::End => Ok(Vec::new()),
     };
     samples.extend(engine.take_samples());
-    let (ended, contents) = match done {
-        Ok(contents) => (Ok(()), contents),
-        Err(error) => (Err(error), Vec::new()),
+    let (problem, contents) = match done {
+        Ok(contents) => (None, contents),
+        Err(error) => (Some(Problem::of(&error)), Vec::new()),
     };
-    (Answer::of(samples, ended.as_ref().copied(), engine.traffic()), contents)
+    (Answer { samples, problem, traffic: engine.traffic(), introduction: None }, contents)
 }
 
 /// Introduces itself, and does what the first rank tells until there is nothing more to do.
 ///
 /// # Errors
 /// That the first rank is lost, in words.
-pub fn serve(engine: &mut Engine<'_>, introduction: Introduction, channel: &mut dyn Channel) -> Result<(), String> {
+pub fn serve(engine: &mut Engine<'_>, introduction: RankReport, channel: &mut dyn Channel) -> Result<(), String> {
     let (mut failed, mut introduction, mut portions) = (None, Some(introduction), Portions::default());
     while let Some((command, contents)) = heard(channel)? {
         let (mut answer, gives) = match &failed {

@@ -1,6 +1,6 @@
 //! What ranks tell each other: a line of JSON, and particles as they are stored.
 
-use crate::engine::{EngineError, Sample, Traffic};
+use crate::engine::{EngineError, RankReport, Sample, Sampling, Traffic};
 use crate::plan::Failure;
 use serde::{Deserialize, Serialize};
 
@@ -19,8 +19,8 @@ pub(super) enum Command {
     State,
     /// The same of a report.
     Report,
-    /// The same of a sample of them, of which this word tells.
-    Show { sample: u32 },
+    /// The same of a sample of them.
+    Show { sample: Sampling },
     /// Give the momenta of the report.
     Momenta,
     /// Give those with the next numbers.
@@ -29,30 +29,17 @@ pub(super) enum Command {
     End,
 }
 
-/// What a rank says of itself at the beginning.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Introduction {
-    /// The machine.
-    pub host: String,
-    /// The adapter and its driver.
-    pub adapter: String,
-    /// Adapters that the ranks on its machine get by turns.
-    pub adapters: u32,
-    /// A checksum of what it computes from a state that all ranks know: ranks that round alike have the same.
-    pub arithmetic: u32,
-}
-
 /// What a rank answers.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Answer {
-    /// Rows of sums: sampler, step, sums.
-    pub samples: Vec<(usize, u64, Vec<i64>)>,
+    /// Rows of sums.
+    pub samples: Vec<Sample>,
     /// What went wrong, if anything.
     pub problem: Option<Problem>,
-    /// What it has exchanged until now: times, bytes, copies, and nanoseconds of waiting, computing and exchanging.
-    pub exchanged: [u64; 6],
+    /// What it has exchanged until now.
+    pub traffic: Traffic,
     /// Who it is, at the beginning.
-    pub introduction: Option<Introduction>,
+    pub introduction: Option<RankReport>,
 }
 
 /// What went wrong on a rank.
@@ -124,16 +111,6 @@ impl Problem {
     }
 }
 
-impl Answer {
-    pub(super) fn of(samples: Vec<Sample>, ended: Result<(), &EngineError>, traffic: Traffic) -> Self {
-        let samples = samples.into_iter().map(|sample| (sample.sampler, sample.step, sample.sums)).collect();
-        let Traffic { exchanges, bytes, copies, waiting, computing, exchanging } = traffic;
-        let [waiting, computing, exchanging] = [waiting, computing, exchanging].map(|time| time.as_nanos() as u64);
-        let exchanged = [exchanges, bytes, copies, waiting, computing, exchanging];
-        Self { samples, problem: ended.err().map(Problem::of), exchanged, introduction: None }
-    }
-}
-
 /// Words of each array of a state, as a plan has them in buffers.
 pub(super) type Contents = Vec<Vec<u32>>;
 
@@ -190,7 +167,8 @@ mod tests {
 
     #[test]
     fn messages_come_back_as_they_were() {
-        let answer = Answer { samples: vec![(1, u64::MAX, vec![i64::MIN, 3])], ..Answer::default() };
+        let sample = Sample { sampler: 1, step: u64::MAX, sums: vec![i64::MIN, 3] };
+        let answer = Answer { samples: vec![sample], ..Answer::default() };
         let contents = vec![vec![0, u32::from(b'\n'), u32::MAX], Vec::new(), vec![7]];
         let bytes = written(&answer, &contents).unwrap();
         assert_eq!(read::<Answer>(&bytes).unwrap(), (answer, contents));

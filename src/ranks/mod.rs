@@ -14,7 +14,6 @@ mod team;
 pub mod threads;
 
 pub use member::{decline, serve};
-pub use message::Introduction;
 pub(crate) use team::remedy;
 pub use team::{Team, computes_alike, sharing, sharing_anywhere};
 

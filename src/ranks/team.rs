@@ -2,14 +2,13 @@
 
 use super::Channel;
 use super::member::{Portions, execute};
-use super::message::{Answer, Command, Contents, Introduction, Problem, join, read, written};
+use super::message::{Answer, Command, Contents, Problem, join, read, written};
 use crate::engine::{Engine, EngineError, RankReport, Sample, Sampling, Shown, Stepper, Traffic, no_part};
 use crate::plan::{PARTICLE_WORDS, Places, Plan, Sampler};
 use crate::shaders::Array;
 use crate::state::{Reported, State};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::time::Duration;
 
 /// Words of a particle.
 const WORDS: usize = PARTICLE_WORDS as usize;
@@ -97,7 +96,7 @@ impl<'a> Team<'a> {
     /// [`EngineError`] of the first rank that has one, or [`EngineError::Ranks`] with all ranks if they do not compute alike.
     pub fn new(
         engine: Engine<'a>,
-        introduction: Introduction,
+        introduction: RankReport,
         channel: Box<dyn Channel + 'a>,
         state: &State,
         mixed: bool,
@@ -113,7 +112,9 @@ impl<'a> Team<'a> {
             measured: None,
             portions: Portions::default(),
         };
-        team.introduce(0, introduction);
+        if let Some(first) = team.ranks.first_mut() {
+            *first = introduction;
+        }
         // The others wait for their first command; where all share an adapter, each would compile the same kernels at the same time.
         team.engine.compile()?;
         team.upload(state)?;
@@ -187,13 +188,6 @@ impl<'a> Team<'a> {
         self.ranks.iter().map(|rank| rank.traffic).collect()
     }
 
-    fn introduce(&mut self, rank: usize, introduction: Introduction) {
-        let Introduction { host, adapter, adapters, arithmetic } = introduction;
-        if let Some(known) = self.ranks.get_mut(rank) {
-            *known = RankReport { host, adapter, adapters, arithmetic, traffic: known.traffic };
-        }
-    }
-
     /// Lets all ranks do something; what they give together.
     fn tell(&mut self, command: Command, contents: &[Vec<u32>]) -> Result<Contents, EngineError> {
         let lost = |reason| EngineError::Ranks { reason };
@@ -255,15 +249,11 @@ impl<'a> Team<'a> {
 
     /// Adds the sums of a rank to those of the others.
     fn add(&mut self, rank: usize, answer: Answer) {
-        let [exchanges, bytes, copies, times @ ..] = answer.exchanged;
-        let [waiting, computing, exchanging] = times.map(Duration::from_nanos);
         if let Some(known) = self.ranks.get_mut(rank) {
-            known.traffic = Traffic { exchanges, bytes, copies, waiting, computing, exchanging };
+            let introduction = answer.introduction.unwrap_or_else(|| std::mem::take(known));
+            *known = RankReport { traffic: answer.traffic, ..introduction };
         }
-        if let Some(introduction) = answer.introduction {
-            self.introduce(rank, introduction);
-        }
-        for (sampler, step, sums) in answer.samples {
+        for Sample { sampler, step, sums } in answer.samples {
             let (added, total) = self.incomplete.entry((step, sampler)).or_insert_with(|| (0, vec![0; sums.len()]));
             *added += 1;
             // What every rank finds whole is that of the first.
@@ -325,7 +315,7 @@ impl<'a> Team<'a> {
     /// A sample of the particles of a report.
     fn sample(&mut self, sampling: Sampling) -> Result<Shown, EngineError> {
         let numbers = sampling.numbers(self.engine.plan().particles);
-        let state = self.joined(Command::Show { sample: sampling.word() }, true, Some(&numbers))?;
+        let state = self.joined(Command::Show { sample: sampling }, true, Some(&numbers))?;
         let Reported { step, positions, momenta, species, .. } = state.into();
         let state = Reported { step, positions, momenta, species, ..Reported::default() };
         Ok(Shown { state, numbers: Some(numbers) })

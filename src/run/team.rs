@@ -3,11 +3,11 @@
 use super::RunError;
 use super::adapter::{open_adapter, plan_for};
 use super::division::fits;
-use crate::engine::{Engine, EngineError, Swap};
+use crate::engine::{Engine, EngineError, RankReport, Swap, Traffic};
 use crate::families::{Model, initial_state};
 use crate::gpu::{AdapterChoice, Gpu, adapters_by_turns};
-use crate::plan::{Division, Hardware, Options, Part, Plan};
-use crate::ranks::{Channel, Introduction, Processes, Team, decline, serve, threads};
+use crate::plan::{Division, Hardware, Options, Part};
+use crate::ranks::{Channel, Processes, Team, decline, serve, threads};
 use crate::scene::{self, FileStart, KeptStart, Scene};
 use crate::state::State;
 use serde::{Deserialize, Serialize};
@@ -52,7 +52,10 @@ pub fn team<'a>(
     state: &State,
 ) -> Result<Team<'a>, RunError> {
     let part = |rank| Options { part: Some(Part { division, rank }), ..options };
-    check_widths(model, &plan_for(scene, model, gpu, part(0)))?;
+    // Parts have to be wide enough for what their ranks have to know of each other.
+    if !plan_for(scene, model, gpu, part(0)).part.as_ref().is_some_and(|part| fits(model, part)) {
+        return Err(RunError::Undividable { reasons: vec!["its parts are too thin for this scene".to_owned()] });
+    }
     let mut links = threads::links(division.ranks()).into_iter();
     let Some(mut first) = links.next() else {
         return Err(EngineError::Ranks { reason: "a run needs at least one rank".to_owned() }.into());
@@ -70,14 +73,6 @@ pub fn team<'a>(
     first.channel.keep(threads);
     let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, part(0)), Box::new(first.peers))?;
     Ok(Team::new(engine, introduction(gpu, scene, choice)?, Box::new(first.channel), state, mixed)?)
-}
-
-/// Refuses parts that are too thin for what their ranks have to know of each other.
-fn check_widths(model: &Model, plan: &Plan) -> Result<(), RunError> {
-    if plan.part.as_ref().is_some_and(|part| fits(model, part)) {
-        return Ok(());
-    }
-    Err(RunError::Undividable { reasons: vec!["its parts are too thin for this scene".to_owned()] })
 }
 
 /// Opens this rank's adapter and does what the first rank tells.
@@ -151,12 +146,13 @@ fn checksum(gpu: &Gpu, small: &Scene) -> Result<u32, RunError> {
 }
 
 /// This rank, with what its adapter makes of a small scene.
-fn introduction(gpu: &Gpu, scene: &Scene, choice: &AdapterChoice) -> Result<Introduction, RunError> {
+fn introduction(gpu: &Gpu, scene: &Scene, choice: &AdapterChoice) -> Result<RankReport, RunError> {
     let adapter = gpu.description();
     let host = std::fs::read_to_string("/proc/sys/kernel/hostname").map(|name| name.trim().to_owned());
     let host = host.or_else(|_| std::env::var("COMPUTERNAME")).unwrap_or_else(|_| "this machine".to_owned());
     let adapter = format!("{} ({})", adapter.name, adapter.driver);
-    Ok(Introduction { host, adapter, adapters: adapters_by_turns(choice), arithmetic: arithmetic(gpu, scene)? })
+    let (adapters, arithmetic) = (adapters_by_turns(choice), arithmetic(gpu, scene)?);
+    Ok(RankReport { host, adapter, adapters, arithmetic, traffic: Traffic::default() })
 }
 
 /// What the first process tells the others before they become ranks.

@@ -4,12 +4,12 @@ use std::cell::RefCell;
 use std::path::PathBuf;
 use std::thread;
 
-use mesoscope::engine::{Engine, EngineError, Stepper as _, Swap};
+use mesoscope::engine::{Engine, EngineError, RankReport, Stepper as _, Swap};
 use mesoscope::gpu::adapters_by_turns;
 use mesoscope::output::{Summary, files};
 use mesoscope::plan::{Division, Options, Part};
 use mesoscope::ranks::threads::{self, Links, Peers, Threads};
-use mesoscope::ranks::{Channel, Introduction, Processes, Team, computes_alike, serve, sharing};
+use mesoscope::ranks::{Channel, Processes, Team, computes_alike, serve, sharing};
 use mesoscope::run::{self, Event, Outcome, RunError, Simulation};
 use mesoscope::scene::Scene;
 use tempfile::TempDir;
@@ -235,8 +235,13 @@ fn team(arithmetic: u32, mixed: bool, panics: bool) -> Result<Team<'static>, Eng
         let plan = run::plan(&start(&scene).0, 0, &scene.output, hardware(), options);
         Engine::of_part(gpu(), plan, Box::new(peers)).unwrap()
     };
-    let introduction =
-        |arithmetic| Introduction { host: "here".to_owned(), adapter: "some".to_owned(), adapters: 1, arithmetic };
+    let introduction = |arithmetic| RankReport {
+        host: "here".to_owned(),
+        adapter: "some".to_owned(),
+        adapters: 1,
+        arithmetic,
+        ..RankReport::default()
+    };
     let mut links = threads::links(2).into_iter();
     let (first, second) = (links.next().unwrap(), links.next().unwrap());
     let first_engine = engine(0, first.peers);
