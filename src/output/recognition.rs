@@ -12,12 +12,7 @@ impl RunDirectory {
     /// [`OutputError::OtherRun`] names the first such file, [`OutputError::Io`] one that is no regular file of the directory, or means
     /// that the directory cannot be listed.
     pub fn check_run(&self, run: Id, reference: &'static str) -> Result<(), OutputError> {
-        for name in self.names(files::is_of_a_run)? {
-            let path = self.file(&name);
-            own_file::check(&path).map_err(OutputError::io("use", &path))?;
-            run.check(&path, id_in(&name, &path), reference)?;
-        }
-        Ok(())
+        self.check_ids(run, reference, files::is_of_a_run, id_in)
     }
 
     /// The same for the pictures of a sweep.
@@ -27,10 +22,20 @@ impl RunDirectory {
         reference: &'static str,
         is_picture: impl Fn(&str) -> bool,
     ) -> Result<(), OutputError> {
-        for name in self.names(is_picture)? {
+        self.check_ids(sweep, reference, is_picture, |_, path| picture::id_of(path))
+    }
+
+    fn check_ids(
+        &self,
+        id: Id,
+        reference: &'static str,
+        kind: impl Fn(&str) -> bool,
+        id_in: impl Fn(&str, &Path) -> Option<Id>,
+    ) -> Result<(), OutputError> {
+        for name in self.names(kind)? {
             let path = self.file(&name);
             own_file::check(&path).map_err(OutputError::io("use", &path))?;
-            sweep.check(&path, picture::id_of(&path), reference)?;
+            id.check(&path, id_in(&name, &path), reference)?;
         }
         Ok(())
     }

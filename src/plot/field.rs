@@ -189,14 +189,12 @@ impl Layout<'_> {
         self.x_axis(&place);
         self.y_axis(&place);
         self.colour_bar(&place);
-        let widest = headings.iter().map(|heading| self.heading_width(heading)).fold(0.0, f64::max);
+        let setter = &self.canvas.typesetter;
+        let widths = headings.iter().map(|Heading { text, style }| setter.width(text, style.weight, style.size));
+        let widest = widths.fold(0.0, f64::max);
         let left = place.left.min(f64::from(self.canvas.width) - margin - widest).max(margin);
         self.canvas.write_headings(&headings, [left, place.top]);
         place
-    }
-
-    fn heading_width(&self, heading: &Heading) -> f64 {
-        self.canvas.typesetter.width(&heading.text, heading.style.weight, heading.style.size)
     }
 
     fn headings(&self, margin: f64) -> Vec<Heading> {

@@ -1,7 +1,7 @@
 //! A run under way: from one event to the next, and its files.
 
 use super::analyses::{Analyses, needs};
-use super::conservation::{conserved, not_conserved, warning_of_mixed_ranks};
+use super::conservation::{conserved, not_conserved};
 use super::energies::{self, EnergyRecorder};
 use super::kept_sums::{KeptSums, Sharing};
 use super::pace::Pace;
@@ -293,11 +293,6 @@ impl<'a> Run<'a> {
             remaining: Duration::try_from_secs_f64(left).ok(),
             temperature: self.energies.temperature(),
         }
-    }
-
-    /// What has to be known of the ranks that share it, if they compute differently.
-    pub(super) fn warning_of_ranks(&self) -> Option<String> {
-        self.kept_sums.is_mixed().then(|| warning_of_mixed_ranks(self.model))
     }
 
     /// Writes tables, summary and plots; `engine` has come to the end.

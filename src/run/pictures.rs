@@ -18,7 +18,7 @@ use crate::plot::{
     ShownValues, averages_note, energetic_cells_chart, energies_chart, mesh_energies_chart, missing_glyphs,
     snapshot_size,
 };
-use crate::scene::{self, AnalysisId, AnalysisTable, Scene, Snapshot, SnapshotColor};
+use crate::scene::{self, AnalysisTable, Scene, Snapshot, SnapshotColor};
 use crate::shaders::Array;
 use crate::state::{Reported, crossings};
 use crate::table::Table;
@@ -54,11 +54,7 @@ pub fn redraw(
     let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
     pictures.energies(&table, &model, &summary)?;
     let mut written = vec![files::ENERGIES_PLOT];
-    for (id, place, names) in analyses::tables() {
-        if directory.file(names.file).exists() && pictures.analysis(id, place, &summary)? {
-            written.push(names.plot);
-        }
-    }
+    written.extend(pictures.analyses(&summary, &|| Ok(()))?);
     let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default().with_room(model.particle_count()));
     let mut engine = Engine::new(&gpu, plan, &checkpoint.state)?;
     if model.picture() == PictureKind::Fields {
@@ -176,40 +172,37 @@ impl<'a> Pictures<'a> {
         self.chart(files::ENERGIES_PLOT, &chart)
     }
 
-    /// Draws the plots of all analyses whose tables are there, with the results of a summary; `proceed` says before each
-    /// whether to.
+    /// Draws the plots of all analyses whose tables are there and not empty, with the results of a summary, and returns their names;
+    /// `proceed` says before each whether to.
     pub(super) fn analyses(
         &mut self,
         summary: &Summary,
         proceed: &dyn Fn() -> Result<(), RunError>,
-    ) -> Result<(), RunError> {
-        for (id, place, names) in analyses::tables() {
+    ) -> Result<Vec<&'static str>, RunError> {
+        let mut drawn = Vec::new();
+        for (id, place, AnalysisTable { file, plot }) in analyses::tables() {
             proceed()?;
-            if self.directory.file(names.file).exists() {
-                self.analysis(id, place, summary)?;
+            let path = self.directory.file(file);
+            if !path.exists() {
+                continue;
             }
+            let table = read_table(&path)?;
+            if table.rows.is_empty() {
+                continue;
+            }
+            let chart = analyses::chart(id, place, &table, self.scene, &summary.results);
+            // Nothing, if its columns are not those that the run wrote.
+            if chart.panels.iter().flat_map(|panel| &panel.series).all(|series| series.points.is_empty()) {
+                let problem = format!(
+                    "found the columns `{}`, none of which the run wrote; restore the file, or run the scene again with --force",
+                    table.columns.join(",")
+                );
+                return Err(OutputError::Line { path, line: 1, problem }.into());
+            }
+            self.chart(plot, &chart)?;
+            drawn.push(plot);
         }
-        Ok(())
-    }
-
-    /// Draws the plot of one table; returns false when there is nothing in it.
-    fn analysis(&mut self, id: AnalysisId, place: usize, summary: &Summary) -> Result<bool, RunError> {
-        let AnalysisTable { file, plot } = id.tables()[place];
-        let table = read_table(&self.directory.file(file))?;
-        if table.rows.is_empty() {
-            return Ok(false);
-        }
-        let chart = analyses::chart(id, place, &table, self.scene, &summary.results);
-        // Nothing, if its columns are not those that the run wrote.
-        if chart.panels.iter().flat_map(|panel| &panel.series).all(|series| series.points.is_empty()) {
-            let problem = format!(
-                "found the columns `{}`, none of which the run wrote; restore the file, or run the scene again with --force",
-                table.columns.join(",")
-            );
-            return Err(OutputError::Line { path: self.directory.file(file), line: 1, problem }.into());
-        }
-        self.chart(plot, &chart)?;
-        Ok(true)
+        Ok(drawn)
     }
 
     pub(super) fn snapshot(&mut self, name: &str, shown: &Shown, model: &Model) -> Result<(), RunError> {

@@ -334,7 +334,7 @@ fn attempt(
     observer(Event::Finishing);
     let mut warnings = task.notices.clone();
     warnings.extend(task.model.warnings(&task.scene).iter().map(ToString::to_string));
-    warnings.extend(run.warning_of_ranks());
+    warnings.extend(run.kept_sums.is_mixed().then(|| warning_of_mixed_ranks(&task.model)));
     warnings.extend(run.kept_sums.warning());
     warnings.extend(pictures::lettering(&task.scene));
     let saved_step = run.saved_step;

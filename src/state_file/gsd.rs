@@ -21,16 +21,14 @@ struct Gsd {
     chunks: HashMap<(bool, String), Chunk>,
 }
 
-fn cut_short() -> Mistakes {
-    Mistake::new("", "it was cut short, or is damaged: parts of it should lie beyond its end", "a whole GSD file")
-        .into()
-}
-
 impl From<GsdError> for Mistakes {
     fn from(error: GsdError) -> Self {
         match error {
             GsdError::Io(error) => error.into(),
-            GsdError::Cut => cut_short(),
+            GsdError::Cut => {
+                let found = "it was cut short, or is damaged: parts of it should lie beyond its end";
+                Mistake::new("", found, "a whole GSD file").into()
+            }
             GsdError::Version(version) => {
                 let found = format!("found version {version} of the file layer of GSD");
                 Mistake::new("", found, "versions 1 and 2").into()

@@ -338,22 +338,10 @@ impl ParticleFile {
         self.numbers.get(particle).copied().unwrap_or(particle as u64)
     }
 
-    /// What is wrong with the particles in a box of so many dimensions, but for their velocities: axes beyond are not looked at.
+    /// What is wrong with the particles in a box of so many dimensions, but for their velocities: axes beyond are not looked at. Across some axes
+    /// there are walls, along which nothing is periodic; where positions are wrapped, along the others they may be anywhere.
     #[must_use]
-    pub fn mistakes(&self, dimension: usize, lengths: [f64; 3]) -> Vec<Mistake> {
-        self.mistakes_between(dimension, lengths, [false; 3], false)
-    }
-
-    /// The same in a box with walls across some axes, along which nothing is periodic; where positions are wrapped, along the others they may be
-    /// anywhere.
-    #[must_use]
-    pub fn mistakes_between(
-        &self,
-        dimension: usize,
-        lengths: [f64; 3],
-        walled: [bool; 3],
-        wraps: bool,
-    ) -> Vec<Mistake> {
+    pub fn mistakes(&self, dimension: usize, lengths: [f64; 3], walled: [bool; 3], wraps: bool) -> Vec<Mistake> {
         let mut mistakes = Mistakes::default();
         let mut nowhere = Tally::default();
         let mut outside = Tally::default();
@@ -559,7 +547,8 @@ mod tests {
             bonds: vec![Links { name: "b".to_owned(), members: vec![[0, 1], [1, 0], [2, 2], [3, 4]] }],
             ..ParticleFile::default()
         };
-        let found: Vec<String> = file.mistakes(2, [4.0, 5.0, 1.0]).into_iter().map(|mistake| mistake.found).collect();
+        let found: Vec<String> =
+            file.mistakes(2, [4.0, 5.0, 1.0], [false; 3], false).into_iter().map(|mistake| mistake.found).collect();
         assert_eq!(
             found,
             [
@@ -576,7 +565,7 @@ mod tests {
         // The third axis counts in three dimensions.
         file.positions.truncate(2);
         assert_eq!(
-            file.mistakes(3, [4.0, 5.0, 1.0])[0].found,
+            file.mistakes(3, [4.0, 5.0, 1.0], [false; 3], false)[0].found,
             "found particles 0 at (0, 1, 9), 1 at (4, 5, 9) outside the box"
         );
     }

@@ -125,7 +125,8 @@ impl Frames for GsdTrajectory {
                 write_constants(frame, description, state)?;
             }
             if first || description.changing_masses {
-                write_masses(frame, description, state)?;
+                let masses = (0..state.len()).map(|particle| description.mass(state, particle) as f32);
+                frame.scalars("particles/mass", masses)?;
             }
             frame.scalars("configuration/step", [state.step])?;
             frame.scalars("log/time", [state.step as f64 * description.time_step])?;
@@ -214,11 +215,6 @@ const HASHED: usize = 1 << 14;
 fn begin_array(checksum: &mut Checksum, name: &str, rows: u64) {
     checksum.add(name.as_bytes());
     checksum.add(&rows.to_le_bytes());
-}
-
-fn write_masses(frame: &mut Frame, description: &Description, state: &Reported) -> io::Result<()> {
-    let masses = (0..state.len()).map(|particle| description.mass(state, particle) as f32);
-    frame.scalars("particles/mass", masses)
 }
 
 /// The box of a frame: its edges, and the tilts xy, xz and yz.

@@ -250,7 +250,7 @@ impl Reader<'_> {
         let sheared = scene.space.shear.as_ref();
         let sheared = sheared.map(|shear| (shear.gradient as usize, shear.first_shift(&scene.space.lengths)));
         let wraps = self.state.outside == OutsidePositions::Wrap;
-        refuse(self.state, self.file.mistakes_between(dimension, lengths, walled, wraps), &mut self.problems);
+        refuse(self.state, self.file.mistakes(dimension, lengths, walled, wraps), &mut self.problems);
         if self.state.velocities == StateVelocities::File {
             refuse(self.state, self.file.mistakes_of_velocities(dimension), &mut self.problems);
         }
