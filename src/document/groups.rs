@@ -1,5 +1,6 @@
 //! Groups of particles: how many, where they start and how fast.
 
+use super::defaults::{is_zero, one};
 use super::{Axis, Space};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -62,10 +63,6 @@ impl fmt::Display for FileType {
             Self::Name(name) => name.fmt(formatter),
         }
     }
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 /// Chains of particles with consecutive numbers; `bonds` and `angles` act along them.
@@ -152,11 +149,6 @@ impl Placement {
     }
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
-}
-
 /// The velocities of the particles of a group at the start.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
@@ -189,7 +181,32 @@ fn one_period() -> u32 {
     1
 }
 
+impl Chain {
+    /// Numbers of links of so many neighbours along one chain. A closed one goes on from its last particle to its first, if it is long
+    /// enough that no particle is its own neighbour and no link is met twice.
+    pub(crate) fn links(&self, length: u64) -> u64 {
+        let beads = u64::from(self.beads.max(1));
+        if self.closed && beads > 2 { beads } else { beads.saturating_sub(length - 1) }
+    }
+}
+
+/// A group with the numbers of its particles.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct NumberedGroup<'a> {
+    /// The group.
+    pub group: &'a ParticleGroup,
+    /// The number of its first particle; the others follow.
+    pub first: u64,
+    /// How many they are.
+    pub count: u64,
+}
+
 impl ParticleGroup {
+    /// Whether its species is among those that are named, or none are.
+    pub(crate) fn is_among(&self, species: Option<&[String]>) -> bool {
+        species.is_none_or(|names| names.contains(&self.species))
+    }
+
     /// Whether the particles make up a layer behind walls, and never move against them.
     #[must_use]
     pub fn is_frozen(&self) -> bool {

@@ -1,5 +1,6 @@
 //! How the equations of motion are integrated.
 
+use super::defaults::half;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -71,8 +72,4 @@ pub enum PairRelaxation {
     /// The same in two stages with the same Gaussian noise, which leave the temperature, and the friction of a flow up to one that relaxes
     /// most of a velocity in a step: two visits of the pairs. Diffusion is a few per cent too slow.
     TwoStages,
-}
-
-fn half() -> f64 {
-    0.5
 }

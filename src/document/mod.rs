@@ -3,12 +3,14 @@
 //! Families check such scenes and make models of them; [`crate::scene`] reads one from a file, with all of that.
 
 mod bath;
+mod defaults;
 mod error;
 mod file_start;
 mod files;
 mod groups;
 mod integrator;
 mod interaction;
+mod links;
 mod molecules;
 mod nearest;
 mod output;
@@ -30,9 +32,11 @@ pub(crate) use error::did_you_mean;
 pub use error::{Problem, SceneError, Warning};
 pub use file_start::{EarlierRun, FileLinks, FilePlaces, FileStart, KeptStart, Origin, Surroundings};
 pub use files::{Checkpoint, Energies, Trajectory, TrajectoryFormat};
+pub(crate) use groups::NumberedGroup;
 pub use groups::{Chain, FileType, ParticleGroup, Placement, Velocities, WallSide};
 pub use integrator::{Integrator, PairRelaxation};
 pub use interaction::Interaction;
+pub(crate) use links::{LinkSource, Links};
 pub use molecules::Molecule;
 pub(crate) use nearest::nearest;
 pub use output::*;
@@ -43,7 +47,7 @@ pub use quantities::*;
 pub use scene::{Distribution, Noise, Scene, Space, Time};
 pub use shallow_water::*;
 pub use shear::Shear;
-pub(crate) use species_names::SpeciesNames;
+pub(crate) use species_names::{NumberedSpecies, SpeciesNames};
 pub(crate) use state::number_of_copies;
 pub use state::{OutsidePositions, StateFile, StateVelocities};
 pub use voronoi::*;

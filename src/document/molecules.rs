@@ -1,5 +1,6 @@
 //! Molecules: beads of any species that are bonded together.
 
+use super::defaults::one;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
@@ -36,10 +37,6 @@ pub struct Molecule {
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub spacing: f64,
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 impl Molecule {

@@ -85,6 +85,24 @@ impl Output {
         let counted = self.histograms.iter().map(|asked| AnalysisId::Histogram(asked.quantity));
         asked.chain(correlated).chain(counted).collect()
     }
+
+    /// The parts of a scene that ask for the stress.
+    pub(crate) fn asks_for_stress(&self) -> impl Iterator<Item = &'static str> {
+        let profile = self.profiles.as_ref().is_some_and(|asked| asked.quantities.contains(&ProfiledQuantity::Stress));
+        let asked = [("output.stress", self.stress.is_some()), ("output.profiles.quantities", profile)];
+        asked.into_iter().filter(|(_, asked)| *asked).map(|(path, _)| path)
+    }
+
+    /// Frames of velocities that analyses name, with the places of these in the scene and their quantities.
+    pub(crate) fn frames(&self) -> impl Iterator<Item = (String, &'static str, Frame)> {
+        let correlated = self.autocorrelations.iter().enumerate().filter_map(|(index, asked)| {
+            Some((format!("output.autocorrelations[{index}]"), asked.quantity.name(), asked.frame?))
+        });
+        let counted = self.histograms.iter().enumerate().filter_map(|(index, asked)| {
+            Some((format!("output.histograms[{index}]"), asked.quantity.name(), asked.frame?))
+        });
+        correlated.chain(counted)
+    }
 }
 
 /// The radial distribution function g(r).
@@ -202,15 +220,6 @@ pub struct Stress {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 2, max = 100_000))]
     pub window: Option<u64>,
-}
-
-impl Output {
-    /// The parts of a scene that ask for the stress.
-    pub(crate) fn asks_for_stress(&self) -> impl Iterator<Item = &'static str> {
-        let profile = self.profiles.as_ref().is_some_and(|asked| asked.quantities.contains(&ProfiledQuantity::Stress));
-        let asked = [("output.stress", self.stress.is_some()), ("output.profiles.quantities", profile)];
-        asked.into_iter().filter(|(_, asked)| *asked).map(|(path, _)| path)
-    }
 }
 
 /// Averages over the particles in bins of equal width along an axis of the box, and over time.

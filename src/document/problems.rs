@@ -1,6 +1,7 @@
 //! The mistakes of a scene.
 
 use super::error::Problem;
+use std::fmt::Display;
 
 /// The most mistakes that are kept; further ones are counted.
 const MOST: usize = 250;
@@ -18,6 +19,20 @@ impl Problems {
             self.unlisted += 1;
         } else {
             self.listed.push(problem);
+        }
+    }
+
+    /// Adds a mistake: the value found at a path, and what is accepted there. No text is made of what is only counted.
+    pub fn refuse(&mut self, path: impl Display, found: impl Display, accepted: impl Display) {
+        self.add(path, format_args!("found {found}"), accepted);
+    }
+
+    /// Adds a mistake that is another than a value in its place, as a phrase.
+    pub fn add(&mut self, path: impl Display, phrase: impl Display, accepted: impl Display) {
+        if self.is_full() {
+            self.unlisted += 1;
+        } else {
+            self.listed.push(Problem::new(path, phrase.to_string(), accepted.to_string()));
         }
     }
 

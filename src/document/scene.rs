@@ -1,8 +1,8 @@
 //! The scene as a whole: box, clock, noise.
 
 use super::{
-    DpdInteraction, EarlierRun, FileLinks, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, Origin,
-    Output, ParticleGroup, Shear, StateFile, StateVelocities, Walls,
+    DpdInteraction, EarlierRun, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, NumberedGroup,
+    Origin, Output, ParticleGroup, Shear, StateFile, StateVelocities, Walls,
 };
 use crate::noise::seed_from_state;
 use schemars::JsonSchema;
@@ -154,21 +154,14 @@ impl Scene {
         }
     }
 
-    /// The bonds of a file of those types, of all where none are named, in the order of the file.
-    pub(crate) fn file_bonds(&self, types: Option<&[String]>) -> impl Iterator<Item = &Arc<FileLinks<2>>> {
-        let asked = move |links: &&Arc<FileLinks<2>>| types.is_none_or(|types| types.contains(&links.name));
-        self.start().into_iter().flat_map(|start| &start.bonds).filter(asked)
-    }
-
-    /// The angles of a file, likewise.
-    pub(crate) fn file_angles(&self, types: Option<&[String]>) -> impl Iterator<Item = &Arc<FileLinks<3>>> {
-        let asked = move |links: &&Arc<FileLinks<3>>| types.is_none_or(|types| types.contains(&links.name));
-        self.start().into_iter().flat_map(|start| &start.angles).filter(asked)
-    }
-
-    /// Whether bonds and angles that name nothing are those of a file: where it has them, and groups have no chains.
-    pub(crate) fn links_are_from_file(&self, types: Option<&[String]>) -> bool {
-        self.has_start() && (types.is_some() || self.particles.iter().all(|group| group.chain.is_none()))
+    /// Its groups with the numbers of their particles.
+    pub(crate) fn numbered_groups(&self) -> impl Iterator<Item = NumberedGroup<'_>> {
+        let mut next = 0_u64;
+        self.particles.iter().map(move |group| {
+            let (first, count) = (next, group.resolved_count(&self.space));
+            next = first.saturating_add(count);
+            NumberedGroup { group, first, count }
+        })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Boundaries that shear what is in the box.
 
 use super::Axis;
+use super::defaults::is_zero;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -35,11 +36,6 @@ impl Shear {
         let boxes = (self.displacement / edges.first().copied().unwrap_or(1.0)).fract();
         (boxes * 4_294_967_296.0).round_ties_even() as i64 as u32
     }
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 fn along_x() -> Axis {

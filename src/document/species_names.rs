@@ -2,8 +2,9 @@
 
 use super::error::named;
 use super::nearest::nearest;
-use super::{Problem, Problems, Scene};
+use super::{FileStart, NumberedGroup, Problem, Problems, Scene};
 use std::collections::HashSet;
+use std::sync::Arc;
 
 /// The species of a scene by name.
 pub(crate) struct SpeciesNames<'a> {
@@ -35,14 +36,15 @@ impl<'a> SpeciesNames<'a> {
         &self.names
     }
 
+    /// All names, for a scene that is going to change.
+    pub fn to_owned(&self) -> Vec<String> {
+        self.names.iter().map(|name| (*name).to_owned()).collect()
+    }
+
     /// A name has to be that of the species of some group.
     pub fn check(&self, name: &str, path: &str, problems: &mut Problems) -> bool {
         if self.known.contains(name) {
             return true;
-        }
-        if problems.is_full() {
-            problems.push(Problem::unread());
-            return false;
         }
         // One without a name is a mistake of its own.
         let names = || self.names.iter().copied().filter(|name| !name.is_empty());
@@ -53,5 +55,42 @@ impl<'a> SpeciesNames<'a> {
         let problem = Problem::new(path, format!("found \"{name}\""), accepted);
         problems.push(problem.suggest(nearest(name, names())));
         false
+    }
+}
+
+/// The species of particles by their numbers, as places of their names.
+pub(crate) struct NumberedSpecies<'a> {
+    /// The first number after those of a group, and the species of the group.
+    ends: Vec<(u64, usize)>,
+    /// The file that says so in their place.
+    start: Option<&'a FileStart>,
+}
+
+impl<'a> NumberedSpecies<'a> {
+    pub fn new(scene: &'a Scene) -> Self {
+        let names = SpeciesNames::of(scene);
+        let end = |numbered: NumberedGroup<'_>| {
+            (numbered.first.saturating_add(numbered.count), names.place(&numbered.group.species).unwrap_or(0))
+        };
+        Self { ends: scene.numbered_groups().map(end).collect(), start: scene.start().map(Arc::as_ref) }
+    }
+
+    /// The same with further species, whose particles follow: so many of each.
+    pub fn with(mut self, counts: impl Iterator<Item = u64>) -> Self {
+        let mut end = self.ends.last().map_or(0, |(end, _)| *end);
+        self.ends.extend(counts.enumerate().map(|(species, count)| {
+            end = end.saturating_add(count);
+            (end, species)
+        }));
+        self
+    }
+
+    /// The species of a particle, if there is one.
+    pub fn of(&self, particle: u32) -> Option<usize> {
+        if let Some(start) = self.start {
+            return start.species_of(particle);
+        }
+        let group = self.ends.partition_point(|(end, _)| *end <= u64::from(particle));
+        self.ends.get(group).map(|(_, species)| *species)
     }
 }

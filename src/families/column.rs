@@ -7,13 +7,41 @@ use super::Observables;
 pub struct Column {
     /// Its name.
     pub name: &'static str,
+    value: Value,
+}
+
+/// The value of a column in a row.
+#[derive(Debug, Clone, Copy)]
+enum Value {
+    /// A number, given the time step.
+    Number(fn(&Observables, f64) -> f64),
+    /// A component of a vector.
+    Component(fn(&Observables) -> [f64; 3], usize),
+    /// A component of the momentum that a wall has taken up.
+    OnWall(usize, usize),
+}
+
+impl Column {
     /// Its value in a row, given the time step.
-    pub value: fn(&Observables, f64) -> f64,
+    #[must_use]
+    pub fn value(&self, row: &Observables, time_step: f64) -> f64 {
+        match self.value {
+            Value::Number(number) => number(row, time_step),
+            Value::Component(vector, axis) => vector(row)[axis],
+            Value::OnWall(wall, axis) => row.on_walls.momentum[wall][axis],
+        }
+    }
 }
 
 /// A column.
-pub(crate) const fn column(name: &'static str, value: fn(&Observables, f64) -> f64) -> Column {
-    Column { name, value }
+pub(crate) const fn column(name: &'static str, number: fn(&Observables, f64) -> f64) -> Column {
+    Column { name, value: Value::Number(number) }
+}
+
+/// The components of a vector, of those names.
+fn components(names: [&'static str; 3], dimension: usize, vector: fn(&Observables) -> [f64; 3]) -> Vec<Column> {
+    let component = |(axis, name): (usize, &&'static str)| Column { name, value: Value::Component(vector, axis) };
+    names.iter().enumerate().take(dimension).map(component).collect()
 }
 
 /// Time.
@@ -50,73 +78,36 @@ pub(crate) const CONSERVATIVE_PRESSURE: Column = column("pressure_conservative",
 pub(crate) const LIMITED_EXCHANGES: &str = "limited_exchanges";
 
 /// Components of the total momentum.
-const MOMENTUM: [Column; 3] = [
-    column("momentum_x", |row, _| row.momentum[0]),
-    column("momentum_y", |row, _| row.momentum[1]),
-    column("momentum_z", |row, _| row.momentum[2]),
-];
+const MOMENTUM: [&str; 3] = ["momentum_x", "momentum_y", "momentum_z"];
+
 /// The axis of which a column of this name is the component of the total momentum.
 pub(crate) fn axis_of_momentum(name: &str) -> Option<usize> {
-    MOMENTUM.iter().position(|column| column.name == name)
+    MOMENTUM.iter().position(|component| *component == name)
 }
-
-/// Components of the velocity of the centre of mass.
-const CENTRE_OF_MASS: [Column; 3] = [
-    column("center_of_mass_velocity_x", |row, _| row.centre_of_mass_velocity()[0]),
-    column("center_of_mass_velocity_y", |row, _| row.centre_of_mass_velocity()[1]),
-    column("center_of_mass_velocity_z", |row, _| row.centre_of_mass_velocity()[2]),
-];
 
 /// Total momentum and velocity of the centre of mass.
-pub(crate) fn motion(dimension: usize) -> impl Iterator<Item = Column> {
-    MOMENTUM.into_iter().take(dimension).chain(CENTRE_OF_MASS.into_iter().take(dimension))
+pub(crate) fn motion(dimension: usize) -> Vec<Column> {
+    const CENTRE_OF_MASS: [&str; 3] =
+        ["center_of_mass_velocity_x", "center_of_mass_velocity_y", "center_of_mass_velocity_z"];
+    let momentum = components(MOMENTUM, dimension, |row| row.momentum);
+    [momentum, components(CENTRE_OF_MASS, dimension, Observables::centre_of_mass_velocity)].concat()
 }
 
-/// Momentum that body forces have put in.
-const MOMENTUM_PUT_IN: [Column; 3] = [
-    column("body_force_momentum_x", |row, _| row.put_in.momentum[0]),
-    column("body_force_momentum_y", |row, _| row.put_in.momentum[1]),
-    column("body_force_momentum_z", |row, _| row.put_in.momentum[2]),
-];
-
 /// Momentum and work that body forces have put in.
-pub(crate) fn put_in(dimension: usize) -> impl Iterator<Item = Column> {
-    let work = column("body_force_work", |row, _| row.put_in.work);
-    MOMENTUM_PUT_IN.into_iter().take(dimension).chain([work])
+pub(crate) fn put_in(dimension: usize) -> Vec<Column> {
+    const MOMENTUM: [&str; 3] = ["body_force_momentum_x", "body_force_momentum_y", "body_force_momentum_z"];
+    let momentum = components(MOMENTUM, dimension, |row| row.put_in.momentum);
+    [momentum, vec![column("body_force_work", |row, _| row.put_in.work)]].concat()
 }
 
 /// Momentum that each wall has taken up: by the axis that it crosses, lower before upper.
-const MOMENTUM_OF_WALLS: [[Column; 3]; 6] = [
-    [
-        column("wall_x_lower_momentum_x", |row, _| row.on_walls.momentum[0][0]),
-        column("wall_x_lower_momentum_y", |row, _| row.on_walls.momentum[0][1]),
-        column("wall_x_lower_momentum_z", |row, _| row.on_walls.momentum[0][2]),
-    ],
-    [
-        column("wall_x_upper_momentum_x", |row, _| row.on_walls.momentum[1][0]),
-        column("wall_x_upper_momentum_y", |row, _| row.on_walls.momentum[1][1]),
-        column("wall_x_upper_momentum_z", |row, _| row.on_walls.momentum[1][2]),
-    ],
-    [
-        column("wall_y_lower_momentum_x", |row, _| row.on_walls.momentum[2][0]),
-        column("wall_y_lower_momentum_y", |row, _| row.on_walls.momentum[2][1]),
-        column("wall_y_lower_momentum_z", |row, _| row.on_walls.momentum[2][2]),
-    ],
-    [
-        column("wall_y_upper_momentum_x", |row, _| row.on_walls.momentum[3][0]),
-        column("wall_y_upper_momentum_y", |row, _| row.on_walls.momentum[3][1]),
-        column("wall_y_upper_momentum_z", |row, _| row.on_walls.momentum[3][2]),
-    ],
-    [
-        column("wall_z_lower_momentum_x", |row, _| row.on_walls.momentum[4][0]),
-        column("wall_z_lower_momentum_y", |row, _| row.on_walls.momentum[4][1]),
-        column("wall_z_lower_momentum_z", |row, _| row.on_walls.momentum[4][2]),
-    ],
-    [
-        column("wall_z_upper_momentum_x", |row, _| row.on_walls.momentum[5][0]),
-        column("wall_z_upper_momentum_y", |row, _| row.on_walls.momentum[5][1]),
-        column("wall_z_upper_momentum_z", |row, _| row.on_walls.momentum[5][2]),
-    ],
+const MOMENTUM_OF_WALLS: [[&str; 3]; 6] = [
+    ["wall_x_lower_momentum_x", "wall_x_lower_momentum_y", "wall_x_lower_momentum_z"],
+    ["wall_x_upper_momentum_x", "wall_x_upper_momentum_y", "wall_x_upper_momentum_z"],
+    ["wall_y_lower_momentum_x", "wall_y_lower_momentum_y", "wall_y_lower_momentum_z"],
+    ["wall_y_upper_momentum_x", "wall_y_upper_momentum_y", "wall_y_upper_momentum_z"],
+    ["wall_z_lower_momentum_x", "wall_z_lower_momentum_y", "wall_z_lower_momentum_z"],
+    ["wall_z_upper_momentum_x", "wall_z_upper_momentum_y", "wall_z_upper_momentum_z"],
 ];
 
 /// Momentum along the flow that boundaries which shear have taken from what crossed them.
@@ -127,6 +118,8 @@ pub(crate) const WALL_WORK: Column = column("wall_work", |row, _| row.on_walls.w
 
 /// Momentum that the walls across some axes have taken up.
 pub(crate) fn on_walls(axes: impl Iterator<Item = usize>, dimension: usize) -> impl Iterator<Item = Column> {
-    axes.flat_map(|axis| [2 * axis, 2 * axis + 1])
-        .flat_map(move |wall| MOMENTUM_OF_WALLS[wall].into_iter().take(dimension))
+    axes.flat_map(|axis| [2 * axis, 2 * axis + 1]).flat_map(move |wall| {
+        let names = MOMENTUM_OF_WALLS[wall].into_iter().take(dimension).enumerate();
+        names.map(move |(axis, name)| Column { name, value: Value::OnWall(wall, axis) })
+    })
 }

@@ -11,21 +11,23 @@ pub enum KeptQuantity {
     Mass,
     /// On the nodes of a mesh.
     MeshMass,
-    /// Of all particles.
-    Momentum,
-    /// Of all particles, less what body forces have put in.
-    MomentumButForForces,
-    /// Of all particles, with what walls have taken up.
-    MomentumWithWalls,
-    /// Both.
-    MomentumWithWallsButForForces,
-    /// Of all particles, with what boundaries that shear have taken from those that crossed them.
-    MomentumWithShear,
+    /// Of all particles, with or less what they exchange with something else.
+    Momentum {
+        /// With what walls have taken up.
+        walls: bool,
+        /// With what boundaries that shear have taken from those that crossed them.
+        shear: bool,
+        /// Less what body forces have put in.
+        body_forces: bool,
+    },
     /// Kinetic and internal energy together.
     Energy,
 }
 
 impl KeptQuantity {
+    /// The momentum of all particles.
+    pub const MOMENTUM: Self = Self::Momentum { walls: false, shear: false, body_forces: false };
+
     /// Whether it is kept only if both ends of a pair are computed alike, as by ranks that round alike.
     #[must_use]
     pub fn is_exchanged(self) -> bool {
@@ -34,20 +36,24 @@ impl KeptQuantity {
 
     /// Its name in a summary.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn name(self) -> String {
         match self {
-            Self::Mass => "mass",
-            Self::MeshMass => "mass on the mesh",
-            Self::Momentum => "total momentum",
-            Self::MomentumButForForces => "total momentum less what body forces have put in",
-            Self::MomentumWithWalls => "total momentum with what walls have taken up",
-            Self::MomentumWithWallsButForForces => {
-                "total momentum with what walls have taken up, less what body forces have put in"
+            Self::Mass => "mass".to_owned(),
+            Self::MeshMass => "mass on the mesh".to_owned(),
+            Self::Momentum { walls, shear, body_forces } => {
+                let taken_up = match (walls, shear) {
+                    (false, false) => "",
+                    (true, _) => " with what walls have taken up",
+                    (_, true) => " with what boundaries that shear have taken from those that crossed them",
+                };
+                let put_in = match (body_forces, walls || shear) {
+                    (false, _) => "",
+                    (true, false) => " less what body forces have put in",
+                    (true, true) => ", less what body forces have put in",
+                };
+                format!("total momentum{taken_up}{put_in}")
             }
-            Self::MomentumWithShear => {
-                "total momentum with what boundaries that shear have taken from those that crossed them"
-            }
-            Self::Energy => "total energy",
+            Self::Energy => "total energy".to_owned(),
         }
     }
 }
@@ -73,25 +79,6 @@ pub struct KeptSum {
 }
 
 impl KeptSum {
-    /// The same of a component of momentum, but for what body forces have put in: the place of that sum.
-    pub(super) fn but_for(self, place: usize) -> Self {
-        Self { quantity: KeptQuantity::MomentumButForForces, put_in: Some(place), ..self }
-    }
-
-    /// The same of a component of momentum, with what so many walls have taken up: the place of the sum of the first.
-    pub(super) fn with_walls(self, place: usize, number: usize) -> Self {
-        let quantity = match self.quantity {
-            KeptQuantity::MomentumButForForces => KeptQuantity::MomentumWithWallsButForForces,
-            _ => KeptQuantity::MomentumWithWalls,
-        };
-        Self { quantity, walls: Some((place, number)), ..self }
-    }
-
-    /// The same with what boundaries that shear have taken up in the place of walls.
-    pub(super) fn with_shear(self) -> Self {
-        Self { quantity: KeptQuantity::MomentumWithShear, ..self }
-    }
-
     /// What is kept, among the sums of a report.
     #[must_use]
     pub fn of(&self, sums: &[i64]) -> Option<i64> {
@@ -108,7 +95,7 @@ pub(super) fn momentum(state: &State, sums: &Sums, dimension: usize, unit: f64) 
     let Some(first) = sums.place(Sum::Momentum) else { return Vec::new() };
     let directions = [" along x", " along y", " along z"].into_iter().zip(state.total_momentum()).enumerate();
     let component = |(axis, (direction, total))| KeptSum {
-        quantity: KeptQuantity::Momentum,
+        quantity: KeptQuantity::MOMENTUM,
         direction,
         place: first + axis,
         unit,

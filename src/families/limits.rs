@@ -79,7 +79,7 @@ pub fn largest_steps(scene: &Scene) -> Vec<LargestStep> {
         limits(&other).iter().find(|limit| limit.law == law).map_or(0.0, |limit| limit.share)
     };
     let largest = |limit: Limit| {
-        let step = largest_step(scene.time.step, limit.share, &|step| share(limit.law, step))?;
+        let step = largest_step([scene.time.step, limit.share], 2e-4, &|step| share(limit.law, step))?;
         Some(LargestStep { law: limit.law, step, beyond: limit.beyond })
     };
     let mut found: Vec<LargestStep> = limits(scene).into_iter().filter_map(largest).collect();
@@ -87,8 +87,8 @@ pub fn largest_steps(scene: &Scene) -> Vec<LargestStep> {
     found
 }
 
-/// Where a share that grows with the step is 1, from one step; none where that is nowhere near.
-fn largest_step(step: f64, share: f64, share_of: &dyn Fn(f64) -> f64) -> Option<f64> {
+/// Where a share that grows with the step is 1, to a precision, from a step and its share; none where that is nowhere near.
+pub(super) fn largest_step([step, share]: [f64; 2], precision: f64, share_of: &dyn Fn(f64) -> f64) -> Option<f64> {
     // An interval around it; shares grow no slower than the root of the step.
     let (mut low, mut high) = (step, step);
     let mut at_low = share;
@@ -110,7 +110,7 @@ fn largest_step(step: f64, share: f64, share_of: &dyn Fn(f64) -> f64) -> Option<
     if at_low >= 1.0 || at_high < 1.0 {
         return None;
     }
-    while high > 1.0002 * low {
+    while high > (1.0 + precision) * low {
         let middle = (low * high).sqrt();
         if share_of(middle) < 1.0 { low = middle } else { high = middle }
     }

@@ -20,7 +20,7 @@ use crate::state::State;
 /// assert!((found.conservative_pressure() - density * found.kinetic_temperature()).abs() < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Observables {
     /// The step.
     pub step: u64,
@@ -138,30 +138,22 @@ pub struct CellObservables {
 }
 
 impl Observables {
-    /// Those of a state of which nothing has been added up yet.
-    pub(crate) fn zero(model: &Model, state: &State) -> Self {
+    /// Those of a step of a model of which nothing has been added up yet.
+    pub(crate) fn at(model: &Model, step: u64) -> Self {
         Self {
-            step: state.step,
-            particles: state.len() as u64,
+            step,
+            particles: model.particle_count(),
             mobile: model.mobile_particles(),
             dimension: model.units.dimension,
             volume: model.units.volume(),
-            mass: 0.0,
-            kinetic_energy: 0.0,
-            potential_energy: 0.0,
-            gradient_squared: 0.0,
-            laplacian: 0.0,
-            conservative_virial: 0.0,
-            total_virial: 0.0,
-            momentum: [0.0; 3],
             about_centre_of_mass: model.measures_about_centre_of_mass(),
-            bath_energy: 0.0,
-            bath_square: 0.0,
-            bath_products: BathProducts::default(),
-            put_in: PutIn::default(),
-            on_walls: OnWalls::default(),
-            cells: None,
+            ..Self::default()
         }
+    }
+
+    /// Those of a state of which nothing has been added up yet.
+    pub(crate) fn zero(model: &Model, state: &State) -> Self {
+        Self { particles: state.len() as u64, ..Self::at(model, state.step) }
     }
 
     /// Kinetic and potential energy.

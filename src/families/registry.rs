@@ -1,7 +1,7 @@
 //! All families of models.
 
 use super::{Model, Particles, Physics, ShallowWater, Species, Voronoi, particles, shallow_water, voronoi};
-use crate::document::{Integrator, Interaction, Problem, Problems, Scene, SnapshotColor, SpeciesNames};
+use crate::document::{Integrator, Interaction, Placement, Problems, Scene, SnapshotColor, SpeciesNames, Velocities};
 
 /// A family, with what a model of it has.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,49 +40,99 @@ impl Family {
 
 /// Checks the interactions of a scene one by one and together, and that nothing is asked for which its family does not have.
 pub(crate) fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut Problems) {
-    let of_water = |interaction: &Interaction| matches!(interaction, Interaction::ShallowWater(_));
-    let first_water = scene.interactions.iter().position(of_water);
+    let mut water = scene.interactions.iter().enumerate().filter(|(_, interaction)| is_water(interaction));
+    let first_water = water.next().map(|(index, _)| index);
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let path = format!("interactions[{index}]");
-        match interaction {
-            Interaction::ColouredNoise(noise) => {
-                particles::checks::coloured_noise::check(scene, noise, &path, problems);
-            }
+        let alone = match interaction {
             // Of a second one all has been said.
-            Interaction::ShallowWater(_) if Some(index) != first_water => {}
-            Interaction::ShallowWater(_) if scene.interactions.len() > 1 => {
-                let accepted = "`shallow-water` as the only interaction of a scene";
-                problems.push(Problem::new(&path, "found together with another interaction", accepted));
-            }
-            Interaction::ShallowWater(water) => {
+            Interaction::ShallowWater(_) if Some(index) != first_water => continue,
+            Interaction::ShallowWater(_) => Some("shallow-water"),
+            Interaction::Voronoi(_) => Some("voronoi"),
+            Interaction::HarmonicChain(_) => Some("harmonic-chain"),
+            _ => None,
+        };
+        if let Some(name) = alone.filter(|_| scene.interactions.len() > 1) {
+            let accepted = format!("`{name}` as the only interaction of a scene");
+            problems.refuse(&path, "together with another interaction", accepted);
+        }
+        match interaction {
+            Interaction::ShallowWater(water) if scene.interactions.len() == 1 => {
                 shallow_water::checks::check(scene, water, &path, problems);
             }
-            Interaction::Dpd(dpd) => particles::checks::pairs::check(scene, species, dpd, &path, problems),
             Interaction::Voronoi(voronoi) => voronoi::checks::check(scene, voronoi, &path, problems),
-            Interaction::HarmonicChain(chain) => {
-                particles::checks::harmonic_chain::check(scene, chain, &path, problems);
+            _ => particles::checks::check_interaction(scene, species, interaction, &path, problems),
+        }
+    }
+    particles::checks::check_scene(scene, species, problems);
+    check_absence(scene, problems);
+}
+
+fn is_water(interaction: &Interaction) -> bool {
+    matches!(interaction, Interaction::ShallowWater(_))
+}
+
+fn is_voronoi(interaction: &Interaction) -> bool {
+    matches!(interaction, Interaction::Voronoi(_))
+}
+
+/// Refuses what has a meaning in another family only.
+fn check_absence(scene: &Scene, problems: &mut Problems) {
+    let dry = !scene.interactions.iter().any(is_water);
+    let without_cells = !scene.interactions.iter().any(is_voronoi);
+    let is_chain = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
+    let without_chains = !scene.interactions.iter().any(is_chain);
+    let of_water = "a scene with a `shallow-water` interaction only";
+    let of_cells = "a scene with a `voronoi` interaction only";
+    let integrator = format!("`{}`", scene.integrator.name());
+    match scene.integrator {
+        Integrator::Gyro {} | Integrator::Rotate {} if dry => problems.refuse("integrator.type", integrator, of_water),
+        Integrator::Euler {} if without_cells => problems.refuse("integrator.type", integrator, of_cells),
+        _ => {}
+    }
+    for (index, group) in scene.particles.iter().enumerate() {
+        let path = format!("particles[{index}]");
+        if group.tracer && dry {
+            problems.refuse(format!("{path}.tracer"), "true", of_water);
+        }
+        match group.velocities {
+            Velocities::Geostrophic if dry => {
+                problems.refuse(format!("{path}.velocities.type"), "`geostrophic`", of_water);
+            }
+            Velocities::ShearWave { .. } if without_cells => {
+                problems.refuse(format!("{path}.velocities.type"), "`shear-wave`", of_cells);
             }
             _ => {}
         }
-        particles::checks::check_interaction(scene, species, interaction, &path, problems);
+        if matches!(group.placement, Placement::Circle { .. }) && scene.space.lengths.len() != 2 && dry {
+            problems.refuse(format!("{path}.placement.type"), "`circle`", "a two-dimensional box for a circle");
+        }
     }
-    particles::checks::check_scene(scene, species, problems);
-    if first_water.is_none() {
-        shallow_water::checks::check_absence(scene, problems);
+    let output = &scene.output;
+    match output.snapshot.color {
+        SnapshotColor::Density if without_cells => problems.refuse("output.snapshot.color", "`density`", of_cells),
+        SnapshotColor::Temperature if without_cells => {
+            problems.refuse("output.snapshot.color", "`temperature`", of_cells);
+        }
+        _ => {}
     }
-    if crate::document::voronoi(scene).is_none() {
-        voronoi::checks::check_absence(scene, problems);
-    }
-    if particles::checks::harmonic_chain::harmonic_chain(scene).is_none() {
-        particles::checks::harmonic_chain::check_absence(scene, problems);
+    let of_chains = "no `chain`, or a scene with the interaction `harmonic-chain`";
+    for (key, is_astray, lacking, accepted) in [
+        ("fields", output.fields.is_some() && dry, "a mesh", of_water),
+        ("neighbours", output.neighbours.is_some() && without_cells, "Voronoi cells", of_cells),
+        ("shear_wave", output.shear_wave.is_some() && without_cells, "Voronoi cells", of_cells),
+        ("chain", output.chain.is_some() && without_chains, "harmonic chains", of_chains),
+    ] {
+        if is_astray {
+            problems.refuse(format!("output.{key}"), format!("in a scene without {lacking}"), accepted);
+        }
     }
 }
 
 /// Completes what a scene leaves out and what depends on its interactions: the integrator, the colour of pictures.
 pub(crate) fn complete(scene: &mut Scene, integrator: bool, colour: bool) {
-    let of_type = |wanted: fn(&Interaction) -> bool| scene.interactions.iter().any(wanted);
-    let water = of_type(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
-    let cells = of_type(|interaction| matches!(interaction, Interaction::Voronoi(_)));
+    let water = scene.interactions.iter().any(is_water);
+    let cells = scene.interactions.iter().any(is_voronoi);
     if integrator && water {
         scene.integrator = Integrator::Gyro {};
     } else if integrator && particles::checks::defaults_to_cotter_reich(scene) {

@@ -2,23 +2,36 @@
 
 use super::units::noise_momentum;
 use super::{Model, Physics, Species};
-use crate::document::{Interaction, ParticleGroup, Problem, Problems, Scene, Velocities, brief};
+use crate::document::{Interaction, ParticleGroup, Problems, Scene, Velocities, brief};
 
 /// Times that the fastest of many particles may exceed the velocities expected here: for Maxwell's distribution five are enough
 /// for a million, and forces add to it.
 const MARGIN: f64 = 8.0;
 
-/// Largest velocity along an axis that a group of a scene starts with; of thermal ones the standard deviation.
+/// Largest velocity along an axis that a file or a scene gives a group at the start; none of thermal ones, which are drawn.
+pub(super) fn given(scene: &Scene, group: &ParticleGroup) -> Option<f64> {
+    scene.speed_from_file(&group.species).or(match &group.velocities {
+        Velocities::Thermal => None,
+        Velocities::ShearWave { amplitude, .. } => Some(amplitude.abs()),
+        Velocities::Listed { velocities } => Some(largest(velocities.iter().flatten())),
+        Velocities::Rest | Velocities::Geostrophic => Some(0.0),
+    })
+}
+
+/// The largest magnitude of some components.
+fn largest<'a>(components: impl IntoIterator<Item = &'a f64>) -> f64 {
+    components.into_iter().fold(0.0, |most: f64, component| most.max(component.abs()))
+}
+
+/// The largest component of the velocities of walls.
+pub(super) fn of_walls(scene: &Scene) -> f64 {
+    let walls = scene.space.walls.of_axes().into_iter().flatten();
+    walls.map(|wall| largest(wall.velocities().as_flattened())).fold(0.0, f64::max)
+}
+
+/// The same of a start, where thermal velocities have their standard deviation.
 fn at_start(scene: &Scene, group: &ParticleGroup, physics: &dyn Physics) -> f64 {
-    if let Some(fastest) = scene.speed_from_file(&group.species) {
-        return fastest;
-    }
-    match &group.velocities {
-        Velocities::Thermal => thermal(scene.temperature, physics.mean_mass(group)),
-        Velocities::ShearWave { amplitude, .. } => amplitude.abs(),
-        Velocities::Listed { velocities } => velocities.iter().flatten().fold(0.0, |most, v| v.abs().max(most)),
-        Velocities::Rest | Velocities::Geostrophic => 0.0,
-    }
+    given(scene, group).unwrap_or_else(|| thermal(scene.temperature, physics.mean_mass(group)))
 }
 
 /// √(kT/m) of particles that have a mass.
@@ -27,7 +40,7 @@ fn thermal(temperature: f64, mass: f64) -> f64 {
 }
 
 /// The highest temperature of a bath.
-fn hottest(scene: &Scene) -> f64 {
+pub(super) fn hottest(scene: &Scene) -> f64 {
     let baths = scene.interactions.iter().map(|interaction| interaction.bath_temperature(scene.temperature));
     baths.fold(0.0, f64::max)
 }
@@ -42,12 +55,9 @@ fn moving(scene: &Scene) -> impl Iterator<Item = (usize, &ParticleGroup)> {
 pub(super) fn expected(scene: &Scene, species: &[Species], physics: &dyn Physics) -> f64 {
     let hottest = hottest(scene);
     let of_group = |group| at_start(scene, group, physics).max(thermal(hottest, physics.mean_mass(group)));
-    let mut most = moving(scene).map(|(_, group)| of_group(group)).fold(0.0, f64::max);
+    let mut most = moving(scene).map(|(_, group)| of_group(group)).fold(of_walls(scene), f64::max);
     let mobile = species.iter().filter(|species| !species.fixed && species.count > 0);
     let lightest = mobile.map(|species| species.mass).fold(f64::INFINITY, f64::min);
-    for wall in scene.space.walls.of_axes().into_iter().flatten() {
-        most = wall.velocities().iter().flatten().fold(most, |most: f64, v| most.max(v.abs()));
-    }
     if let Some(shear) = &scene.space.shear {
         most += shear.speed(&scene.space.lengths);
     }
@@ -93,18 +103,15 @@ pub(super) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
     if fastest * step <= reach {
         return;
     }
-    let found = format!(
-        "found {step}, in which {what} of {} take particles[{place}] {} far",
-        brief(fastest),
-        brief(fastest * step)
-    );
+    let found =
+        format!("{step}, in which {what} of {} take particles[{place}] {} far", brief(fastest), brief(fastest * step));
     let accepted = format!(
         "a step that takes them no further than {}, {}: {} or less",
         physics.reach_in_words(),
         brief(reach),
         brief_step(round_down(longest_step(model)))
     );
-    problems.push(Problem::new("time.step", found, accepted));
+    problems.refuse("time.step", found, accepted);
 }
 
 /// The longest step in which all that is expected to move stays within the reach of its family.

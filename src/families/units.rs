@@ -1,8 +1,8 @@
 //! The unit of integer momenta.
 
 use super::particles::model::forces;
-use super::{ChainTrios, PairForce, Species};
-use crate::document::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene, Velocities};
+use super::{ChainTrios, PairForce, Species, speeds};
+use crate::document::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene};
 
 /// A momentum that forces make this many times larger than motion from elsewhere is the one that integers have to hold: they
 /// have room for 64 of the scale that their unit follows, rounded up to a power of two, and heat and neighbours add to it.
@@ -24,25 +24,12 @@ pub(super) fn momentum_unit(
     bits: f64,
 ) -> f64 {
     let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
-    let baths = scene.interactions.iter().map(|interaction| interaction.bath_temperature(scene.temperature));
-    let hottest = baths.fold(scene.temperature, f64::max);
+    let hottest = speeds::hottest(scene).max(scene.temperature);
     let mut scale = (heaviest * hottest).sqrt().max(chains.map_or(0.0, ChainTrios::momentum_scale));
     for group in &scene.particles {
-        if let Some(fastest) = scene.speed_from_file(&group.species) {
-            scale = scale.max(group.mass * fastest / 8.0);
-        }
-        if let Velocities::Listed { velocities } = &group.velocities {
-            let fastest = velocities.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
-            scale = scale.max(group.mass * fastest / 8.0);
-        }
-        if let Velocities::ShearWave { amplitude, .. } = group.velocities {
-            scale = scale.max(group.mass * amplitude.abs() / 8.0);
-        }
+        scale = scale.max(group.mass * speeds::given(scene, group).unwrap_or(0.0) / 8.0);
     }
-    for wall in scene.space.walls.of_axes().into_iter().flatten() {
-        let fastest = wall.velocities().iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
-        scale = scale.max(heaviest * fastest / 8.0);
-    }
+    scale = scale.max(heaviest * speeds::of_walls(scene) / 8.0);
     if let Some(shear) = &scene.space.shear {
         scale = scale.max(heaviest * shear.speed(&scene.space.lengths) / 8.0);
     }

@@ -1,7 +1,7 @@
 //! What is allowed but deserves a second look.
 
 use super::Model;
-use crate::document::{Scene, SpeciesNames, Velocities, Warning};
+use crate::document::{Scene, SpeciesNames, Velocities, Warning, number_of_copies};
 
 /// Warnings about a scene that [`crate::scene::load`] accepted.
 ///
@@ -22,47 +22,44 @@ pub(super) fn warn(warnings: &mut Vec<Warning>, path: impl Into<String>, message
     warnings.push(Warning { path: path.into(), message });
 }
 
+/// Warns of a momentum that the velocities of a file or of a list add up to.
 pub(super) fn warn_of_momentum(scene: &Scene, warnings: &mut Vec<Warning>) {
-    let mut total = vec![0.0; scene.space.lengths.len()];
-    let mut scale = 0.0;
-    if let Some(momentum) = momentum_of_file(scene) {
+    let listed = scene.particles.iter().filter_map(|group| match &group.velocities {
+        Velocities::Listed { velocities } => Some(velocities.iter().map(|velocity| (group.mass, velocity.as_slice()))),
+        _ => None,
+    });
+    // Rounding to single precision leaves a file more than that.
+    let of_file = momentum(scene, momenta_of_file(scene).into_iter().flatten(), 1e-6);
+    for (path, which, momentum) in [
+        ("state.velocities", "velocities of the file", of_file),
+        ("particles", "listed velocities", momentum(scene, listed.flatten(), 1e-9)),
+    ] {
+        let Some(momentum) = momentum else { continue };
         let components = momentum.iter().map(|sum| format!("{sum:.6}")).collect::<Vec<_>>().join(", ");
-        let message =
-            format!("the velocities of the file add up to a momentum of ({components}), which the run will keep");
-        warn(warnings, "state.velocities", message);
-    }
-    for group in &scene.particles {
-        let Velocities::Listed { velocities } = &group.velocities else { continue };
-        for velocity in velocities {
-            for (sum, component) in total.iter_mut().zip(velocity) {
-                *sum += group.mass * component;
-                scale += group.mass * component.abs();
-            }
-        }
-    }
-    if total.iter().any(|sum: &f64| sum.abs() > 1e-9 * scale) {
-        let components = total.iter().map(|sum| format!("{sum:.6}")).collect::<Vec<_>>().join(", ");
-        let message = format!("the listed velocities add up to a momentum of ({components}), which the run will keep");
-        warn(warnings, "particles", message);
+        let message = format!("the {which} add up to a momentum of ({components}), which the run will keep");
+        warn(warnings, path, message);
     }
 }
 
-/// The momentum of the particles of a file, if it is more than rounding to single precision leaves.
-fn momentum_of_file(scene: &Scene) -> Option<Vec<f64>> {
-    let start = scene.start()?;
-    let places = start.places.as_ref()?;
-    let names = SpeciesNames::of(scene);
-    let mass =
-        |name: &&str| scene.particles.iter().find(|group| group.species == **name).map_or(0.0, |group| group.mass);
-    let masses: Vec<f64> = names.names().iter().map(mass).collect();
-    let copies: f64 = start.copies.iter().map(|copies| f64::from(*copies)).product();
+/// The sum of masses times velocities, if it is more than a part of what its terms could add up to.
+fn momentum<'a>(scene: &Scene, all: impl Iterator<Item = (f64, &'a [f64])>, part: f64) -> Option<Vec<f64>> {
     let mut total = vec![0.0; scene.space.lengths.len()];
     let mut scale = 0.0;
-    for (velocity, species) in places.velocities.iter().zip(&start.species) {
+    for (mass, velocity) in all {
         for (sum, component) in total.iter_mut().zip(velocity) {
-            *sum += copies * masses[usize::from(*species)] * component;
-            scale += copies * masses[usize::from(*species)] * component.abs();
+            *sum += mass * component;
+            scale += mass * component.abs();
         }
     }
-    total.iter().any(|sum: &f64| sum.abs() > 1e-6 * scale).then_some(total)
+    total.iter().any(|sum: &f64| sum.abs() > part * scale).then_some(total)
+}
+
+/// Masses and velocities of the particles of a file, the mass of all copies together.
+fn momenta_of_file(scene: &Scene) -> Option<impl Iterator<Item = (f64, &[f64])>> {
+    let start = scene.start()?;
+    let mass = |name: &str| scene.particles.iter().find(|group| group.species == name).map_or(0.0, |group| group.mass);
+    let copies = number_of_copies(start.copies) as f64;
+    let masses: Vec<f64> = SpeciesNames::of(scene).names().iter().map(|name| copies * mass(name)).collect();
+    let velocities = start.places.as_ref()?.velocities.iter().zip(&start.species);
+    Some(velocities.map(move |(velocity, species)| (masses[usize::from(*species)], velocity.as_slice())))
 }

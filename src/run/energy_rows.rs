@@ -30,7 +30,7 @@ impl EnergyRows {
 
     /// Adds a row, and gives its numbers without the step.
     pub(super) fn add(&mut self, observables: &Observables) -> Vec<f64> {
-        let cells: Vec<f64> = self.columns.iter().map(|column| (column.value)(observables, self.time_step)).collect();
+        let cells: Vec<f64> = self.columns.iter().map(|column| column.value(observables, self.time_step)).collect();
         self.rows.push(std::iter::once(observables.step as f64).chain(cells.iter().copied()).collect());
         if observables.step >= self.equilibration {
             self.configuration.push([observables.gradient_squared, observables.laplacian]);

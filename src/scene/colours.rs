@@ -1,6 +1,6 @@
 //! What pictures show by colour: ranges that have a length, of quantities that have a scale.
 
-use super::{Problem, Problems, Scene, SnapshotColor};
+use super::{Problems, Scene, SnapshotColor};
 
 /// Finds ranges of colours that cannot be shown.
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
@@ -9,7 +9,7 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         let path = "output.snapshot.range";
         if snapshot.color == SnapshotColor::Species {
             let accepted = "no `range` for colours of species; with `\"color\": \"speed\"` colours are a scale";
-            problems.push(Problem::new(path, "found a range of colours", accepted));
+            problems.refuse(path, "a range of colours", accepted);
         }
         check_range(path, range, problems);
     }
@@ -37,6 +37,6 @@ fn check_range(path: &str, [low, high]: [f64; 2], problems: &mut Problems) {
     let wide = high - low > 1e-9 * low.abs().max(high.abs());
     if !(wide && low.abs() <= LARGEST && high.abs() <= LARGEST) {
         let accepted = "the lowest value and a higher one, both within 1e30, such as [0, 4]";
-        problems.push(Problem::new(path, format!("found [{low}, {high}]"), accepted));
+        problems.refuse(path, format!("[{low}, {high}]"), accepted);
     }
 }

@@ -2,10 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::{
-    CorrelatedQuantity, CountedQuantity, Interaction, ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames,
-    Velocities,
-};
+use super::{CountedQuantity, Interaction, ParticleGroup, Placement, Problems, Scene, SpeciesNames, Velocities};
 use crate::families;
 use crate::state::MOST_PARTICLES;
 
@@ -41,7 +38,7 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
         check_amount(group, &path, problems);
         if group.file_type.is_some() && scene.state.is_none() {
             let accepted = "no `type`, which is one of the file that particles start from";
-            problems.push(Problem::new(format!("{path}.type"), "found without a `state`", accepted));
+            problems.refuse(format!("{path}.type"), "without a `state`", accepted);
         }
         if let Placement::Listed { positions } = &group.placement {
             check_vectors(positions, dimension, &format!("{path}.placement.positions"), problems);
@@ -50,19 +47,15 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
             let path = format!("{path}.velocities.velocities");
             let count = group.resolved_count(&scene.space);
             if velocities.len() as u64 != count {
-                let found = format!("found a list of {}", velocities.len());
-                problems.push(Problem::new(
-                    &path,
-                    found,
-                    format!("one velocity for each particle of the group: {count}"),
-                ));
+                let found = format!("a list of {}", velocities.len());
+                problems.refuse(&path, found, format!("one velocity for each particle of the group: {count}"));
             }
             check_vectors(velocities, dimension, &path, problems);
         }
         let (known, mass) = *first.entry(&group.species).or_insert((index, group.mass));
         if mass != group.mass {
             let accepted = format!("{mass}, the mass of species `{}` in particles[{known}]", group.species);
-            problems.push(Problem::new(format!("{path}.mass"), format!("found {}", group.mass), accepted));
+            problems.refuse(format!("{path}.mass"), group.mass, accepted);
         }
     }
 }
@@ -73,11 +66,11 @@ fn check_amount(group: &ParticleGroup, path: &str, problems: &mut Problems) {
         let length = positions.len();
         if let Some(count) = group.count.filter(|count| *count != length as u64) {
             let accepted = format!("{length}, the number of listed positions, or no `count` at all");
-            problems.push(Problem::new(format!("{path}.count"), format!("found {count}"), accepted));
+            problems.refuse(format!("{path}.count"), count, accepted);
         }
         if let Some(density) = group.number_density {
             let accepted = "no `number_density`: the listed positions say how many particles there are";
-            problems.push(Problem::new(format!("{path}.number_density"), format!("found {density}"), accepted));
+            problems.refuse(format!("{path}.number_density"), density, accepted);
         }
         return;
     }
@@ -86,20 +79,16 @@ fn check_amount(group: &ParticleGroup, path: &str, problems: &mut Problems) {
         (None, None) => "neither `count` nor `number_density` is given",
         _ => return,
     };
-    problems.push(Problem::new(path, found, "exactly one of `count` and `number_density`"));
+    problems.add(path, found, "exactly one of `count` and `number_density`");
 }
 
 fn check_vectors(vectors: &[Vec<f64>], dimension: usize, path: &str, problems: &mut Problems) {
     for (index, vector) in vectors.iter().enumerate() {
-        if problems.is_full() && (vector.len() != dimension || vector.iter().any(|component| !component.is_finite())) {
-            problems.push(Problem::unread());
-        } else if vector.len() != dimension {
-            let found = format!("found {} components", vector.len());
-            let accepted = format!("{dimension} components, one for each box edge");
-            problems.push(Problem::new(format!("{path}[{index}]"), found, accepted));
+        if vector.len() != dimension {
+            let accepted = format_args!("{dimension} components, one for each box edge");
+            problems.refuse(format_args!("{path}[{index}]"), format_args!("{} components", vector.len()), accepted);
         } else if let Some(axis) = vector.iter().position(|component| !component.is_finite()) {
-            let found = format!("found {}", vector[axis]);
-            problems.push(Problem::new(format!("{path}[{index}][{axis}]"), found, "a finite number"));
+            problems.refuse(format_args!("{path}[{index}][{axis}]"), vector[axis], "a finite number");
         }
     }
 }
@@ -127,65 +116,38 @@ fn check_number_of_particles(scene: &Scene, problems: &mut Problems) {
     };
     let gibibytes = total * BYTES_PER_PARTICLE as f64 / (1_u64 << 30) as f64;
     let found = format!(
-        "found {} particles in the scene, which need {} GiB at {BYTES_PER_PARTICLE} bytes each",
+        "{} particles in the scene, which need {} GiB at {BYTES_PER_PARTICLE} bytes each",
         quantity(total),
         quantity(gibibytes)
     );
     let accepted = format!("at most {MOST_PARTICLES} particles, since they are numbered by 32-bit words");
-    problems.push(Problem::new(path, found, accepted));
+    problems.refuse(path, found, accepted);
 }
 
-fn check_number_of_species(species: &SpeciesNames<'_>, problems: &mut Problems) {
+pub(super) fn check_number_of_species(species: &SpeciesNames<'_>, problems: &mut Problems) {
     let count = species.count();
     if count > MOST_SPECIES {
         let accepted =
             format!("at most {MOST_SPECIES} species, since a particle has eight bits for the number of its own");
-        problems.push(Problem::new("particles", format!("found {count} species"), accepted));
+        problems.refuse("particles", format!("{count} species"), accepted);
     }
 }
 
 /// All bonds and angles are numbered, those along chains too.
 fn check_number_of_runs(scene: &Scene, problems: &mut Problems) {
-    let along_chains = |named: Option<&[String]>, length: u64| -> u64 {
-        let asked = |group: &&ParticleGroup| named.is_none_or(|names| names.contains(&group.species));
-        let runs = scene.particles.iter().filter(asked).filter_map(|group| {
-            let beads = u64::from(group.chain.as_ref()?.beads.max(1));
-            let starts = if group.chain.as_ref()?.closed { beads } else { beads.saturating_sub(length - 1) };
-            Some((group.resolved_count(&scene.space) / beads).saturating_mul(starts))
-        });
-        runs.fold(0, u64::saturating_add)
-    };
     let (mut bonds, mut angles) = (0_u64, 0_u64);
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let (sum, found, what) = match interaction {
-            Interaction::Bonds(asked)
-                if asked.pairs.is_empty() && scene.links_are_from_file(asked.types.as_deref()) =>
-            {
-                let counts = scene.file_bonds(asked.types.as_deref()).map(|links| links.count());
-                (&mut bonds, counts.fold(0, u64::saturating_add), "bonds")
-            }
-            Interaction::Angles(asked)
-                if asked.triples.is_empty() && scene.links_are_from_file(asked.types.as_deref()) =>
-            {
-                let counts = scene.file_angles(asked.types.as_deref()).map(|links| links.count());
-                (&mut angles, counts.fold(0, u64::saturating_add), "angles")
-            }
-            Interaction::Bonds(asked) if asked.pairs.is_empty() => {
-                (&mut bonds, along_chains(asked.species.as_deref(), 2), "bonds")
-            }
-            Interaction::Bonds(asked) => (&mut bonds, asked.pairs.len() as u64, "bonds"),
-            Interaction::Angles(asked) if asked.triples.is_empty() => {
-                (&mut angles, along_chains(asked.species.as_deref(), 3), "angles")
-            }
-            Interaction::Angles(asked) => (&mut angles, asked.triples.len() as u64, "angles"),
+            Interaction::Bonds(asked) => (&mut bonds, asked.links(scene).count(scene), "bonds"),
+            Interaction::Angles(asked) => (&mut angles, asked.links(scene).count(scene), "angles"),
             _ => continue,
         };
         let before = *sum;
         *sum = before.saturating_add(found);
         if *sum > MOST_RUNS && before <= MOST_RUNS {
-            let found = format!("found {} {what} with these", quantity(*sum as f64));
+            let found = format!("{} {what} with these", quantity(*sum as f64));
             let accepted = format!("at most {MOST_RUNS} {what} in a scene, since they are numbered by 32-bit words");
-            problems.push(Problem::new(format!("interactions[{index}]"), found, accepted));
+            problems.refuse(format!("interactions[{index}]"), found, accepted);
         }
     }
 }
@@ -198,7 +160,7 @@ fn check_box(scene: &Scene, problems: &mut Problems) {
     for (axis, length) in scene.space.lengths.iter().enumerate() {
         if *length < longest / MOST_ELONGATED {
             let accepted = format!("at least {:e}, a millionth of the longest edge", longest / MOST_ELONGATED);
-            problems.push(Problem::new(format!("space.box[{axis}]"), format!("found {length:e}"), accepted));
+            problems.refuse(format!("space.box[{axis}]"), format!("{length:e}"), accepted);
         }
     }
 }
@@ -220,7 +182,7 @@ fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut 
                 None => "in a shorter box a particle would meet two images of a neighbour",
             };
             let accepted = format!("at least {}, two cutoffs of {cutoff}: {why}", 2.0 * cutoff);
-            problems.push(Problem::new(format!("space.box[{axis}]"), format!("found {length}"), accepted));
+            problems.refuse(format!("space.box[{axis}]"), length, accepted);
         }
     }
 }
@@ -230,7 +192,7 @@ fn check_durations(scene: &Scene, problems: &mut Problems) {
     if time.equilibration > time.steps {
         let accepted =
             format!("at most {}, the number of steps; `--set time.equilibration=0` leaves it out", time.steps);
-        problems.push(Problem::new("time.equilibration", format!("found {}", time.equilibration), accepted));
+        problems.refuse("time.equilibration", time.equilibration, accepted);
     }
     check_windows(scene, problems);
     check_analyses(scene, problems);
@@ -240,8 +202,7 @@ fn check_durations(scene: &Scene, problems: &mut Problems) {
         // A box that is none is a mistake of its own.
         if half > 0.0 && radial.range > half {
             let accepted = format!("at most {half}, half the shortest box edge");
-            let found = format!("found {}", radial.range);
-            problems.push(Problem::new("output.radial_distribution.range", found, accepted));
+            problems.refuse("output.radial_distribution.range", radial.range, accepted);
         }
     }
 }
@@ -259,14 +220,14 @@ fn check_windows(scene: &Scene, problems: &mut Problems) {
     for (name, every, window) in diffusion.chain(viscosity).chain(stress).chain(autocorrelations) {
         let needed = u128::from(every) * u128::from(window);
         if needed > u128::from(measured) {
-            let found = format!("found {window} samples of {every} steps, {needed} steps in all");
+            let found = format!("{window} samples of {every} steps, {needed} steps in all");
             let most = measured / every.max(1);
             let longer = format!("time.steps of at least {}", needed + u128::from(scene.time.equilibration));
             let accepted = match most {
                 0 | 1 => longer,
                 _ => format!("at most {most} samples within the {measured} steps after equilibration, or {longer}"),
             };
-            problems.push(Problem::new(format!("output.{name}.window"), found, accepted));
+            problems.refuse(format!("output.{name}.window"), found, accepted);
         }
     }
 }
@@ -274,60 +235,46 @@ fn check_windows(scene: &Scene, problems: &mut Problems) {
 /// Every quantity has one table and one plot; only velocities have a frame, and only components an axis.
 fn check_analyses(scene: &Scene, problems: &mut Problems) {
     let output = &scene.output;
-    let mut refuse = |path: String, found: String, accepted: &str| problems.push(Problem::new(path, found, accepted));
-    let once = "every quantity at most once";
-    let velocities = "no `frame`: only velocities depend on one";
-    let fields = output.fields.as_ref().map_or(&[][..], |fields| &fields.quantities);
-    for (index, quantity) in fields.iter().enumerate() {
-        if fields[..index].contains(quantity) {
-            let found = format!("found the {} again", quantity.stem().replace('_', " "));
-            refuse(format!("output.fields.quantities[{index}]"), found, once);
-        }
-    }
-    for (index, asked) in output.autocorrelations.iter().enumerate() {
-        let path = format!("output.autocorrelations[{index}]");
-        let name = asked.quantity.name();
-        if output.autocorrelations[..index].iter().any(|earlier| earlier.quantity == asked.quantity) {
-            refuse(format!("{path}.quantity"), format!("found \"{name}\" again"), once);
-        }
-        if asked.frame.is_some() && asked.quantity == CorrelatedQuantity::Force {
-            refuse(format!("{path}.frame"), format!("found for the quantity \"{name}\""), velocities);
-        }
-    }
-    if let Some(axis) = output.stress.as_ref().and_then(|asked| asked.normal)
-        && axis as usize >= scene.space.lengths.len()
-    {
-        refuse("output.stress.normal".to_owned(), format!("found \"{}\"", axis.name()), "an axis of the box");
-    }
-    if let Some(asked) = &output.profiles {
-        for (index, quantity) in asked.quantities.iter().enumerate() {
-            if asked.quantities[..index].contains(quantity) {
-                let found = format!("found \"{}\" again", quantity.name());
-                refuse(format!("output.profiles.quantities[{index}]"), found, once);
-            }
-        }
-        if asked.axis as usize >= scene.space.lengths.len() {
-            refuse("output.profiles.axis".to_owned(), format!("found \"{}\"", asked.axis.name()), "an axis of the box");
-        }
-    }
-    for (index, asked) in output.histograms.iter().enumerate() {
-        let path = format!("output.histograms[{index}]");
-        let name = asked.quantity.name();
-        if output.histograms[..index].iter().any(|earlier| earlier.quantity == asked.quantity) {
-            refuse(format!("{path}.quantity"), format!("found \"{name}\" again"), once);
-        }
-        if asked.frame.is_some() && asked.quantity == CountedQuantity::Acceleration {
-            refuse(format!("{path}.frame"), format!("found for the quantity \"{name}\""), velocities);
-        }
-        let Some(axis) = asked.axis else { continue };
-        if asked.quantity == CountedQuantity::Speed {
-            refuse(
-                format!("{path}.axis"),
-                "found for the quantity \"speed\"".to_owned(),
-                "no `axis`: a speed has none",
+    let mut once = |path: &str, key: &str, names: Vec<String>| {
+        for (index, name) in names.iter().enumerate().filter(|(index, name)| names[..*index].contains(name)) {
+            problems.refuse(
+                format!("output.{path}[{index}]{key}"),
+                format!("{name} again"),
+                "every quantity at most once",
             );
-        } else if axis as usize >= scene.space.lengths.len() {
-            refuse(format!("{path}.axis"), format!("found \"{}\"", axis.name()), "an axis of the box");
+        }
+    };
+    let quoted = |name: &str| format!("\"{name}\"");
+    let fields = output.fields.iter().flat_map(|asked| &asked.quantities);
+    once(
+        "fields.quantities",
+        "",
+        fields.map(|quantity| format!("the {}", quantity.stem().replace('_', " "))).collect(),
+    );
+    let correlated = output.autocorrelations.iter().map(|asked| quoted(asked.quantity.name()));
+    once("autocorrelations", ".quantity", correlated.collect());
+    let profiles = output.profiles.iter().flat_map(|asked| &asked.quantities);
+    once("profiles.quantities", "", profiles.map(|quantity| quoted(quantity.name())).collect());
+    once("histograms", ".quantity", output.histograms.iter().map(|asked| quoted(asked.quantity.name())).collect());
+    for (path, quantity, _) in output.frames().filter(|(_, quantity, _)| ["force", "acceleration"].contains(quantity)) {
+        let accepted = "no `frame`: only velocities depend on one";
+        problems.refuse(format!("{path}.frame"), format!("for the quantity \"{quantity}\""), accepted);
+    }
+    let mut axes = vec![
+        ("stress.normal".to_owned(), output.stress.as_ref().and_then(|asked| asked.normal)),
+        ("profiles.axis".to_owned(), output.profiles.as_ref().map(|asked| asked.axis)),
+    ];
+    for (index, asked) in output.histograms.iter().enumerate() {
+        let key = format!("histograms[{index}].axis");
+        if asked.axis.is_some() && asked.quantity == CountedQuantity::Speed {
+            problems.refuse(format!("output.{key}"), "for the quantity \"speed\"", "no `axis`: a speed has none");
+        } else {
+            axes.push((key, asked.axis));
+        }
+    }
+    for (key, axis) in axes {
+        if let Some(axis) = axis.filter(|axis| *axis as usize >= scene.space.lengths.len()) {
+            problems.refuse(format!("output.{key}"), quoted(axis.name()), "an axis of the box");
         }
     }
 }

@@ -89,7 +89,7 @@ impl<'a> Walker<'a> {
         if self.problems.is_full() {
             self.problems.push(Problem::unread());
         } else {
-            self.problems.push(Problem::new(path, found(value), accepted(self.root, schema)));
+            self.problems.add(path, found(value), accepted(self.root, schema));
         }
     }
 
@@ -162,7 +162,7 @@ impl<'a> Walker<'a> {
                 // A misspelt `type` is both an unknown key and a missing one.
                 let suggestion = object.keys().find(|key| nearest(key, ["type"]).is_some());
                 let found = suggestion.map_or("missing".to_owned(), |key| format!("missing (found `{key}`)"));
-                self.problems.push(Problem::new(place, found, kinds));
+                self.problems.add(place, found, kinds);
             }
             Some(Value::String(text)) => {
                 if let Some(chosen) = tags.iter().position(|tag| tag == text) {
@@ -171,7 +171,7 @@ impl<'a> Walker<'a> {
                 let problem = Problem::new(place, format!("found \"{text}\""), kinds);
                 self.problems.push(problem.suggest(nearest(text, tags.iter().copied())));
             }
-            Some(other) => self.problems.push(Problem::new(place, found(other), kinds)),
+            Some(other) => self.problems.add(place, found(other), kinds),
         }
         false
     }
@@ -224,7 +224,7 @@ impl<'a> Walker<'a> {
             let accepted = format!(
                 "a number nearer to the others of the scene, of a magnitude from {least:e} to {most:e}: choose other units"
             );
-            self.problems.push(Problem::new(path, format!("found {number:e}"), accepted));
+            self.problems.refuse(path, format!("{number:e}"), accepted);
             *value = range.substitute(self.substitute);
         }
         true
@@ -256,8 +256,7 @@ impl<'a> Walker<'a> {
                     self.problems.push(Problem::unread());
                 } else {
                     let entries = if length == 1 { "entry" } else { "entries" };
-                    let found = format!("found a list of {length} {entries}");
-                    self.problems.push(Problem::new(path, found, accepted(self.root, schema)));
+                    self.problems.refuse(path, format!("a list of {length} {entries}"), accepted(self.root, schema));
                 }
                 readable &= layer["minItems"] != layer["maxItems"] && self.resize(layer, list);
             }
@@ -338,7 +337,7 @@ impl<'a> Walker<'a> {
         }
         for key in missing {
             let schema = known.iter().find(|(name, _)| *name == key).map_or(&Value::Null, |(_, schema)| *schema);
-            self.problems.push(Problem::new(path.key(key), "missing", accepted(self.root, schema)));
+            self.problems.add(path.key(key), "missing", accepted(self.root, schema));
         }
         readable
     }

@@ -7,7 +7,7 @@ use serde::de::{DeserializeSeed, Deserializer, Error as _, MapAccess, SeqAccess,
 use serde_json::{Map, Number, Value};
 
 use super::path::Path;
-use super::{Problem, Problems, SceneError};
+use super::{Problems, SceneError};
 use crate::state_file;
 
 /// The value of a JSON text, and a problem for every duplicate key.
@@ -157,7 +157,7 @@ impl<'de> Visitor<'de> for ValueAt<'_> {
             let value = entries.next_value_seed(ValueAt { path: &path, repeated: self.repeated })?;
             if object.contains_key(&key) {
                 let mut repeated = self.repeated.try_borrow_mut().map_err(A::Error::custom)?;
-                repeated.push(Problem::new(path, "the key is given more than once", "every key once"));
+                repeated.add(path, "the key is given more than once", "every key once");
             }
             object.insert(key, value);
         }

@@ -124,7 +124,7 @@ fn kept_momentum(measure: &str, scene: &Scene) -> Option<f64> {
     // What is kept does not depend on the state; its sums do.
     let is_kept = |state: &State| {
         let kept = model.physics().kept(&model, state).into_iter();
-        kept.filter(|sum| sum.quantity == KeptQuantity::Momentum).nth(axis).map(|sum| sum.total as f64 * sum.unit)
+        kept.filter(|sum| sum.quantity == KeptQuantity::MOMENTUM).nth(axis).map(|sum| sum.total as f64 * sum.unit)
     };
     is_kept(&State::default())?;
     is_kept(&families::initial_state(scene, &model))

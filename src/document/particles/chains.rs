@@ -1,6 +1,6 @@
 //! Bonds and angles in a scene.
 
-use crate::document::Bath;
+use crate::document::{Bath, Links, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -38,6 +38,16 @@ impl BondsInteraction {
     /// Whether friction or a bath with memory acts along the bonds.
     pub(crate) fn has_bath(&self) -> bool {
         self.bath.acts(self.friction)
+    }
+
+    /// The bonds that it asks for in a scene.
+    pub(crate) fn links<'a>(&'a self, scene: &'a Scene) -> Links<'a, 2> {
+        Links {
+            listed: &self.pairs,
+            species: self.species.as_deref(),
+            types: self.types.as_deref(),
+            of_start: scene.start().map_or(&[], |start| &start.bonds),
+        }
     }
 }
 
@@ -87,4 +97,16 @@ pub struct AnglesInteraction {
     pub types: Option<Vec<String>>,
     /// Stiffness k.
     pub stiffness: f64,
+}
+
+impl AnglesInteraction {
+    /// The angles that it asks for in a scene.
+    pub(crate) fn links<'a>(&'a self, scene: &'a Scene) -> Links<'a, 3> {
+        Links {
+            listed: &self.triples,
+            species: self.species.as_deref(),
+            types: self.types.as_deref(),
+            of_start: scene.start().map_or(&[], |start| &start.angles),
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Harmonic chains side by side: what a scene says about them.
 
+use crate::document::defaults::{half, one};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -67,12 +68,4 @@ pub struct ChainOutput {
     /// Steps between two samples.
     #[schemars(range(min = 1))]
     pub every: u64,
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-fn half() -> f64 {
-    0.5
 }

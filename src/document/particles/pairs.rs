@@ -1,6 +1,7 @@
 //! Pair forces in a scene.
 
 use crate::document::Bath;
+use crate::document::defaults::one;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -138,8 +139,4 @@ fn three_quarters() -> f64 {
 
 fn two() -> f64 {
     2.0
-}
-
-fn one() -> f64 {
-    1.0
 }

@@ -4,6 +4,7 @@ mod analyses;
 
 pub use analyses::{Neighbours, ShearWave};
 
+use super::defaults::one;
 use super::{Interaction, Scene, Velocities};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -156,10 +157,6 @@ impl VoronoiInteraction {
         let regions = self.energy.iter().flat_map(|energy| &energy.initial_temperatures);
         regions.fold(temperature, |most, region| most.max(region.temperature))
     }
-}
-
-fn one() -> f64 {
-    1.0
 }
 
 fn tenth() -> f64 {

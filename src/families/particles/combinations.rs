@@ -7,9 +7,7 @@
 use std::fmt;
 
 use super::checks::acts;
-use crate::document::{
-    BodyForceInteraction, ForceProfile, Integrator, Interaction, Problem, Problems, ProfiledQuantity, Scene,
-};
+use crate::document::{Integrator, Interaction, Problems, ProfiledQuantity, Scene};
 
 /// The features with their names in messages and tables, and what each is.
 macro_rules! features {
@@ -179,48 +177,12 @@ impl Feature {
     #[must_use]
     pub fn place(self, scene: &Scene) -> Option<String> {
         let when = |there: bool, path: &str| there.then(|| path.to_owned());
-        let interaction = |key: &str, wanted: &dyn Fn(&Interaction) -> bool| {
-            let mut places = scene.interactions.iter().enumerate();
-            let (index, _) = places.find(|(_, interaction)| acts(interaction) && wanted(interaction))?;
-            Some(format!("interactions[{index}]{key}"))
-        };
         let group = |key: &str, wanted: &dyn Fn(&crate::document::ParticleGroup) -> bool| {
             scene.particles.iter().position(wanted).map(|index| format!("particles[{index}]{key}"))
         };
         let output = &scene.output;
         match self {
-            Pairs => interaction("", &|found| matches!(found, Interaction::Dpd(dpd) if !dpd.remembers())),
-            PairsWithMemory => interaction("", &|found| matches!(found, Interaction::Dpd(dpd) if dpd.remembers())),
             SeveralPairForces => scene.pair_interactions().nth(1).map(|(index, _)| format!("interactions[{index}]")),
-            ManyBody => interaction(
-                ".many_body",
-                &|found| matches!(found, Interaction::Dpd(dpd) if dpd.acting_many_body().is_some()),
-            ),
-            Langevin => {
-                interaction("", &|found| matches!(found, Interaction::Langevin(bath) if !bath.bath.remembers()))
-            }
-            LangevinWithMemory => {
-                interaction("", &|found| matches!(found, Interaction::Langevin(bath) if bath.bath.remembers()))
-            }
-            ColouredNoise => interaction("", &|found| matches!(found, Interaction::ColouredNoise(_))),
-            Bonds => interaction("", &|found| matches!(found, Interaction::Bonds(bonds) if !bonds.has_bath())),
-            FrictionOfBonds => interaction(
-                "",
-                &|found| matches!(found, Interaction::Bonds(bonds) if bonds.has_bath() && !bonds.bath.remembers()),
-            ),
-            MemoryOfBonds => interaction(
-                "",
-                &|found| matches!(found, Interaction::Bonds(bonds) if bonds.has_bath() && bonds.bath.remembers()),
-            ),
-            Exclusion => interaction(
-                ".exclude_repulsion",
-                &|found| matches!(found, Interaction::Bonds(bonds) if bonds.exclude_repulsion),
-            ),
-            Angles => interaction("", &|found| matches!(found, Interaction::Angles(_))),
-            Tethers => interaction("", &|found| matches!(found, Interaction::Tether(_))),
-            UniformForce => interaction("", &|found| matches!(found, Interaction::BodyForce(force) if !varies(force))),
-            VaryingForce => interaction("", &|found| matches!(found, Interaction::BodyForce(force) if varies(force))),
-            HarmonicChain => interaction("", &|found| matches!(found, Interaction::HarmonicChain(_))),
             FixedParticles => group(".fixed", &|group| group.fixed && !group.is_frozen()),
             Line => when(scene.space.lengths.len() == 1, "space.box"),
             Walls => when(!scene.space.walls.is_empty(), "space.walls"),
@@ -249,6 +211,41 @@ impl Feature {
                 when(stress, "output.profiles.quantities")
             }
             Ranks => None,
+            _ => scene.interactions.iter().enumerate().find_map(|(index, interaction)| {
+                let (_, key) = Self::of(interaction).into_iter().find(|(feature, _)| *feature == self)?;
+                Some(format!("interactions[{index}]{key}"))
+            }),
+        }
+    }
+
+    /// The features of an interaction that does anything, with the keys under it that ask for them.
+    fn of(interaction: &Interaction) -> Vec<(Self, &'static str)> {
+        match interaction {
+            _ if !acts(interaction) => Vec::new(),
+            Interaction::Dpd(dpd) => {
+                let mut features = vec![(if dpd.remembers() { PairsWithMemory } else { Pairs }, "")];
+                features.extend(dpd.acting_many_body().map(|_| (ManyBody, ".many_body")));
+                features
+            }
+            Interaction::Bonds(bonds) => {
+                let feature = match (bonds.has_bath(), bonds.bath.remembers()) {
+                    (false, _) => Bonds,
+                    (true, false) => FrictionOfBonds,
+                    (true, true) => MemoryOfBonds,
+                };
+                let mut features = vec![(feature, "")];
+                features.extend(bonds.exclude_repulsion.then_some((Exclusion, ".exclude_repulsion")));
+                features
+            }
+            Interaction::Langevin(bath) if bath.bath.remembers() => vec![(LangevinWithMemory, "")],
+            Interaction::Langevin(_) => vec![(Langevin, "")],
+            Interaction::BodyForce(force) if force.profile.is_uniform() => vec![(UniformForce, "")],
+            Interaction::BodyForce(_) => vec![(VaryingForce, "")],
+            Interaction::ColouredNoise(_) => vec![(ColouredNoise, "")],
+            Interaction::Angles(_) => vec![(Angles, "")],
+            Interaction::Tether(_) => vec![(Tethers, "")],
+            Interaction::HarmonicChain(_) => vec![(HarmonicChain, "")],
+            Interaction::ShallowWater(_) | Interaction::Voronoi(_) => Vec::new(),
         }
     }
 
@@ -281,11 +278,6 @@ impl Feature {
     }
 }
 
-/// A force that is not the same everywhere.
-fn varies(force: &BodyForceInteraction) -> bool {
-    force.profile != ForceProfile::Uniform
-}
-
 /// Adds a mistake for every two features of a scene that do not go together.
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     if !scene.interactions.iter().all(Interaction::is_of_particles) {
@@ -295,9 +287,8 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         let Some(path) = refusal.feature.place(scene) else { continue };
         for other in refusal.others {
             let Some(place) = other.place(scene) else { continue };
-            let found = format!("found together with {} in {place}", other.name());
             let accepted = format!("{} without {} ({})", refusal.feature.name(), other.name(), refusal.reason);
-            problems.push(Problem::new(&path, found, accepted));
+            problems.refuse(&path, format!("together with {} in {place}", other.name()), accepted);
         }
     }
 }

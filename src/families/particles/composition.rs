@@ -1,7 +1,7 @@
 //! What particles from a file or of molecules are, and what acts on which of them, in words: a file knows its types by numbers, and nothing but
 //! this tells whether they are what the scene takes them for.
 
-use crate::document::{FileLinks, Interaction, Scene, SpeciesNames};
+use crate::document::{FileLinks, Interaction, LinkSource, Links, Scene, SpeciesNames};
 use crate::families::Model;
 use crate::numbers::grouped;
 use crate::printable;
@@ -40,11 +40,6 @@ fn of_interaction(
         [] => String::new(),
         species => format!("; {} as given for them", species.join(", ")),
     };
-    let of_types = |types: Option<&[String]>| {
-        scene
-            .links_are_from_file(types)
-            .then(|| types.map_or_else(String::new, |types| format!(" of type {}", types.join(", "))))
-    };
     Some(match interaction {
         Interaction::Dpd(dpd) => {
             let pairs = dpd.pairs.iter().map(|pair| pair.between.join("-"));
@@ -57,45 +52,31 @@ fn of_interaction(
         Interaction::ColouredNoise(_) => ("coloured-noise", some(None)),
         Interaction::Tether(_) => ("tether", some(None)),
         Interaction::BodyForce(force) => ("body-force", some(force.species.as_deref())),
-        Interaction::Bonds(bonds) => {
-            let types = bonds.types.as_deref();
-            let text = match of_types(types).filter(|_| bonds.pairs.is_empty()) {
-                Some(of_types) => format!("{}{of_types}", counted(scene, names, scene.file_bonds(types))),
-                None => along(bonds.pairs.len(), bonds.species.as_deref()),
-            };
-            ("bonds", text)
-        }
-        Interaction::Angles(angles) => {
-            let types = angles.types.as_deref();
-            let text = match of_types(types).filter(|_| angles.triples.is_empty()) {
-                Some(of_types) => format!("{}{of_types}", counted(scene, names, scene.file_angles(types))),
-                None => along(angles.triples.len(), angles.species.as_deref()),
-            };
-            ("angles", text)
-        }
+        Interaction::Bonds(bonds) => ("bonds", of_links(scene, names, &bonds.links(scene))),
+        Interaction::Angles(angles) => ("angles", of_links(scene, names, &angles.links(scene))),
         Interaction::HarmonicChain(_) | Interaction::ShallowWater(_) | Interaction::Voronoi(_) => return None,
     })
 }
 
-/// Bonds or angles that are listed, or else along chains.
-fn along(listed: usize, species: Option<&[String]>) -> String {
-    match (listed, species) {
-        (0, None) => "along all chains".to_owned(),
-        (0, Some(species)) => format!("along chains of {}", species.join(", ")),
-        _ => format!("{} that are listed", grouped(listed as u64)),
+/// Bonds or angles: how many, and of what.
+fn of_links<const LENGTH: usize>(scene: &Scene, names: &SpeciesNames<'_>, links: &Links<'_, LENGTH>) -> String {
+    match links.source(scene) {
+        LinkSource::Listed(listed) => format!("{} that are listed", grouped(listed.len() as u64)),
+        LinkSource::Chains(None) => "along all chains".to_owned(),
+        LinkSource::Chains(Some(species)) => format!("along chains of {}", species.join(", ")),
+        LinkSource::Start(all) => {
+            let of_types = links.types.map_or_else(String::new, |types| format!(" of type {}", types.join(", ")));
+            format!("{}{of_types}", counted(scene, names, &all))
+        }
     }
 }
 
 /// Bonds or angles of a file, counted by the species of their ends.
-fn counted<'a, const LENGTH: usize>(
-    scene: &Scene,
-    names: &SpeciesNames<'_>,
-    all: impl Iterator<Item = &'a Arc<FileLinks<LENGTH>>>,
-) -> String {
+fn counted<const LENGTH: usize>(scene: &Scene, names: &SpeciesNames<'_>, all: &[&Arc<FileLinks<LENGTH>>]) -> String {
     let Some(start) = scene.start() else { return String::new() };
     let copies: u64 = start.copies.iter().map(|copies| u64::from(*copies)).product();
     let mut counts: BTreeMap<[usize; LENGTH], u64> = BTreeMap::new();
-    for members in all.flat_map(|links| &links.members) {
+    for members in all.iter().flat_map(|links| &links.members) {
         let kinds = members.map(|member| start.species_of(member).unwrap_or(0));
         let backward = std::array::from_fn(|at| kinds[LENGTH - 1 - at]);
         *counts.entry(kinds.min(backward)).or_default() += copies;

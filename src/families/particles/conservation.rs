@@ -11,25 +11,22 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
     let thermal = baths.iter().any(|(step, temperature)| dissipates(step) && *temperature > 0.0);
     let athermal = baths.iter().any(|(step, temperature)| dissipates(step) && *temperature == 0.0);
     let lent = baths.iter().any(|(step, _)| step.coupling > 0.0 && step.remembers());
-    let mut ways = Vec::new();
-    if model.particles().coloured_noise.is_some() {
-        ways.push("put in by the coloured noise");
-    }
-    if model.particles().body_forces.is_some() {
-        ways.push("put in by body forces, whose work is `body_force_work` in the table of energies");
-    }
-    if model.particles().walls_move() {
-        ways.push("put in by moving walls, whose work is `wall_work` in the table of energies");
-    }
-    if model.particles().shear.is_some() {
-        ways.push("put in by shear, at the rate of the shear stress times the shear rate and the volume");
-    }
-    if thermal {
-        ways.push("exchanged with the heat bath");
-    }
-    if athermal {
-        ways.push("taken away by friction");
-    }
+    let particles = model.particles();
+    let all = [
+        (particles.coloured_noise.is_some(), "put in by the coloured noise"),
+        (
+            particles.body_forces.is_some(),
+            "put in by body forces, whose work is `body_force_work` in the table of energies",
+        ),
+        (particles.walls_move(), "put in by moving walls, whose work is `wall_work` in the table of energies"),
+        (
+            particles.shear.is_some(),
+            "put in by shear, at the rate of the shear stress times the shear rate and the volume",
+        ),
+        (thermal, "exchanged with the heat bath"),
+        (athermal, "taken away by friction"),
+    ];
+    let ways: Vec<&str> = all.into_iter().filter(|(acts, _)| *acts).map(|(_, way)| way).collect();
     if ways.is_empty() {
         return if lent {
             format!("lent to the variables of baths that never forget; together with theirs {INTEGRATED}")
@@ -82,38 +79,38 @@ pub(super) fn baths(model: &Model) -> Vec<(BathStep, f64)> {
 
 /// What changes the total momentum, if anything.
 pub(super) fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
-    let mut reasons = Vec::new();
-    match model.particles().coloured_noise.as_ref().map(|noise| noise.process) {
-        None => {}
-        Some(NoiseProcess::Literal) => reasons.push(
+    let particles = model.particles();
+    let process = particles.coloured_noise.as_ref().map(|noise| noise.process);
+    let is_literal = process == Some(NoiseProcess::Literal);
+    let all = [
+        (
+            is_literal,
             "the coloured noise pushes every particle by itself, with a mean force that is not zero, so that the centre \
              of mass is driven",
         ),
-        Some(_) => reasons
-            .push("the coloured noise pushes every particle by itself, so that the velocity of the centre of mass wanders"),
-    }
-    if model.particles().body_forces.is_some() {
-        reasons.push("body forces put it in, as much as `body_force_momentum` in the table of energies says");
-    }
-    if !model.particles().walls.is_empty() {
-        reasons.push("walls take it up, as much as the columns `wall_..._momentum_...` in the table of energies say");
-    }
-    if model.particles().shear.is_some() {
-        reasons.push(
+        (
+            process.is_some() && !is_literal,
+            "the coloured noise pushes every particle by itself, so that the velocity of the centre of mass wanders",
+        ),
+        (
+            particles.body_forces.is_some(),
+            "body forces put it in, as much as `body_force_momentum` in the table of energies says",
+        ),
+        (
+            !particles.walls.is_empty(),
+            "walls take it up, as much as the columns `wall_..._momentum_...` in the table of energies say",
+        ),
+        (
+            particles.shear.is_some(),
             "boundaries that shear take it from what crosses them, as much as `shear_momentum` in the table of energies says",
-        );
-    }
-    if model.particles().position_bath.is_some() {
-        reasons.push("friction and noise act on every particle by itself");
-    }
-    if model.particles().tether.is_some() {
-        reasons.push("every particle is tied to a point fixed in space");
-    }
-    if model.has_fixed_particles() {
-        reasons.push("fixed particles take up what others give them");
-    }
-    if model.particles().coloured_noise.is_some() && model.measures_about_centre_of_mass() {
-        reasons.push("temperatures are about the velocity of the centre of mass");
-    }
-    reasons
+        ),
+        (particles.position_bath.is_some(), "friction and noise act on every particle by itself"),
+        (particles.tether.is_some(), "every particle is tied to a point fixed in space"),
+        (model.has_fixed_particles(), "fixed particles take up what others give them"),
+        (
+            process.is_some() && model.measures_about_centre_of_mass(),
+            "temperatures are about the velocity of the centre of mass",
+        ),
+    ];
+    all.into_iter().filter(|(acts, _)| *acts).map(|(_, reason)| reason).collect()
 }

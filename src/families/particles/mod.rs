@@ -24,8 +24,8 @@ pub use layout::{CoupledLayout, ListLayout, ParticleLayout};
 
 use super::reference::Stepper;
 use super::{
-    Angles, BathStep, BodyForces, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptSum, Limit,
-    Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, units,
+    Angles, BathStep, BodyForces, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptQuantity,
+    KeptSum, Limit, Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, units,
 };
 use crate::document::{
     BondPotential, DpdInteraction, FileStart, Integrator, Interaction, PairRelaxation, Problems, Scene, Surroundings,
@@ -36,9 +36,10 @@ use crate::shaders::Sum;
 use crate::state::State;
 use model::{surroundings, topology};
 use reference::Reference;
+use std::sync::LazyLock;
 
 /// What acts on particles.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Particles {
     /// The pair force, if the scene has one.
     pub pair_force: Option<PairForce>,
@@ -67,20 +68,7 @@ pub struct Particles {
 }
 
 /// What acts on the particles of other families.
-pub(super) static NONE: Particles = Particles {
-    pair_force: None,
-    surroundings: None,
-    position_bath: None,
-    coloured_noise: None,
-    tether: None,
-    body_forces: None,
-    walls: Vec::new(),
-    shear: None,
-    chain_groups: Vec::new(),
-    bonds: None,
-    angles: None,
-    chains: None,
-};
+pub(super) static NONE: LazyLock<Particles> = LazyLock::new(Particles::default);
 
 impl Particles {
     /// Temperature kT of the bath of pairs in their model.
@@ -145,61 +133,50 @@ impl Particles {
 
     /// What acts on the particles of a scene; harmonic chains add their species.
     pub(super) fn new(scene: &Scene, species: &mut Vec<Species>) -> Self {
-        let (mut position_bath, mut coloured_noise, mut tether) = (None, None, None);
+        let mut particles = Self { walls: PlaneWalls::of(scene), shear: ShearedBox::of(scene), ..Self::default() };
         let (mut bonds, mut angles) = (Bonds::default(), Angles::default());
-        let (mut body_forces, mut chains) = (None, None);
-        let shear = ShearedBox::of(scene);
-        let mut pair_force = pair_force(scene, species, scene.space.lengths.len());
+        particles.pair_force = pair_force(scene, species, scene.space.lengths.len());
         for interaction in scene.interactions.iter().filter(|interaction| checks::acts(interaction)) {
             match interaction {
                 Interaction::Langevin(langevin) => {
-                    position_bath =
-                        Some(PositionBath::new(langevin, species, scene.temperature, scene.time.step, shear.is_some()));
+                    let sheared = particles.shear.is_some();
+                    let bath = PositionBath::new(langevin, species, scene.temperature, scene.time.step, sheared);
+                    particles.position_bath = Some(bath);
                 }
-                Interaction::ColouredNoise(noise) => coloured_noise = Some(ColouredNoise::new(noise)),
-                Interaction::Tether(spring) => tether = Some(spring.stiffness),
+                Interaction::ColouredNoise(noise) => particles.coloured_noise = Some(ColouredNoise::new(noise)),
+                Interaction::Tether(spring) => particles.tether = Some(spring.stiffness),
                 Interaction::BodyForce(interaction) => {
-                    body_forces.get_or_insert_with(|| BodyForces::new(interaction, species)).add(interaction, species);
+                    let forces = particles.body_forces.get_or_insert_with(|| BodyForces::new(interaction, species));
+                    forces.add(interaction, species);
                 }
-                Interaction::Bonds(interaction) => bonds.add(interaction, scene, |name| index_of(species, name)),
-                Interaction::Angles(interaction) => angles.add(interaction, scene, |name| index_of(species, name)),
+                Interaction::Bonds(interaction) => bonds.add(interaction, scene, species),
+                Interaction::Angles(interaction) => angles.add(interaction, scene, species),
                 Interaction::HarmonicChain(interaction) => {
                     let trios = ChainTrios::new(interaction, scene);
                     species.extend(trios.species());
                     trios.add_bonds(&mut bonds, scene.time.step);
-                    chains = Some(trios);
+                    particles.chains = Some(trios);
                 }
                 // Pairs are of all `dpd` interactions together; others are of other families.
                 _ => {}
             }
         }
-        if let Some(force) = &mut pair_force {
+        if let Some(force) = &mut particles.pair_force {
             // Of two images of a neighbour a list must see only one.
             force.skin = force.skin.min(0.5 * scene.space.shortest_length() - force.cutoff).max(0.0);
-            if let Some(shear) = &shear {
+            if let Some(shear) = &particles.shear {
                 // Nor one that is next to both boundaries.
                 let edge = scene.space.lengths.get(shear.gradient).copied().unwrap_or(1.0);
                 force.skin = force.skin.min(edge / 3.0 - force.cutoff).max(0.0);
             }
+            particles.surroundings = surroundings::of(scene, species, force);
         }
-        Self {
-            surroundings: pair_force.as_ref().and_then(|force| surroundings::of(scene, species, force)),
-            pair_force,
-            position_bath,
-            coloured_noise,
-            tether,
-            body_forces,
-            walls: PlaneWalls::of(scene),
-            shear,
-            chain_groups: topology::chain_groups(scene, &bonds),
-            bonds: (bonds.count() > 0).then_some(bonds),
-            angles: (angles.count() > 0).then_some(angles),
-            chains,
-        }
+        particles.chain_groups = topology::chain_groups(scene, &bonds);
+        particles.bonds = (bonds.count() > 0).then_some(bonds);
+        particles.angles = (angles.count() > 0).then_some(angles);
+        particles
     }
-}
 
-impl Particles {
     /// Leaves out how bonds and angles are described where both have the same, which may be along chains or from a file, and who belongs
     /// to a chain and how dense it is around particles, which no force depends on.
     pub(super) fn take_links_alike(&mut self, other: &mut Self) {
@@ -416,11 +393,15 @@ impl Physics for Particles {
         };
         // A run that goes on with an earlier one starts with what had been put in and taken up.
         let exchanged = state.exchanged_momentum();
-        let of_axis = |(axis, sum): (usize, KeptSum)| {
-            let sum = KeptSum { total: exchanged[axis] - carried(axis), ..sum };
-            let sum = put_in.map_or(sum, |first| sum.but_for(first + axis));
-            let sum = walls.map_or(sum, |(first, number)| sum.with_walls(first + axis, number));
-            if self.shear.is_some() { sum.with_shear() } else { sum }
+        let shear = self.shear.is_some();
+        let walls_are = walls.is_some() && !shear;
+        let quantity = KeptQuantity::Momentum { walls: walls_are, shear, body_forces: put_in.is_some() };
+        let of_axis = |(axis, sum): (usize, KeptSum)| KeptSum {
+            quantity,
+            put_in: put_in.map(|first| first + axis),
+            walls: walls.map(|(first, number)| (first + axis, number)),
+            total: exchanged[axis] - carried(axis),
+            ..sum
         };
         momentum.into_iter().enumerate().map(of_axis).collect()
     }

@@ -15,11 +15,6 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model)
     let coordinates = model.particles().oscillating_coordinates(model).max(1) as f64;
     let baths = row.number(Sum::BathCount);
     Observables {
-        step,
-        particles: plan.particles,
-        mobile: model.mobile_particles(),
-        dimension: model.units.dimension,
-        volume: model.units.volume(),
         mass: model.mobile_mass(),
         kinetic_energy: row.number(Sum::KineticEnergy) * quanta.energy,
         total_virial: (row.number(Sum::Virial) + row.number(Sum::FirstStageVirial)) * quanta.pair_energy,
@@ -28,7 +23,6 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model)
         conservative_virial: row.number(Sum::ConservativeVirial) * quanta.pair_energy,
         gradient_squared: row.number(Sum::SquaredForce) * quanta.force_squared,
         laplacian: row.number(Sum::Curvature) * quanta.curvature,
-        about_centre_of_mass: model.measures_about_centre_of_mass(),
         bath_energy: row.number(Sum::BathEnergy) * quanta.pair_energy,
         bath_square: if baths > 0.0 { row.number(Sum::BathSquare) * quanta.bath_squared / baths } else { 0.0 },
         bath_products: BathProducts {
@@ -41,7 +35,7 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model)
             work: row.number(Sum::GivenWork) * quanta.energy,
         },
         on_walls: OnWalls::new(model, (0..walls::count(model)).map(|wall| row.vector(Sum::Walls, 3 * wall))),
-        cells: None,
+        ..Observables::at(model, step)
     }
 }
 

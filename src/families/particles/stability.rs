@@ -7,13 +7,13 @@
 //! unstable, and refused.
 
 use crate::document::{
-    Bath, BondPotential, BondsInteraction, FileStart, Integrator, Interaction, Problem, Problems, Scene, Warning, brief,
+    Bath, BondPotential, BondsInteraction, Integrator, Interaction, NumberedSpecies, Problems, Scene, Warning, brief,
 };
+use crate::families::limits::largest_step;
 use crate::families::{
     Alike, BathStep, Beyond, Bond, BondKind, Bonds, FREQUENCY_LIMIT, Limit, MOST_RELAXATION, Model, Particles,
     RelaxationErrors, TOLERANCE,
 };
-use std::sync::Arc;
 
 /// B + W beyond which nothing is stable.
 const LIMIT: f64 = 4.0;
@@ -60,7 +60,7 @@ fn cold_by_prediction(strains: &[Strain], model: &Model) -> f64 {
 
 /// Warns of a temperature that a prediction makes wrong by more than is tolerated.
 pub(crate) fn warn_of_prediction(scene: &Scene, model: &Model) -> Option<Warning> {
-    let network = model.particles().bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
+    let network = Network::of(scene, model);
     let cold = cold_by_prediction(&certain(scene, model, network.as_ref(), scene.time.step), model);
     (cold.abs() > TOLERANCE).then(|| {
         let message = format!(
@@ -89,16 +89,18 @@ struct Strain {
 /// Refuses a time step that is certainly unstable.
 pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
     let step = scene.time.step;
-    let network = model.particles().bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
+    let network = Network::of(scene, model);
     let Some(worst) = worst(&certain(scene, model, network.as_ref(), step)) else { return };
     if worst.sum < LIMIT {
         return;
     }
     let sum = if worst.sum < 1e6 { format!("{:.4}", worst.sum) } else { brief(worst.sum) };
-    let found = format!("found {step}, at which B + W is {sum} for {}", worst.what);
+    let found = format!("{step}, at which B + W is {sum} for {}", worst.what);
+    let share = |step: f64| strongest(&certain(scene, model, network.as_ref(), step)) / LIMIT;
+    let largest = largest_step([step, worst.sum / LIMIT], 1e-6, &share);
     let mut accepted = format!(
         "at most {}, so that B + W = (λₑ + K)dt²/m stays below {LIMIT}, beyond which no scheme is stable",
-        two_digits(largest_step(scene, model, network.as_ref(), worst.sum))
+        two_digits(largest.unwrap_or(0.0))
     );
     let spring = worst.sum - worst.bath;
     if worst.bath > 0.0 && spring < LIMIT {
@@ -109,7 +111,7 @@ pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
             accepted = format!("{accepted}; or a {key} of at most {most} in interactions[{}]", worst.place);
         }
     }
-    problems.push(Problem::new("time.step", found, accepted));
+    problems.refuse("time.step", found, accepted);
 }
 
 /// Refuses a time step in which the friction of pairs that do not relax is certainly unstable: B is 2Γ dt on average, for a mean
@@ -127,7 +129,7 @@ pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Proble
         return;
     }
     let found = format!(
-        "found {step}, in which friction relaxes the velocities of `{}` {} times over",
+        "{step}, in which friction relaxes the velocities of `{}` {} times over",
         model.species[index].name,
         brief(rate * step)
     );
@@ -137,7 +139,7 @@ pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Proble
         if staged { "no step was measured" } else { "no such step is stable" },
         model.friction_limit() / rate
     );
-    problems.push(Problem::new("time.step", found, accepted));
+    problems.refuse("time.step", found, accepted);
 }
 
 /// Refuses a time step in which repulsion certainly throws neighbours apart.
@@ -151,7 +153,7 @@ pub(crate) fn check_repulsion(scene: &Scene, model: &Model, problems: &mut Probl
         return;
     }
     let found = format!(
-        "found {step}, in which crowds of `{}` oscillate by {} radians in their repulsion",
+        "{step}, in which crowds of `{}` oscillate by {} radians in their repulsion",
         model.species[index].name,
         brief(frequency * step)
     );
@@ -160,12 +162,12 @@ pub(crate) fn check_repulsion(scene: &Scene, model: &Model, problems: &mut Probl
         two_digits(most / frequency),
         FREQUENCY_LIMIT / frequency
     );
-    problems.push(Problem::new("time.step", found, accepted));
+    problems.refuse("time.step", found, accepted);
 }
 
 /// Warns of a time step near the edge.
 pub(crate) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
-    let network = model.particles().bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
+    let network = Network::of(scene, model);
     let mut strains = certain(scene, model, network.as_ref(), scene.time.step);
     strains.extend(possible(scene, model, network.as_ref(), scene.time.step));
     let worst = worst(&strains).filter(|strain| strain.sum > CLEAN)?;
@@ -188,10 +190,10 @@ pub(crate) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
 /// The laws that bound the time step, those of what is there at times included.
 pub(super) fn limits(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Limit> {
     let step = scene.time.step;
-    let network = model.particles().bonds.as_ref().and_then(|bonds| Network::of(scene, model, bonds));
+    let network = Network::of(scene, model);
     let mut strains = certain(scene, model, network.as_ref(), step);
     strains.extend(possible(scene, model, network.as_ref(), step));
-    let strain = worst(&strains).map_or(0.0, |strain| strain.sum);
+    let strain = strongest(&strains);
     let pairs = particles.pair_force.as_ref();
     let friction = pairs.map_or(0.0, |force| model.largest_friction_rate(force).0);
     let frequency = pairs.map_or(0.0, |force| model.largest_repulsion_frequency(force).0);
@@ -242,26 +244,13 @@ enum Quantity {
     Diffusion,
 }
 
-fn worst(strains: &[Strain]) -> Option<Strain> {
-    strains.iter().max_by(|a, b| a.sum.total_cmp(&b.sum)).cloned()
+/// B + W of the worst.
+fn strongest(strains: &[Strain]) -> f64 {
+    strains.iter().map(|strain| strain.sum).fold(0.0, f64::max)
 }
 
-/// The largest step that is not certainly unstable: every strain grows with the step.
-fn largest_step(scene: &Scene, model: &Model, network: Option<&Network>, sum: f64) -> f64 {
-    let strain = |step: f64| worst(&certain(scene, model, network, step)).map_or(0.0, |strain| strain.sum);
-    let mut high = scene.time.step;
-    let mut low = high * (0.5 * LIMIT / sum).min(0.5);
-    for _ in 0..60 {
-        if strain(low) < LIMIT {
-            break;
-        }
-        low *= 0.1;
-    }
-    for _ in 0..20 {
-        let middle = (low * high).sqrt();
-        if strain(middle) < LIMIT { low = middle } else { high = middle }
-    }
-    low
+fn worst(strains: &[Strain]) -> Option<Strain> {
+    strains.iter().max_by(|a, b| a.sum.total_cmp(&b.sum)).cloned()
 }
 
 /// The key that sets the strength of a bath, and its value.
@@ -409,44 +398,15 @@ fn places(scene: &Scene, bonds: &Bonds) -> Vec<usize> {
     (0..scene.interactions.len()).filter(is_bonds).collect()
 }
 
-/// Which species the particles of a scene are of.
-struct Members {
-    /// The first number after those of a group, and the species of the group.
-    ends: Vec<(u64, usize)>,
-    /// The file that says so in their place.
-    start: Option<Arc<FileStart>>,
-}
-
-impl Members {
-    fn of(scene: &Scene, model: &Model) -> Self {
-        let mut end = 0_u64;
-        let groups = scene.particles.iter().map(|group| {
-            end = end.saturating_add(group.resolved_count(&scene.space));
-            (end, model.species.iter().position(|species| species.name == group.species).unwrap_or(0))
-        });
-        let mut ends: Vec<(u64, usize)> = groups.collect();
-        if model.particles().chains.is_some() {
-            // Their particles lie species by species.
-            for (index, species) in model.species.iter().enumerate() {
-                end = end.saturating_add(species.count);
-                ends.push((end, index));
-            }
-        }
-        Self { ends, start: scene.start().cloned() }
-    }
-
-    fn species(&self, particle: u32) -> usize {
-        if let Some(start) = &self.start {
-            return start.species_of(particle).unwrap_or(0);
-        }
-        let group = self.ends.partition_point(|(end, _)| *end <= u64::from(particle));
-        self.ends.get(group).map_or(0, |(_, species)| *species)
-    }
+/// The species of all particles; those of harmonic chains lie species by species.
+fn numbered_species<'a>(scene: &'a Scene, model: &Model) -> NumberedSpecies<'a> {
+    let of_chains = model.species.iter().filter(|_| model.particles().chains.is_some());
+    NumberedSpecies::new(scene).with(of_chains.map(|species| species.count))
 }
 
 /// Every bond by itself, on the reduced mass of its ends.
 fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<Strain> {
-    let members = Members::of(scene, model);
+    let members = numbered_species(scene, model);
     let (stiffnesses, places) = (stiffnesses(scene, model, bonds, step), places(scene, bonds));
     let mut largest = vec![0.0_f64; bonds.kinds.len()];
     for (kind, alike) in bonds.alike() {
@@ -457,7 +417,7 @@ fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Ve
                 (2.0 * inverse).max(inverse + inverse_mass(model, ends))
             }
             Alike::Listed(pairs) => {
-                let inverse = |end: &u32| inverse_mass(model, members.species(*end));
+                let inverse = |end: &u32| inverse_mass(model, members.of(*end).unwrap_or(0));
                 pairs.iter().map(|ends| ends.iter().map(inverse).sum::<f64>()).fold(0.0, f64::max)
             }
         };
@@ -483,8 +443,9 @@ struct Network {
 }
 
 impl Network {
-    fn of(scene: &Scene, model: &Model, bonds: &Bonds) -> Option<Self> {
-        let members = Members::of(scene, model);
+    fn of(scene: &Scene, model: &Model) -> Option<Self> {
+        let bonds = model.particles().bonds.as_ref()?;
+        let members = numbered_species(scene, model);
         let seen: Vec<Bond> = bonds.iter().take(MOST_BONDS).collect();
         let mut particles: Vec<u32> = seen.iter().flat_map(|bond| bond.ends).collect();
         particles.sort_unstable();
@@ -492,7 +453,7 @@ impl Network {
         let place_of = |end: u32| particles.partition_point(|particle| *particle < end);
         Some(Self {
             bonds: seen.iter().map(|bond| (bond.ends.map(place_of), bond.kind as usize)).collect(),
-            inverse_masses: particles.iter().map(|end| inverse_mass(model, members.species(*end))).collect(),
+            inverse_masses: particles.iter().map(|end| inverse_mass(model, members.of(*end).unwrap_or(0))).collect(),
             particles,
             kinds: bonds.kinds.len(),
             place: *places(scene, bonds).first()?,

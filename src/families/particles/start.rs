@@ -1,7 +1,7 @@
 //! How particles start, once their places and momenta are known: at rest together, and with variables of baths.
 
 use super::plan::walls;
-use crate::document::{BondPotential, Interaction, Problem, Problems, Scene};
+use crate::document::{BondPotential, Interaction, Problems, Scene};
 use crate::families::start::bring_to_rest;
 use crate::families::{BathStep, Model, Particles};
 use crate::noise::{self, stream};
@@ -88,16 +88,15 @@ pub(super) fn check_extents(scene: &Scene, model: &Model, state: &State, problem
         };
         let distance = model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt();
         if (distance - length).abs() >= extent && reported.insert(bond.kind) {
-            let path = format!("interactions[{}].potential.extent", places[bond.kind as usize]);
             let found = format!(
-                "found {extent}, and a distance of {distance:.6} between particles {} and {} at the start",
+                "{extent}, and a distance of {distance:.6} between particles {} and {} at the start",
                 bond.ends[0], bond.ends[1]
             );
             let accepted = format!(
                 "more than {:.6}, by which that bond starts off its length {length}; or a start with shorter bonds",
                 (distance - length).abs()
             );
-            problems.push(Problem::new(path, found, accepted));
+            problems.refuse(format!("interactions[{}].potential.extent", places[bond.kind as usize]), found, accepted);
         }
     }
 }

@@ -1,10 +1,9 @@
-//! What a scene of shallow water has to fulfil beyond its shape, and what only such a scene may have.
+//! What a scene of shallow water has to fulfil beyond its shape.
 
 use std::collections::HashMap;
 
 use crate::document::{
-    Integrator, Placement, Problem, Problems, Scene, ShallowWaterInteraction, SmoothingSolver, Snapshot, Velocities,
-    brief,
+    Integrator, Placement, Problems, Scene, ShallowWaterInteraction, SmoothingSolver, Snapshot, Velocities, brief,
 };
 use crate::families::shallow_water::surface::Surface;
 use crate::families::{LARGEST_DEPTH, chebyshev_iterations};
@@ -25,12 +24,12 @@ const FEWEST_TRIALS: u32 = 16;
 pub(crate) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, problems: &mut Problems) {
     let lengths = &scene.space.lengths;
     if lengths.len() != 2 {
-        let found = format!("found {} edge{}", lengths.len(), if lengths.len() == 1 { "" } else { "s" });
-        problems.push(Problem::new("space.box", found, "two edges: shallow water is two-dimensional"));
+        let found = format!("{} edge{}", lengths.len(), if lengths.len() == 1 { "" } else { "s" });
+        problems.refuse("space.box", found, "two edges: shallow water is two-dimensional");
     }
     if !matches!(scene.integrator, Integrator::Gyro {} | Integrator::Rotate {}) {
-        let found = format!("found `{}`", scene.integrator.name());
-        problems.push(Problem::new("integrator.type", found, "`gyro` or `rotate`, the integrators of shallow water"));
+        let found = format!("`{}`", scene.integrator.name());
+        problems.refuse("integrator.type", found, "`gyro` or `rotate`, the integrators of shallow water");
     }
     check_mesh(water, path, problems);
     check_groups(scene, water, problems);
@@ -38,10 +37,9 @@ pub(crate) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, 
     let smoothing = &water.smoothing;
     let widest = lengths.iter().fold(0.0, |widest: f64, length| widest.max(*length));
     if widest > 0.0 && smoothing.length > LARGEST_SMOOTHING * widest {
-        let found = format!("found {}", brief(smoothing.length));
         let accepted =
             format!("at most {LARGEST_SMOOTHING:e} edges of the box, beyond which the depth is flat to the last bit");
-        problems.push(Problem::new(format!("{path}.smoothing.length"), found, accepted));
+        problems.refuse(format!("{path}.smoothing.length"), brief(smoothing.length), accepted);
         return;
     }
     // Out of range it is a mistake already, and out of reach too.
@@ -59,19 +57,18 @@ fn check_mesh(water: &ShallowWaterInteraction, path: &str, problems: &mut Proble
         let least = water.spline_order + 1;
         if *nodes < least {
             let accepted = format!("at least {least} nodes, the width of a spline of order {}", water.spline_order);
-            problems.push(Problem::new(&path, format!("found {nodes}"), accepted));
+            problems.refuse(&path, nodes, accepted);
         } else if matches!(water.smoothing.solver, SmoothingSolver::Fft { .. })
             && water.smoothing.length > 0.0
             && !nodes.is_power_of_two()
         {
             let accepted = "a power of two for the solver `fft`, or the solver `chebyshev`, which takes any mesh";
-            problems.push(Problem::new(&path, format!("found {nodes}"), accepted));
+            problems.refuse(&path, nodes, accepted);
         }
     }
     if water.bath.is_some() && water.smoothing.length == 0.0 {
-        let found = "found a bath, and a smoothing of length 0";
         let accepted = "a `smoothing.length` above 0, from which the bath takes its scales; or no bath";
-        problems.push(Problem::new(format!("{path}.bath"), found, accepted));
+        problems.refuse(format!("{path}.bath"), "a bath, and a smoothing of length 0", accepted);
     }
 }
 
@@ -84,12 +81,11 @@ fn check_iterations(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 
     let cells = |axis: usize| water.smoothing.length * f64::from(water.mesh[axis]) / lengths[axis];
     let iterations = chebyshev_iterations([0, 1].map(|axis| cells(axis).powi(2)), tolerance);
     if iterations > MOST_ITERATIONS {
-        let found =
-            format!("found {}, which takes `chebyshev` {iterations:.3e} iterations a step", water.smoothing.length);
+        let found = format!("{}, which takes `chebyshev` {iterations:.3e} iterations a step", water.smoothing.length);
         let accepted = format!(
             "a length and a tolerance that take at most {MOST_ITERATIONS}, or the solver `fft`, which takes any length"
         );
-        problems.push(Problem::new(format!("{path}.smoothing.length"), found, accepted));
+        problems.refuse(format!("{path}.smoothing.length"), found, accepted);
     }
 }
 
@@ -100,36 +96,32 @@ fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut P
         let path = format!("particles[{index}]");
         if group.mass != 1.0 {
             let accepted = "no `mass` in shallow water: it follows from the depth";
-            problems.push(Problem::new(format!("{path}.mass"), format!("found {}", group.mass), accepted));
+            problems.refuse(format!("{path}.mass"), group.mass, accepted);
         }
         if group.fixed {
             let accepted = "particles that move: in shallow water all of them carry the depth along";
-            problems.push(Problem::new(format!("{path}.fixed"), "found true", accepted));
+            problems.refuse(format!("{path}.fixed"), "true", accepted);
         }
         if group.chain.is_some() {
             let accepted = "no chains in shallow water: its particles have no forces between them";
-            problems.push(Problem::new(format!("{path}.chain"), "found a chain", accepted));
+            problems.refuse(format!("{path}.chain"), "a chain", accepted);
         }
         if let Some(first) = first_tracer.filter(|first| *first < index && !group.tracer) {
-            let found = format!("found water after the tracers of particles[{first}]");
-            problems.push(Problem::new(&path, found, "tracers after all other groups"));
+            let found = format!("water after the tracers of particles[{first}]");
+            problems.refuse(&path, found, "tracers after all other groups");
         }
         let closed = group.tracer && matches!(group.placement, Placement::Circle { .. });
         if closed && group.species == "time" {
             let accepted = "another name: `time` heads the first column of the table of circulations";
-            problems.push(Problem::new(format!("{path}.species"), "found \"time\"", accepted));
+            problems.refuse(format!("{path}.species"), "\"time\"", accepted);
         }
         if let Some(earlier) = closed.then(|| loops.insert(&group.species, index)).flatten() {
-            let found = format!("found \"{}\", the name of the loop of particles[{earlier}]", group.species);
-            problems.push(Problem::new(
-                format!("{path}.species"),
-                found,
-                "a name of its own for every loop of tracers",
-            ));
+            let found = format!("\"{}\", the name of the loop of particles[{earlier}]", group.species);
+            problems.refuse(format!("{path}.species"), found, "a name of its own for every loop of tracers");
         }
         if group.velocities == Velocities::Geostrophic && water.rotation == 0.0 {
             let accepted = "a rotation other than 0 for `geostrophic`, which is a balance with it; or `rest`";
-            problems.push(Problem::new(format!("{path}.velocities"), "found a rotation of 0", accepted));
+            problems.refuse(format!("{path}.velocities"), "a rotation of 0", accepted);
         }
     }
 }
@@ -138,7 +130,7 @@ fn check_output(scene: &Scene, problems: &mut Problems) {
     let output = &scene.output;
     if output.snapshot != Snapshot::default() {
         let accepted = "no `output.snapshot` in shallow water: `output.fields` draws the water, `output.plot` says how";
-        problems.push(Problem::new("output.snapshot", "found settings of pictures of particles", accepted));
+        problems.refuse("output.snapshot", "settings of pictures of particles", accepted);
     }
     let asked = [
         ("radial_distribution", output.radial_distribution.is_some()),
@@ -150,8 +142,7 @@ fn check_output(scene: &Scene, problems: &mut Problems) {
         ("stress", output.stress.is_some()),
     ];
     for (name, _) in asked.iter().filter(|(_, asked)| *asked) {
-        let path = format!("output.{name}");
-        problems.push(Problem::new(path, "found in a scene of shallow water", "scenes with pair forces only"));
+        problems.refuse(format!("output.{name}"), "in a scene of shallow water", "scenes with pair forces only");
     }
 }
 
@@ -169,7 +160,7 @@ fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], p
     let fits = |depth: f64| depth > 0.0 && depth <= LARGEST_DEPTH * mean;
     if let Some((depth, [x, y])) = depths.iter().find(|(depth, _)| !fits(*depth)) {
         let found = format!(
-            "found features that make a depth of {} at ({x:.3}, {y:.3}), and {} on average",
+            "features that make a depth of {} at ({x:.3}, {y:.3}), and {} on average",
             brief(*depth),
             brief(mean)
         );
@@ -177,7 +168,7 @@ fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], p
             "a depth above 0 and up to {LARGEST_DEPTH} times the mean everywhere: lower or wider features, or a shorter \
              `smoothing.length`"
         );
-        problems.push(Problem::new(format!("{path}.surface"), found, accepted));
+        problems.refuse(format!("{path}.surface"), found, accepted);
     }
 }
 
@@ -190,9 +181,9 @@ fn check_balance(scene: &Scene, water: &ShallowWaterInteraction, lengths: [f64; 
     let steepest = slopes.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max);
     let fastest = water.wave_speed / water.rotation.abs() * steepest;
     if fastest > 2.0 {
-        let found = format!("found a balance with velocities of up to {} times the speed of waves", brief(fastest));
+        let found = format!("a balance with velocities of up to {} times the speed of waves", brief(fastest));
         let accepted = "at most 2 times: lower or wider features, or a faster rotation";
-        problems.push(Problem::new(format!("particles[{group}].velocities"), found, accepted));
+        problems.refuse(format!("particles[{group}].velocities"), found, accepted);
     }
 }
 
@@ -203,29 +194,4 @@ fn trials(lengths: [f64; 2], terms: f64) -> impl Iterator<Item = [f64; 2]> {
         let fraction = [trial % along, trial / along].map(|place| f64::from(place) / f64::from(along));
         [fraction[0] * lengths[0], fraction[1] * lengths[1]]
     })
-}
-
-/// Refuses what has a meaning in shallow water only.
-pub(crate) fn check_absence(scene: &Scene, problems: &mut Problems) {
-    let only = "a scene with a `shallow-water` interaction only";
-    if matches!(scene.integrator, Integrator::Gyro {} | Integrator::Rotate {}) {
-        let found = format!("found `{}`", scene.integrator.name());
-        problems.push(Problem::new("integrator.type", found, only));
-    }
-    for (index, group) in scene.particles.iter().enumerate() {
-        let found = [
-            ("tracer", "true", group.tracer),
-            ("velocities.type", "`geostrophic`", group.velocities == Velocities::Geostrophic),
-        ];
-        for (key, value, _) in found.iter().filter(|(_, _, found)| *found) {
-            problems.push(Problem::new(format!("particles[{index}].{key}"), format!("found {value}"), only));
-        }
-        if matches!(group.placement, Placement::Circle { .. }) && scene.space.lengths.len() != 2 {
-            let accepted = "a two-dimensional box for a circle";
-            problems.push(Problem::new(format!("particles[{index}].placement.type"), "found `circle`", accepted));
-        }
-    }
-    if scene.output.fields.is_some() {
-        problems.push(Problem::new("output.fields", "found in a scene without a mesh", only));
-    }
 }

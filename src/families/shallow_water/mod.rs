@@ -23,9 +23,9 @@ use super::pictures::{EnergyChart, MeshPictures};
 use super::reference::Stepper;
 use super::{
     BathStep, Beyond, Column, ExactMean, KeptQuantity, KeptSum, Limit, MaterialLoops, Model, Observables, Physics,
-    PictureKind, ShallowWater, Species, column, conservation,
+    PictureKind, ShallowWater, Species, column, conservation, speeds,
 };
-use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, SmoothingSolver, Velocities, Warning, brief};
+use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, SmoothingSolver, Warning, brief};
 use crate::numbers::{grouped, with_error};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
 use crate::shaders::Constant;
@@ -262,11 +262,7 @@ impl Physics for ShallowWater {
 /// A power of two near 2⁻²⁹ of the largest velocity expected in shallow water, where the speed of waves is a high one.
 fn velocity_unit(scene: &Scene, water: &ShallowWater) -> f64 {
     let mass = water.nodes() as f64 / water.carriers.max(1) as f64;
-    let mut scale = water.wave_speed.max(8.0 * (scene.temperature / mass).sqrt());
-    for group in &scene.particles {
-        if let Velocities::Listed { velocities } = &group.velocities {
-            scale = velocities.iter().flatten().fold(scale, |most, velocity| most.max(velocity.abs()));
-        }
-    }
+    let scale = water.wave_speed.max(8.0 * (scene.temperature / mass).sqrt());
+    let scale = scene.particles.iter().filter_map(|group| speeds::given(scene, group)).fold(scale, f64::max);
     (scale.log2().ceil() - 29.0).exp2()
 }

@@ -1,6 +1,6 @@
 //! From the integer sums of a report to observables of shallow water.
 
-use crate::families::{BathProducts, Column, Model, Observables, OnWalls, PutIn, ShallowWater, column};
+use crate::families::{Column, Model, Observables, ShallowWater, column};
 use crate::plan::{Plan, Sums};
 use crate::shaders::Sum;
 
@@ -25,26 +25,17 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model,
         _ => 0.0,
     };
     Observables {
-        step,
         particles: water.carriers,
         mobile: water.carriers,
-        dimension: 2,
-        volume: model.units.volume(),
         mass: water.total_mass() as f64 * water.mass_unit,
         kinetic_energy: row.number(Sum::KineticEnergy) * quanta.energy,
         momentum: row.vector(Sum::Momentum, 0).map(|sum| sum * quanta.energy / water.wave_speed),
         potential_energy: row.number(Sum::PotentialEnergy) * quanta.pair_energy,
         bath_energy: energy_per_square * bath_squares,
         bath_square: bath_squares / water.nodes() as f64,
-        bath_products: BathProducts::default(),
-        put_in: PutIn::default(),
-        on_walls: OnWalls::default(),
-        cells: None,
-        about_centre_of_mass: false,
-        gradient_squared: 0.0,
-        laplacian: 0.0,
         conservative_virial: f64::NAN,
         total_virial: f64::NAN,
+        ..Observables::at(model, step)
     }
 }
 

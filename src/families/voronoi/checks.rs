@@ -1,8 +1,8 @@
-//! What a scene of Voronoi DPD has to fulfil beyond its shape, and what only such a scene may have.
+//! What a scene of Voronoi DPD has to fulfil beyond its shape.
 
 use crate::document::{
-    CorrelatedQuantity, CountedQuantity, InitialMasses, Integrator, Problem, Problems, Scene, SnapshotColor,
-    VoronoiInteraction, shear_waves,
+    CorrelatedQuantity, CountedQuantity, InitialMasses, Integrator, Problems, Scene, SnapshotColor, VoronoiInteraction,
+    shear_waves,
 };
 
 /// Faces name the neighbour in this many bits.
@@ -13,22 +13,18 @@ pub(crate) const LIGHTEST: f64 = 1e-4;
 
 /// Checks a scene whose interaction at `path` is Voronoi DPD.
 pub(crate) fn check(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, problems: &mut Problems) {
-    if scene.interactions.len() > 1 {
-        let accepted = "`voronoi` as the only interaction of a scene";
-        problems.push(Problem::new(path, "found together with another interaction", accepted));
-    }
     if scene.space.lengths.len() != 2 {
-        let found = format!("found {} edges", scene.space.lengths.len());
-        problems.push(Problem::new("space.box", found, "two edges: Voronoi cells are those of a plane"));
+        let found = format!("{} edges", scene.space.lengths.len());
+        problems.refuse("space.box", found, "two edges: Voronoi cells are those of a plane");
     }
     // Those of shallow water are refused with all scenes without it.
     if matches!(scene.integrator, Integrator::GrootWarren { .. } | Integrator::CotterReich {}) {
-        let found = format!("found `{}`", scene.integrator.name());
-        problems.push(Problem::new("integrator.type", found, "`splitting` or `euler`, the integrators of Voronoi DPD"));
+        let found = format!("`{}`", scene.integrator.name());
+        problems.refuse("integrator.type", found, "`splitting` or `euler`, the integrators of Voronoi DPD");
     }
     if let Integrator::Splitting { relaxation: Some(_) } = scene.integrator {
         let accepted = "no `relaxation`, which is one of pairs";
-        problems.push(Problem::new("integrator.relaxation", "found one in a scene of Voronoi DPD", accepted));
+        problems.refuse("integrator.relaxation", "one in a scene of Voronoi DPD", accepted);
     }
     check_fluid(scene, voronoi, path, problems);
     check_groups(scene, problems);
@@ -39,18 +35,17 @@ pub(crate) fn check(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, pro
 fn check_fluid(scene: &Scene, voronoi: &VoronoiInteraction, path: &str, problems: &mut Problems) {
     if voronoi.viscosity.is_some() && voronoi.shear_viscosity.is_some() {
         let accepted = "one of `viscosity`, of the law of friction, and `shear_viscosity`, of the network of cells";
-        problems.push(Problem::new(path, "both `viscosity` and `shear_viscosity` are given", accepted));
+        problems.add(path, "both `viscosity` and `shear_viscosity` are given", accepted);
     }
     if voronoi.initial_masses == InitialMasses::UniformPressure {
         let regions = voronoi.energy.iter().flat_map(|energy| &energy.initial_temperatures);
         if voronoi.energy.is_none() {
             let accepted = "`uniform-density` in a scene without `energy`: at one temperature it is the same";
-            let path = format!("{path}.initial_masses");
-            problems.push(Problem::new(path, "found `uniform-pressure` without `energy`", accepted));
+            problems.refuse(format!("{path}.initial_masses"), "`uniform-pressure` without `energy`", accepted);
         } else if scene.temperature == 0.0 || regions.into_iter().any(|region| region.temperature == 0.0) {
-            let found = "found `uniform-pressure` with a temperature of 0, at which there is no pressure";
+            let found = "`uniform-pressure` with a temperature of 0, at which there is no pressure";
             let accepted = "temperatures above 0 everywhere, or masses `equal` or of `uniform-density`";
-            problems.push(Problem::new(format!("{path}.initial_masses"), found, accepted));
+            problems.refuse(format!("{path}.initial_masses"), found, accepted);
         }
     }
 }
@@ -61,18 +56,18 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
         let path = format!("particles[{index}]");
         if group.fixed {
             let accepted = "cells that move: one that is held would take up momentum and energy of the others";
-            problems.push(Problem::new(format!("{path}.fixed"), "found true", accepted));
+            problems.refuse(format!("{path}.fixed"), "true", accepted);
         }
         if group.chain.is_some() {
             let accepted = "no chains in Voronoi DPD: its cells have no forces but those at their faces";
-            problems.push(Problem::new(format!("{path}.chain"), "found a chain", accepted));
+            problems.refuse(format!("{path}.chain"), "a chain", accepted);
         }
         if group.mass < LIGHTEST * heaviest {
             let accepted = format!(
                 "at least {:e}, {LIGHTEST:e} of the heaviest species: masses are counted in units of 2⁻²⁴ of that",
                 LIGHTEST * heaviest
             );
-            problems.push(Problem::new(format!("{path}.mass"), format!("found {}", group.mass), accepted));
+            problems.refuse(format!("{path}.mass"), group.mass, accepted);
         }
     }
     let cells: u64 =
@@ -82,7 +77,7 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
     for (axis, length) in scene.space.lengths.iter().enumerate() {
         if scene.space.lengths.len() == 2 && *length < least {
             let accepted = format!("at least {least:.3e}, a thousandth of the width of a cell on average");
-            problems.push(Problem::new(format!("space.box[{axis}]"), format!("found {length}"), accepted));
+            problems.refuse(format!("space.box[{axis}]"), length, accepted);
         }
     }
     // More than can be numbered at all is a mistake by itself.
@@ -91,7 +86,7 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
             "at most {} cells, since faces name their neighbours in {NEIGHBOUR_BITS} bits",
             1 << NEIGHBOUR_BITS
         );
-        problems.push(Problem::new("particles", format!("found {cells} cells in the scene"), accepted));
+        problems.refuse("particles", format!("{cells} cells in the scene"), accepted);
     }
 }
 
@@ -99,35 +94,30 @@ fn check_output(scene: &Scene, voronoi: &VoronoiInteraction, problems: &mut Prob
     let output = &scene.output;
     if output.snapshot.color == SnapshotColor::Temperature && voronoi.energy.is_none() {
         let accepted = "`density`, `speed` or `species`; or an `energy` in the interaction";
-        let found = "found `temperature` in a scene of one temperature";
-        problems.push(Problem::new("output.snapshot.color", found, accepted));
+        problems.refuse("output.snapshot.color", "`temperature` in a scene of one temperature", accepted);
     }
     if let Some(radius) = output.snapshot.radius {
-        let accepted = "no `radius` in Voronoi DPD: pictures show cells, not discs";
-        problems.push(Problem::new("output.snapshot.radius", format!("found {radius}"), accepted));
+        problems.refuse("output.snapshot.radius", radius, "no `radius` in Voronoi DPD: pictures show cells, not discs");
     }
     if output.radial_distribution.is_some() {
         let accepted = "`neighbours`, which counts the neighbours of cells; pairs have no range here";
-        let found = "found in a scene of Voronoi DPD";
-        problems.push(Problem::new("output.radial_distribution", found, accepted));
+        problems.refuse("output.radial_distribution", "in a scene of Voronoi DPD", accepted);
     }
     for path in output.asks_for_stress() {
         let accepted =
             "`viscosity` or `shear_wave` for what the stress is wanted for; the faces of cells have no virial";
-        problems.push(Problem::new(path, "found the stress in a scene of Voronoi DPD", accepted));
+        problems.refuse(path, "the stress in a scene of Voronoi DPD", accepted);
     }
     for (index, asked) in output.autocorrelations.iter().enumerate() {
         if asked.quantity == CorrelatedQuantity::Force {
             let path = format!("output.autocorrelations[{index}].quantity");
-            let accepted = "\"velocity\" in Voronoi DPD, where momentum moves with mass";
-            problems.push(Problem::new(path, "found \"force\"", accepted));
+            problems.refuse(path, "\"force\"", "\"velocity\" in Voronoi DPD, where momentum moves with mass");
         }
     }
     for (index, asked) in output.histograms.iter().enumerate() {
         if asked.quantity == CountedQuantity::Acceleration {
-            let path = format!("output.histograms[{index}].quantity");
             let accepted = "\"velocity\" or \"speed\" in Voronoi DPD, where momentum moves with mass";
-            problems.push(Problem::new(path, "found \"acceleration\"", accepted));
+            problems.refuse(format!("output.histograms[{index}].quantity"), "\"acceleration\"", accepted);
         }
     }
 }
@@ -141,39 +131,13 @@ fn check_shear_wave(scene: &Scene, problems: &mut Problems) {
     match waves.first() {
         None => {
             let accepted = "a scene in which some particles start with velocities of type `shear-wave`";
-            problems.push(Problem::new("output.shear_wave", "found in a scene without a shear wave", accepted));
+            problems.refuse("output.shear_wave", "in a scene without a shear wave", accepted);
         }
         Some((first, periods)) => {
             for (index, other) in waves.iter().filter(|(_, other)| other != periods) {
                 let accepted = format!("{periods} as in particles[{first}]: one wave is measured");
-                let path = format!("particles[{index}].velocities.periods");
-                problems.push(Problem::new(path, format!("found {other}"), accepted));
+                problems.refuse(format!("particles[{index}].velocities.periods"), other, accepted);
             }
         }
-    }
-}
-
-/// Refuses what has no meaning without Voronoi cells.
-pub(crate) fn check_absence(scene: &Scene, problems: &mut Problems) {
-    let only = "a scene with a `voronoi` interaction only";
-    let mut refuse = |path: &str, found: &str| problems.push(Problem::new(path, found, only));
-    if scene.integrator == (Integrator::Euler {}) {
-        refuse("integrator.type", "found `euler`");
-    }
-    for (index, _, _) in shear_waves(scene) {
-        refuse(&format!("particles[{index}].velocities.type"), "found `shear-wave`");
-    }
-    let output = &scene.output;
-    match output.snapshot.color {
-        SnapshotColor::Density => refuse("output.snapshot.color", "found `density`"),
-        SnapshotColor::Temperature => refuse("output.snapshot.color", "found `temperature`"),
-        SnapshotColor::Species | SnapshotColor::Speed => {}
-    }
-    let without = "found in a scene without Voronoi cells";
-    if output.neighbours.is_some() {
-        refuse("output.neighbours", without);
-    }
-    if output.shear_wave.is_some() {
-        refuse("output.shear_wave", without);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::document::Integrator;
 use crate::families::column::column;
-use crate::families::{BathProducts, CellObservables, Column, Model, Observables, OnWalls, PutIn, Voronoi, column};
+use crate::families::{CellObservables, Column, Model, Observables, Voronoi, column};
 use crate::plan::{Plan, Sums};
 use crate::shaders::Sum;
 
@@ -42,25 +42,12 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model,
         (free_energy, mass / cells.molecular_mass * model.temperature, model.temperature)
     };
     Observables {
-        step,
-        particles: plan.particles,
-        mobile: plan.particles,
-        dimension: 2,
-        volume: units.volume(),
         mass,
         kinetic_energy,
         momentum: row.vector(Sum::Momentum, 0).map(|sum| sum * units.momentum),
         potential_energy: free_energy,
         conservative_virial: 2.0 * internal_energy,
         total_virial: f64::NAN,
-        gradient_squared: 0.0,
-        laplacian: 0.0,
-        about_centre_of_mass: true,
-        bath_energy: 0.0,
-        bath_square: 0.0,
-        bath_products: BathProducts::default(),
-        put_in: PutIn::default(),
-        on_walls: OnWalls::default(),
         cells: Some(CellObservables {
             volume: row.number(Sum::Volume) * quanta.length_squared,
             // Every face has two sides.
@@ -73,6 +60,7 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model,
             iterations: whole(Sum::Iterations) as u64,
             residual: whole(Sum::Residual) as f64 * RESIDUAL,
         }),
+        ..Observables::at(model, step)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::checks::LIGHTEST;
 use crate::document::voronoi;
-use crate::document::{Generator, InitialMasses, Interaction, Problem, Problems, Scene, Velocities};
+use crate::document::{Generator, InitialMasses, Interaction, Problems, Scene, Velocities};
 use crate::families::start::bring_to_rest;
 use crate::families::{Model, Voronoi};
 use crate::noise::{self, stream};
@@ -117,14 +117,14 @@ pub(super) fn check_masses(scene: &Scene, cells: &Voronoi, masses: &[u32], probl
     let mass = f64::from(masses[cell]) * cells.mass_unit;
     let most = if masses[cell] == u32::MAX { " or more" } else { "" };
     let found =
-        format!("found `uniform-{name}`, with a mass of {mass:.3e}{most} by the volume of the cell of particle {cell}");
+        format!("`uniform-{name}`, with a mass of {mass:.3e}{most} by the volume of the cell of particle {cell}");
     let accepted = format!(
         "masses between {:.1e} and {:.1e}: a more even placement, as a lattice, or `equal` masses",
         low * cells.mass_unit,
         high * cells.mass_unit
     );
     let path = scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::Voronoi(_)));
-    problems.push(Problem::new(format!("interactions[{}].initial_masses", path.unwrap_or(0)), found, accepted));
+    problems.refuse(format!("interactions[{}].initial_masses", path.unwrap_or(0)), found, accepted);
 }
 
 /// Refuses cells with energy that start in one place: what passes between them has no bound, however short the step.
@@ -135,7 +135,6 @@ pub(super) fn check_places(cells: &Voronoi, state: &State, problems: &mut Proble
     let mut places: Vec<(&[u32; 3], usize)> = state.positions.iter().zip(0..).collect();
     places.sort_unstable();
     let Some(pair) = places.windows(2).find(|pair| pair[0].0 == pair[1].0) else { return };
-    let found = format!("found cells {} and {} in one place", pair[0].1, pair[1].1);
     let accepted = "cells some distance apart: the heat and work that pass between two in one place have no bound";
-    problems.push(Problem::new("particles", found, accepted));
+    problems.refuse("particles", format!("cells {} and {} in one place", pair[0].1, pair[1].1), accepted);
 }

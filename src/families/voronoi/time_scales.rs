@@ -1,6 +1,6 @@
 //! How fast sound, friction and heat act on Voronoi cells, and the time step that follows.
 
-use crate::document::{Problem, Problems, Scene, brief};
+use crate::document::{Problems, Scene, brief};
 use crate::families::{Model, Voronoi};
 
 /// A sound wave that passes more than this part of a cell in one step is not resolved.
@@ -56,10 +56,9 @@ pub(super) fn check(cells: &Voronoi, scene: &Scene, model: &Model, problems: &mu
     if friction <= MOST_FRICTION {
         return;
     }
-    let found = format!("found {step}, in which friction dt η/M is {}", brief(friction));
     let accepted = format!(
         "at most {:.1e}, beyond which single precision keeps nothing of a velocity beside its friction; or a lower viscosity",
         MOST_FRICTION * lightest / cells.viscosity
     );
-    problems.push(Problem::new("time.step", found, accepted));
+    problems.refuse("time.step", format!("{step}, in which friction dt η/M is {}", brief(friction)), accepted);
 }

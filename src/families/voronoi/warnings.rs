@@ -4,7 +4,7 @@ use super::time_scales::{FRICTION_LIMIT, RARELY, SOUND_LIMIT, lightest};
 use crate::document::{InitialMasses, Integrator, Interaction, Scene, VoronoiForm, VoronoiInteraction, Warning};
 use crate::document::{shear_waves, voronoi};
 use crate::families::warnings::{warn, warn_of_momentum};
-use crate::families::{Beyond, Limit, Model, Voronoi};
+use crate::families::{Beyond, Limit, Model, Voronoi, speeds};
 
 /// All warnings about a scene.
 pub(super) fn warnings(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Warning> {
@@ -65,8 +65,7 @@ pub(super) fn limits(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Limit
 
 /// The speed of sound and the width of a cell.
 fn sound_and_size(scene: &Scene, model: &Model, cells: &Voronoi) -> (f64, f64) {
-    let hottest = scene.interactions.iter().map(|each| each.bath_temperature(scene.temperature)).fold(0.0, f64::max);
-    (cells.speed_of_sound(hottest), Voronoi::mean_volume(model).sqrt())
+    (cells.speed_of_sound(speeds::hottest(scene)), Voronoi::mean_volume(model).sqrt())
 }
 
 /// The random heat through a face in one step, as a part of the energy of a cell, where heat is conducted.

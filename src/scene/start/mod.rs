@@ -23,9 +23,6 @@ use weight::Weighing;
 
 pub use weight::Fits;
 
-/// Species are numbered by eight bits.
-const MOST_SPECIES: usize = 256;
-
 /// Reads the file of a scene's state, if it has one, which lies beside a scene of that name or where `files` says; `masses` says which
 /// groups give theirs. Completes the scene by the box, the numbers of particles, masses and the checksum. Notices say what is not used.
 /// `fits` decides of the number of particles before they are read or placed.
@@ -67,11 +64,7 @@ pub(super) fn read(
     };
     let checksum = places::checksum(&file);
     files.check(&path, &state, &checksum)?;
-    let mut reader =
-        Reader { state: &state, file: &file, run, checksum: Some(checksum), problems, notices: Vec::new() };
-    reader.adopt(scene, masses);
-    notices.extend(reader.notices.into_iter().map(|message| Warning { path: "state.file".to_owned(), message }));
-    Ok(reader.problems)
+    Ok(adopted(scene, masses, Reader::new(&state, &file, run, Some(checksum)), "state.file", notices))
 }
 
 /// Places the molecules of a scene and completes it, as by a file.
@@ -86,7 +79,7 @@ fn of_molecules(
     if problems.is_empty()
         && let Err(mistake) = Weighing::of(scene, fits).molecules(host_memory::free())?
     {
-        problems.push(Problem::new(MOLECULES, mistake.found, mistake.accepted));
+        problems.add(MOLECULES, mistake.found, mistake.accepted);
     }
     if !problems.is_empty() {
         return Ok(problems);
@@ -101,10 +94,25 @@ fn of_molecules(
         outside: OutsidePositions::Refuse,
         checksum: None,
     };
-    let mut reader = Reader { state: &state, file: &file, run: None, checksum: None, problems, notices: Vec::new() };
+    Ok(adopted(scene, masses, Reader::new(&state, &file, None, None), MOLECULES, notices))
+}
+
+/// Takes what a reader has into a scene; the mistakes.
+fn adopted(
+    scene: &mut Scene,
+    masses: &[bool],
+    mut reader: Reader<'_>,
+    path: &str,
+    notices: &mut Vec<Warning>,
+) -> Problems {
     reader.adopt(scene, masses);
-    notices.extend(reader.notices.into_iter().map(|message| Warning { path: MOLECULES.to_owned(), message }));
-    Ok(reader.problems)
+    notices.extend(reader.notices.into_iter().map(|message| Warning { path: path.to_owned(), message }));
+    reader.problems
+}
+
+/// Names in a row, each as it is written in a scene.
+fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// Where the file of a scene of that name is.
@@ -149,30 +157,30 @@ fn check_scene(scene: &Scene, problems: &mut Problems) {
             Some(_) => ("state", "a file"),
             None => (MOLECULES, MOLECULES),
         };
-        let found = format!("found in a scene with interactions[{index}], whose particles {what} cannot describe");
+        let found = format!("in a scene with interactions[{index}], whose particles {what} cannot describe");
         let accepted = format!(
             "{what} in scenes of `dpd`, `langevin`, `coloured-noise`, `tether`, `body-force`, `bonds` and `angles`: other particles have \
              more than a place and a velocity, such as masses of their own or energies"
         );
-        problems.push(Problem::new(path, found, accepted));
+        problems.refuse(path, found, accepted);
     }
     if let Some(style) = scene.state.as_ref().and_then(|state| state.atom_style.as_deref())
         && let Err(mistake) = AtomStyle::of(style)
     {
-        problems.push(Problem::new("state.atom_style", mistake.found, mistake.accepted));
+        problems.add("state.atom_style", mistake.found, mistake.accepted);
     }
     if scene.space.shear.is_some() && scene.state.as_ref().is_some_and(|state| state.outside == OutsidePositions::Wrap)
     {
         let accepted = "positions inside the box, and no `outside`: whoever crosses boundaries that shear is displaced and gets their velocity";
-        problems.push(Problem::new("state.outside", "found \"wrap\" in a scene whose boundaries shear", accepted));
+        problems.refuse("state.outside", "\"wrap\" in a scene whose boundaries shear", accepted);
     }
     if scene.state.is_some() && !scene.molecules.is_empty() {
         let accepted = "one of the two: molecules are placed anew, and a file says where all particles are";
-        problems.push(Problem::new(MOLECULES, "found beside a `state`", accepted));
+        problems.refuse(MOLECULES, "beside a `state`", accepted);
     }
     let (beside, places) = match &scene.state {
-        Some(_) => ("found beside a `state`", "no `placement`: the file of `state` says where particles start"),
-        None => ("found beside `molecules`", "no `placement`: molecules are placed along random walks"),
+        Some(_) => ("beside a `state`", "no `placement`: the file of `state` says where particles start"),
+        None => ("beside `molecules`", "no `placement`: molecules are placed along random walks"),
     };
     let free = scene.particles.iter().rposition(|group| !group.is_frozen());
     if let (Some(layer), Some(free)) = (scene.particles.iter().position(ParticleGroup::is_frozen), free)
@@ -180,29 +188,25 @@ fn check_scene(scene: &Scene, problems: &mut Problems) {
     {
         let accepted =
             format!("layers after all other groups, the last of which is particles[{free}]: their ids come last");
-        problems.push(Problem::new(format!("particles[{layer}]"), beside, accepted));
+        problems.refuse(format!("particles[{layer}]"), beside, accepted);
     }
     for (index, group) in scene.particles.iter().enumerate() {
         if group.placement != Placement::Random && !group.is_frozen() {
-            problems.push(Problem::new(format!("particles[{index}].placement"), beside, places));
+            problems.refuse(format!("particles[{index}].placement"), beside, places);
         }
         if group.velocities != Velocities::Thermal {
             let accepted = match &scene.state {
                 Some(_) => "no `velocities`: `state.velocities` is `file`, `thermal` or `rest` for all particles",
                 None => "no `velocities`: molecules start with those of Maxwell's distribution",
             };
-            problems.push(Problem::new(format!("particles[{index}].velocities"), beside, accepted));
+            problems.refuse(format!("particles[{index}].velocities"), beside, accepted);
         }
         if group.chain.is_some() && !scene.molecules.is_empty() {
             let accepted = "no `chain`: one is a molecule with `bonds` from bead to bead";
-            problems.push(Problem::new(format!("particles[{index}].chain"), beside, accepted));
+            problems.refuse(format!("particles[{index}].chain"), beside, accepted);
         }
     }
-    let species = SpeciesNames::of(scene).count();
-    if species > MOST_SPECIES {
-        let found = format!("found {species} species");
-        problems.push(Problem::new("particles", found, format!("at most {MOST_SPECIES} species")));
-    }
+    semantics::check_number_of_species(&SpeciesNames::of(scene), problems);
 }
 
 /// The start that was read last, if it is the same: the variants of a sweep share it.
@@ -226,6 +230,8 @@ fn group_of(scene: &Scene, species: &str) -> usize {
 struct Reader<'a> {
     state: &'a StateFile,
     file: &'a ParticleFile,
+    /// Numbers of particles of its types.
+    counts: Vec<u64>,
     /// The run that the file is of, if that is known.
     run: Option<checkpoint::Run>,
     /// Of what was read, if anything was.
@@ -234,9 +240,18 @@ struct Reader<'a> {
     notices: Vec<String>,
 }
 
-impl Reader<'_> {
-    fn push(&mut self, path: impl std::fmt::Display, found: impl Into<String>, accepted: impl Into<String>) {
-        self.problems.push(Problem::new(path, found, accepted));
+impl<'a> Reader<'a> {
+    fn new(
+        state: &'a StateFile,
+        file: &'a ParticleFile,
+        run: Option<checkpoint::Run>,
+        checksum: Option<String>,
+    ) -> Self {
+        let mut counts = vec![0; file.species.len().max(1)];
+        for kind in &file.types {
+            counts[*kind as usize] += 1;
+        }
+        Self { state, file, counts, run, checksum, problems: Problems::default(), notices: Vec::new() }
     }
 
     /// Takes what the file says into the scene; stops where the rest would have no meaning.
@@ -257,16 +272,16 @@ impl Reader<'_> {
         let copies = number_of_copies(self.state.copies());
         let total = copies.saturating_mul(self.file.len() as u64);
         if total > MOST_PARTICLES {
-            let found = format!("found {} in {copies} copies of {}", counted(total, "particle"), self.file.len());
-            self.push(
+            let found = format!("{} in {copies} copies of {}", counted(total, "particle"), self.file.len());
+            self.problems.refuse(
                 "state.replicate",
                 found,
                 format!("at most {MOST_PARTICLES} particles, since they are numbered by 32-bit words"),
             );
         }
         if self.state.velocities == StateVelocities::File && self.file.velocities.is_empty() && !self.file.is_empty() {
-            let found = format!("found \"file\", and no velocities in `{}`", self.state.file);
-            self.push(
+            let found = format!("\"file\", and no velocities in `{}`", self.state.file);
+            self.problems.refuse(
                 "state.velocities",
                 found,
                 "\"thermal\" or \"rest\", or a file with velocities; GSD leaves out those that are all zero",
@@ -339,15 +354,19 @@ impl Reader<'_> {
         let dimension = if given > 0 { given } else { self.file.dimension.unwrap_or(3) };
         let replicate = self.state.replicate.len();
         if replicate > 0 && replicate != dimension {
-            let found = format!("found a list of {replicate}");
-            self.push("state.replicate", found, format!("a number of copies for each of the {dimension} axes"));
+            let found = format!("a list of {replicate}");
+            self.problems.refuse(
+                "state.replicate",
+                found,
+                format!("a number of copies for each of the {dimension} axes"),
+            );
             return None;
         }
         let copies = self.state.copies().map(f64::from);
         let Some(lengths) = self.file.lengths else {
             if given == 0 {
                 let found = format!("missing, and `{}` has no box", self.state.file);
-                self.push("space", found, "an object with `box`, or a file with a `Lattice`");
+                self.problems.add("space", found, "an object with `box`, or a file with a `Lattice`");
                 return None;
             }
             return Some(std::array::from_fn(|axis| {
@@ -363,7 +382,7 @@ impl Reader<'_> {
             if (found - expected).abs() > ROUNDING * expected {
                 let copied = if copies[axis] > 1.0 { format!(" in {} copies", copies[axis]) } else { String::new() };
                 let accepted = format!("{expected}, that of `{}`{copied}, or no `space` at all", self.state.file);
-                self.push(format!("space.box[{axis}]"), format!("found {found}"), accepted);
+                self.problems.refuse(format!("space.box[{axis}]"), found, accepted);
             }
         }
         self.problems.is_empty().then_some(lengths)
@@ -384,7 +403,7 @@ impl Reader<'_> {
             let accepted = format!(
                 "an orthogonal box; or `space.shear` with the `gradient` {name}, at a `rate` of 0 if the copy stays there"
             );
-            self.push("state.file", found, accepted);
+            self.problems.add("state.file", found, accepted);
             return false;
         }
         let Some(shear) = &mut scene.space.shear else { return true };
@@ -396,10 +415,10 @@ impl Reader<'_> {
         let apart = (displacement - of_file) / edge;
         if (apart - apart.round()).abs() > ROUNDING {
             let accepted = format!("{of_file}, as in `{}`, or no `displacement`", self.state.file);
-            self.push("space.shear.displacement", format!("found {displacement}"), accepted);
+            self.problems.refuse("space.shear.displacement", displacement, accepted);
         } else if displacement != 0.0 && number_of_copies(self.state.copies()) > 1 {
-            let found = format!("found copies of a box whose boundaries are displaced by {displacement}");
-            self.push("state.replicate", found, "one copy");
+            let found = format!("copies of a box whose boundaries are displaced by {displacement}");
+            self.problems.refuse("state.replicate", found, "one copy");
         }
         self.problems.is_empty()
     }
@@ -408,30 +427,27 @@ impl Reader<'_> {
     fn species(&mut self, scene: &Scene) -> Option<Vec<Option<u8>>> {
         let (file, names) = (self.file, SpeciesNames::of(scene));
         let types = self.types(scene, &names)?;
-        let mut counts = vec![0_u64; file.species.len().max(1)];
-        for kind in &file.types {
-            counts[*kind as usize] += 1;
-        }
+        let counts = self.counts.clone();
         let mut found = vec![None; file.species.len()];
         for (place, kind) in types.iter().enumerate().filter_map(|(place, kind)| Some((place, (*kind)?))) {
             let group = group_of(scene, names.names()[place]);
             if counts[kind] > 0 && scene.particles[group].is_frozen() {
                 let accepted = "a species of its own for a layer, whose particles `behind-walls` places";
                 let text = format!("`{}` has {} of it", self.state.file, counted(counts[kind], "particle"));
-                self.push(format!("particles[{group}].species"), text, accepted);
+                self.problems.add(format!("particles[{group}].species"), text, accepted);
             }
             if let Some(other) = found[kind].replace(place as u8) {
                 let [first, second] = [other.into(), place].map(|place: usize| names.names()[place]);
                 let path = format!("particles[{}].type", group_of(scene, second));
                 let text = format!("found the type `{}` for `{first}` and for `{second}`", file.species[kind]);
-                self.push(path, text, "a type of its own for every species");
+                self.problems.add(path, text, "a type of its own for every species");
             }
         }
         for kind in (0..counts.len()).filter(|kind| counts[*kind] > 0 && found.get(*kind).is_none_or(Option::is_none)) {
             let (name, count) = (file.species.get(kind).map_or("", String::as_str), counts[kind]);
             let what = if file.labelled { "the species" } else { "type" };
             let found = format!("`{}`: found {} of {what} `{name}`", self.state.file, counted(count, "particle"));
-            let known = names.names().iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+            let known = quoted(names.names().iter().copied());
             let accepted = if file.labelled {
                 format!("the species of some particle group: {known}; or a group with that `type`")
             } else {
@@ -457,7 +473,7 @@ impl Reader<'_> {
             };
             (0..file.species.len()).find(is_called)
         };
-        let known = || file.species.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let known = || quoted(file.species.iter().map(String::as_str));
         let mut found: Vec<Option<usize>> = vec![None; names.count()];
         let (mut are_said, mut is_wrong) = (false, false);
         for (index, group) in scene.particles.iter().enumerate() {
@@ -488,7 +504,7 @@ impl Reader<'_> {
             if !file.labelled && are_said {
                 let path = format!("particles[{}].type", group_of(scene, name));
                 let accepted = format!("a type of `{}` in all groups, or in none: {}", self.state.file, known());
-                self.push(path, "missing, and found in another group", accepted);
+                self.problems.add(path, "missing, and found in another group", accepted);
                 return None;
             }
             found[place] =
@@ -502,7 +518,7 @@ impl Reader<'_> {
         if self.file.labelled {
             return;
         }
-        let names: Vec<String> = SpeciesNames::of(scene).names().iter().map(|name| (*name).to_owned()).collect();
+        let names = SpeciesNames::of(scene).to_owned();
         for group in &mut scene.particles {
             let is_its_own = |place: &Option<u8>| place.is_some_and(|place| names[usize::from(place)] == group.species);
             let kind = species.iter().position(is_its_own);
@@ -513,12 +529,10 @@ impl Reader<'_> {
     /// Numbers of particles; those that the scene gives have to be the same.
     fn adopt_counts(&mut self, scene: &mut Scene, species: &[Option<u8>]) {
         let copies = number_of_copies(self.state.copies());
-        let names: Vec<String> = SpeciesNames::of(scene).names().iter().map(|name| (*name).to_owned()).collect();
+        let names = SpeciesNames::of(scene).to_owned();
         let mut counts = vec![0_u64; names.len()];
-        for kind in &self.file.types {
-            if let Some(Some(place)) = species.get(*kind as usize) {
-                counts[usize::from(*place)] += 1;
-            }
+        for (place, count) in species.iter().zip(&self.counts).filter_map(|(place, count)| Some(((*place)?, count))) {
+            counts[usize::from(place)] += count;
         }
         for (name, count) in names.iter().zip(counts) {
             // A layer is placed beside what is in the file.
@@ -529,9 +543,8 @@ impl Reader<'_> {
             if count == 0 {
                 self.notices.push(format!("`{}` has no particles of `{name}`", self.state.file));
             }
-            let of_species = |group: &&usize| scene.particles[**group].species == *name;
-            let groups: Vec<usize> = (0..scene.particles.len()).collect();
-            let groups: Vec<usize> = groups.iter().filter(of_species).copied().collect();
+            let of_species = |group: &usize| scene.particles[*group].species == *name;
+            let groups: Vec<usize> = (0..scene.particles.len()).filter(of_species).collect();
             let given = |group: &usize| {
                 scene.particles[*group].count.is_some() || scene.particles[*group].number_density.is_some()
             };
@@ -542,16 +555,16 @@ impl Reader<'_> {
             if groups.len() > 1 && !groups.iter().all(given) {
                 let accepted =
                     format!("a `count` in each of the groups of `{name}`, {} in all", counted(count, "particle"));
-                self.push(
+                self.problems.refuse(
                     format!("particles[{first}]"),
-                    format!("found `{name}` in {} groups", groups.len()),
+                    format!("`{name}` in {} groups", groups.len()),
                     accepted,
                 );
             } else if given(&first) && sum != count {
                 let key = if scene.particles[first].count.is_some() { "count" } else { "number_density" };
                 let accepted =
                     format!("{count}, the number of particles of `{name}` in `{}`, or no `{key}`", self.state.file);
-                self.push(format!("particles[{first}].{key}"), format!("found {}", counted(sum, "particle")), accepted);
+                self.problems.refuse(format!("particles[{first}].{key}"), counted(sum, "particle"), accepted);
             }
             for (group, found) in groups.iter().zip(found) {
                 let group = &mut scene.particles[*group];
@@ -562,7 +575,7 @@ impl Reader<'_> {
 
     /// Masses that the scene leaves out are those of the file.
     fn adopt_masses(&mut self, scene: &mut Scene, given: &[bool], species: &[Option<u8>]) {
-        let names: Vec<String> = SpeciesNames::of(scene).names().iter().map(|name| (*name).to_owned()).collect();
+        let names = SpeciesNames::of(scene).to_owned();
         for (kind, mass) in self.file.masses.iter().enumerate() {
             let (Some(mass), Some(Some(place))) = (mass, species.get(kind)) else { continue };
             let name = &names[usize::from(*place)];
@@ -586,21 +599,14 @@ impl Reader<'_> {
             let mut groups = scene.particles.iter().zip(given);
             groups.any(|(group, given)| group.species == name && *given)
         };
-        let mut has_particles = vec![false; species.len()];
-        for kind in &self.file.types {
-            if let Some(has) = has_particles.get_mut(*kind as usize) {
-                *has = true;
-            }
-        }
-        let lacking: Vec<String> = (0..species.len())
-            .filter(|kind| has_particles[*kind] && self.file.masses.get(*kind).copied().flatten().is_none())
+        let lacking: Vec<&str> = (0..species.len())
+            .filter(|kind| self.counts[*kind] > 0 && self.file.masses.get(*kind).copied().flatten().is_none())
             .filter_map(|kind| names.names().get(usize::from(species[kind]?)).copied())
             .filter(|name| !is_given(name))
-            .map(|name| format!("`{name}`"))
             .collect();
         let (mass, be) = if lacking.len() == 1 { ("mass", "it is") } else { ("masses", "they are") };
         if !lacking.is_empty() {
-            let (file, names) = (&self.state.file, lacking.join(", "));
+            let (file, names) = (&self.state.file, quoted(lacking));
             self.notices.push(format!("`{file}` has no {mass} of {names}, and `particles` gives none: {be} 1"));
         }
     }
@@ -619,10 +625,7 @@ impl Reader<'_> {
             {
                 let accepted = match known.as_slice() {
                     [] => format!("no `types`: `{}` has no {noun}", self.state.file),
-                    names => {
-                        let names = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-                        format!("a type of {noun} in `{}`: {names}", self.state.file)
-                    }
+                    names => format!("a type of {noun} in `{}`: {}", self.state.file, quoted(names.iter().copied())),
                 };
                 let path = format!("interactions[{index}].types[{place}]");
                 let problem = Problem::new(path, format!("found \"{name}\""), accepted);
@@ -638,7 +641,7 @@ impl Reader<'_> {
         if start.copies != [1; 3] {
             let found =
                 format!("found, beside particles[{chained}].chain, whose beads follow each other in one box only");
-            self.push("state.replicate", found, "bonds of the file in place of chains; or one copy");
+            self.problems.add("state.replicate", found, "bonds of the file in place of chains; or one copy");
             return;
         }
         let names = SpeciesNames::of(scene);
@@ -655,7 +658,7 @@ impl Reader<'_> {
             );
             let accepted = "a file with all particles of a group after each other, in the order of `particles`; or bonds of the \
                             file in place of chains";
-            self.push(format!("particles[{chained}].chain"), found, accepted);
+            self.problems.add(format!("particles[{chained}].chain"), found, accepted);
         }
     }
 
@@ -663,8 +666,8 @@ impl Reader<'_> {
     fn adopt_checksum(&mut self, scene: &mut Scene) {
         let Some(found) = self.checksum.clone() else { return };
         if let Some(given) = self.state.checksum.as_ref().filter(|given| **given != found) {
-            let found = format!("found \"{given}\", and \"{found}\" of `{}`", self.state.file);
-            self.push("state.checksum", found, "the file as it was, or no `checksum`");
+            let found = format!("\"{given}\", and \"{found}\" of `{}`", self.state.file);
+            self.problems.refuse("state.checksum", found, "the file as it was, or no `checksum`");
         }
         if let Some(state) = &mut scene.state {
             state.checksum = Some(found);
@@ -673,31 +676,21 @@ impl Reader<'_> {
 
     /// Says what is in the file, and nowhere in the scene.
     fn note_what_is_not_used(&mut self, scene: &Scene, dimension: usize, mut unused: Vec<String>) {
-        let mut note = |noun: &str, names: Vec<&str>| {
+        let bonds = unasked(&self.file.bonds, |kind| {
+            scene.interactions.iter().any(|interaction| {
+                matches!(interaction, Interaction::Bonds(bonds) if bonds.links(scene).include(kind, scene))
+            })
+        });
+        let angles = unasked(&self.file.angles, |kind| {
+            scene.interactions.iter().any(|interaction| {
+                matches!(interaction, Interaction::Angles(angles) if angles.links(scene).include(kind, scene))
+            })
+        });
+        for (noun, names) in [("bonds", bonds), ("angles", angles)] {
             if !names.is_empty() {
-                unused.push(format!(
-                    "{noun} of type {}",
-                    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-                ));
+                unused.push(format!("{noun} of type {}", quoted(names)));
             }
-        };
-        let asked = |types: &Option<Vec<String>>, listed: bool, name: &str| {
-            !listed
-                && scene.links_are_from_file(types.as_deref())
-                && types.as_ref().is_none_or(|types| types.iter().any(|kind| kind == name))
-        };
-        let bonds = unasked(&self.file.bonds, |name| {
-            scene.interactions.iter().any(|interaction| {
-                matches!(interaction, Interaction::Bonds(bonds) if asked(&bonds.types, !bonds.pairs.is_empty(), name))
-            })
-        });
-        note("bonds", bonds);
-        let angles = unasked(&self.file.angles, |name| {
-            scene.interactions.iter().any(|interaction| {
-                matches!(interaction, Interaction::Angles(angles) if asked(&angles.types, !angles.triples.is_empty(), name))
-            })
-        });
-        note("angles", angles);
+        }
         if self.state.velocities != StateVelocities::File && !self.file.velocities.is_empty() {
             unused.push("velocities".to_owned());
         }

@@ -1,6 +1,6 @@
 //! The particles of a scene with molecules, as a file would list them: molecule by molecule, each bead by bead.
 
-use crate::document::{Generator, Molecule, Problem, Problems, Scene, SpeciesNames};
+use crate::document::{Generator, Molecule, Problems, Scene, SpeciesNames};
 use crate::noise::{self, stream};
 use crate::state::MOST_PARTICLES;
 use crate::state_file::{Links, ParticleFile};
@@ -40,11 +40,10 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     let beads = |molecule: &Molecule| molecule.resolved_count(volume).saturating_mul(molecule.beads.len() as u64);
     let total = scene.molecules.iter().map(beads).fold(0, u64::saturating_add);
     if total > MOST_BEADS.min(MOST_PARTICLES) {
-        let found = format!("found {total} beads in all");
         let accepted = format!(
             "at most {MOST_BEADS}, since they are placed one by one in memory; `particles` with a `count` and a `chain` are not"
         );
-        problems.push(Problem::new("molecules", found, accepted));
+        problems.refuse("molecules", format!("{total} beads in all"), accepted);
     }
 }
 
@@ -61,13 +60,13 @@ pub(super) fn particles(scene: &Scene, problems: &mut Problems) -> Option<Partic
     for (index, molecule) in scene.molecules.iter().enumerate() {
         if let Err(number) = add(&mut all, scene, &names, molecule) {
             let found = format!(
-                "found bonds that cannot all be {} long in {} dimensions, tried for molecule {number} in {STARTS} ways",
+                "bonds that cannot all be {} long in {} dimensions, tried for molecule {number} in {STARTS} ways",
                 molecule.spacing,
                 scene.space.lengths.len()
             );
             let accepted =
                 "rings whose beads find room around them; or a `state` from a file with the places of all beads";
-            problems.push(Problem::new(format!("molecules[{index}].bonds"), found, accepted));
+            problems.refuse(format!("molecules[{index}].bonds"), found, accepted);
         }
     }
     problems.is_empty().then_some(all)
@@ -89,12 +88,12 @@ fn check_kind(scene: &Scene, names: &SpeciesNames<'_>, molecule: &Molecule, path
         _ => None,
     };
     if let Some(found) = found {
-        problems.push(Problem::new(path, found, "exactly one of `count` and `number_density`"));
+        problems.add(path, found, "exactly one of `count` and `number_density`");
     }
     let half = 0.5 * scene.space.shortest_length();
     if molecule.beads.len() > 1 && molecule.spacing > half {
         let accepted = format!("at most {half}, half of the shortest box edge");
-        problems.push(Problem::new(format!("{path}.spacing"), format!("found {}", molecule.spacing), accepted));
+        problems.refuse(format!("{path}.spacing"), molecule.spacing, accepted);
     }
     let bonds = check_links(&molecule.bonds, "bonds", molecule, path, problems);
     let angles = check_links(&molecule.angles, "angles", molecule, path, problems);
@@ -105,17 +104,15 @@ fn check_kind(scene: &Scene, names: &SpeciesNames<'_>, molecule: &Molecule, path
     }
     let joined = joined_to_the_first(molecule);
     if let Some(bead) = joined.iter().position(|joined| !joined) {
-        let found = format!("found no way along them from bead 0 to bead {bead}");
         let accepted = "bonds that join all beads; what is apart is a molecule of its own";
-        problems.push(Problem::new(format!("{path}.bonds"), found, accepted));
+        problems.refuse(format!("{path}.bonds"), format!("no way along them from bead 0 to bead {bead}"), accepted);
     }
     if angles {
         let bonded: HashSet<[u32; 2]> = molecule.bonds.iter().flat_map(|[a, b]| [[*a, *b], [*b, *a]]).collect();
         let open = |[a, b, c]: &[u32; 3]| !bonded.contains(&[*a, *b]) || !bonded.contains(&[*b, *c]);
         for (index, angle) in molecule.angles.iter().enumerate().filter(|(_, angle)| open(angle)) {
-            let found = format!("found {angle:?}");
             let accepted = "three beads of which the one in the middle is bonded to both others";
-            problems.push(Problem::new(format!("{path}.angles[{index}]"), found, accepted));
+            problems.refuse(format!("{path}.angles[{index}]"), format!("{angle:?}"), accepted);
         }
     }
 }
@@ -132,7 +129,7 @@ fn check_links<const LENGTH: usize>(
     let mut right = true;
     for (index, link) in links.iter().enumerate() {
         let mut refuse = |accepted: String| {
-            problems.push(Problem::new(format!("{path}.{key}[{index}]"), format!("found {link:?}"), accepted));
+            problems.refuse(format!("{path}.{key}[{index}]"), format!("{link:?}"), accepted);
             right = false;
         };
         let backward = std::array::from_fn(|at| link[LENGTH - 1 - at]);
@@ -151,11 +148,7 @@ fn check_links<const LENGTH: usize>(
 fn check_types(types: &[String], links: usize, noun: &str, path: &str, problems: &mut Problems) {
     if !types.is_empty() && types.len() != links {
         let accepted = format!("{links}, one for each of `{noun}s`, or no `{noun}_types`");
-        problems.push(Problem::new(
-            format!("{path}.{noun}_types"),
-            format!("found a list of {}", types.len()),
-            accepted,
-        ));
+        problems.refuse(format!("{path}.{noun}_types"), format!("a list of {}", types.len()), accepted);
     }
 }
 

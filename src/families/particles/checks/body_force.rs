@@ -1,6 +1,6 @@
 //! Checks of body forces that a schema cannot express.
 
-use crate::document::{Axis, BodyForceInteraction, ForceProfile, Interaction, Problem, Problems, Scene, SpeciesNames};
+use crate::document::{BodyForceInteraction, ForceProfile, Interaction, Problems, Scene, SpeciesNames};
 use crate::families::Model;
 use crate::families::particles::model::{BodyForces, FixedImpulse};
 
@@ -17,45 +17,35 @@ pub(super) fn check(
 ) {
     let dimension = scene.space.lengths.len();
     if force.force.len() != dimension {
-        let found = format!("found {} components", force.force.len());
-        problems.push(Problem::new(
-            format!("{path}.force"),
-            found,
-            format!("{dimension}, one for each axis of the box"),
-        ));
+        let found = format!("{} components", force.force.len());
+        problems.refuse(format!("{path}.force"), found, format!("{dimension}, one for each axis of the box"));
     }
     let varies = !force.profile.is_uniform();
     match force.axis {
         None if varies => {
             let accepted = "an `axis` along which the force varies: \"x\", \"y\" or \"z\"";
-            problems.push(Problem::new(format!("{path}.axis"), "found none", accepted));
+            problems.refuse(format!("{path}.axis"), "none", accepted);
         }
         Some(_) if !varies => {
             let accepted =
                 "no `axis`, or the profile `opposed` or `sinusoidal`: a uniform force is the same along all axes";
-            problems.push(Problem::new(format!("{path}.axis"), "found one", accepted));
+            problems.refuse(format!("{path}.axis"), "one", accepted);
         }
         Some(axis) if axis as usize >= dimension => {
-            let name = match axis {
-                Axis::X => "x",
-                Axis::Y => "y",
-                Axis::Z => "z",
-            };
             let accepted = format!("one of the {dimension} axes of the box");
-            problems.push(Problem::new(format!("{path}.axis"), format!("found \"{name}\""), accepted));
+            problems.refuse(format!("{path}.axis"), format!("\"{}\"", axis.name()), accepted);
         }
         _ => {}
     }
     if let Some(waves) = force.waves.filter(|_| force.profile != ForceProfile::Sinusoidal) {
-        let accepted = "no `waves`, or the profile `sinusoidal`";
-        problems.push(Problem::new(format!("{path}.waves"), format!("found {waves}"), accepted));
+        problems.refuse(format!("{path}.waves"), waves, "no `waves`, or the profile `sinusoidal`");
     }
     for (index, name) in force.species.iter().flatten().enumerate() {
         let path = format!("{path}.species[{index}]");
         names.check(name, &path, problems);
         if scene.particles.iter().any(|group| group.species == *name && group.is_held()) {
-            let found = format!("found `{name}`, whose particles are fixed");
-            problems.push(Problem::new(path, found, "species that can move: what is held takes up no momentum"));
+            let found = format!("`{name}`, whose particles are fixed");
+            problems.refuse(path, found, "species that can move: what is held takes up no momentum");
         }
     }
 }
@@ -72,9 +62,9 @@ pub(super) fn check_together(scene: &Scene, problems: &mut Problems) {
         let way = |force: &BodyForceInteraction| (force.profile, force.axis, force.waves.unwrap_or(1));
         if way(force) != way(known) {
             let found =
-                format!("found a body force of another profile, axis or number of waves than interactions[{earlier}]");
+                format!("a body force of another profile, axis or number of waves than interactions[{earlier}]");
             let accepted = "the same for all body forces of a scene; their strength may differ from species to species";
-            problems.push(Problem::new(format!("interactions[{index}]"), found, accepted));
+            problems.refuse(format!("interactions[{index}]"), found, accepted);
         }
     }
 }
@@ -99,8 +89,7 @@ pub(in crate::families::particles) fn check_impulses(
             } else {
                 continue;
             };
-            let found = format!("found {component:e} on a particle of species `{}`", species.name);
-            problems.push(Problem::new(&path, found, wrong));
+            problems.refuse(&path, format!("{component:e} on a particle of species `{}`", species.name), wrong);
         }
     }
 }

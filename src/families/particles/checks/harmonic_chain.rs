@@ -1,6 +1,6 @@
 //! What harmonic chains ask of their scene.
 
-use crate::document::{HarmonicChainInteraction, Interaction, Problem, Problems, Scene};
+use crate::document::{HarmonicChainInteraction, Problems, Scene};
 
 /// Springs are this many standard deviations of their length long, so that they never turn over.
 const LONGEST_EXTENSION: f64 = 8.0;
@@ -15,18 +15,13 @@ fn extension(chain: &HarmonicChainInteraction, temperature: f64) -> f64 {
 
 /// Problems of a scene with harmonic chains at `path`.
 pub(crate) fn check(scene: &Scene, chain: &HarmonicChainInteraction, path: &str, problems: &mut Problems) {
-    if scene.interactions.len() > 1 {
-        let accepted = "`harmonic-chain` as the only interaction of a scene";
-        problems.push(Problem::new(path, "found together with another interaction", accepted));
-    }
     if !scene.particles.is_empty() {
         let accepted = "an empty list: the chains make their own particles";
-        problems.push(Problem::new("particles", format!("found {} groups", scene.particles.len()), accepted));
+        problems.refuse("particles", format!("{} groups", scene.particles.len()), accepted);
     }
     let dimension = scene.space.lengths.len();
     if dimension != 1 {
-        let accepted = "one edge length: harmonic chains live in one dimension";
-        problems.push(Problem::new("space.box", format!("found {dimension}"), accepted));
+        problems.refuse("space.box", dimension, "one edge length: harmonic chains live in one dimension");
         return;
     }
     let size = f64::from(chain.cluster_size);
@@ -34,28 +29,11 @@ pub(crate) fn check(scene: &Scene, chain: &HarmonicChainInteraction, path: &str,
     let needed = thermal.max(extension(chain, scene.temperature) / size);
     if chain.spacing < needed {
         let accepted = format!("at least {needed:.4}, so that no spring is inverted");
-        problems.push(Problem::new(format!("{path}.spacing"), format!("found {}", chain.spacing), accepted));
+        problems.refuse(format!("{path}.spacing"), chain.spacing, accepted);
     }
     let shortest = 2.0 * (size * chain.spacing + extension(chain, scene.temperature));
     if scene.space.lengths[0] < shortest {
         let accepted = format!("at least {shortest:.4}, twice the longest spring");
-        problems.push(Problem::new("space.box[0]", format!("found {}", scene.space.lengths[0]), accepted));
+        problems.refuse("space.box[0]", scene.space.lengths[0], accepted);
     }
-}
-
-/// Problems of a scene without harmonic chains.
-pub(crate) fn check_absence(scene: &Scene, problems: &mut Problems) {
-    if scene.output.chain.is_some() {
-        let accepted = "no `chain`, or a scene with the interaction `harmonic-chain`";
-        problems.push(Problem::new("output.chain", "found in a scene without harmonic chains", accepted));
-    }
-}
-
-/// The harmonic chains of a scene.
-#[must_use]
-pub fn harmonic_chain(scene: &Scene) -> Option<&HarmonicChainInteraction> {
-    scene.interactions.iter().find_map(|interaction| match interaction {
-        Interaction::HarmonicChain(chain) => Some(chain),
-        _ => None,
-    })
 }

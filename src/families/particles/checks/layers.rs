@@ -1,7 +1,7 @@
 //! Checks of layers of frozen particles behind walls.
 
 use super::acts;
-use crate::document::{Interaction, ParticleGroup, Placement, Problem, Problems, Scene, Velocities};
+use crate::document::{Interaction, ParticleGroup, Placement, Problems, Scene, Velocities};
 
 /// Whether a group makes up a layer behind the walls across an axis.
 pub(super) fn is_behind(group: &ParticleGroup, axis: usize) -> bool {
@@ -21,10 +21,10 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     if let Some((known, across)) = axes.next()
         && let Some((index, other)) = axes.find(|(_, axis)| *axis != across)
     {
-        let found = format!("found \"{}\" beside \"{}\" in particles[{known}]", other.name(), across.name());
+        let found = format!("\"{}\" beside \"{}\" in particles[{known}]", other.name(), across.name());
         let accepted =
             "layers behind the walls across one axis: where two meet, the corner between them would be empty";
-        problems.push(Problem::new(format!("particles[{index}].placement.axis"), found, accepted));
+        problems.refuse(format!("particles[{index}].placement.axis"), found, accepted);
     }
     check_interactions(scene, problems);
 }
@@ -37,29 +37,29 @@ fn check_group(scene: &Scene, group: &ParticleGroup, path: &str, problems: &mut 
     match scene.space.lengths.get(axis as usize) {
         Some(edge) if walled && !(thickness > 0.0 && thickness <= *edge) => {
             let accepted = format!("above 0 and at most {edge}, the distance of the walls");
-            problems.push(Problem::new(format!("{path}.placement.thickness"), format!("found {thickness}"), accepted));
+            problems.refuse(format!("{path}.placement.thickness"), thickness, accepted);
         }
         Some(_) if walled => {}
         Some(_) => {
             let accepted = format!("an axis with walls: put them into `space.walls.{name}`");
-            let found = format!("found \"{name}\", across which there are no walls");
-            problems.push(Problem::new(format!("{path}.placement.axis"), found, accepted));
+            let found = format!("\"{name}\", across which there are no walls");
+            problems.refuse(format!("{path}.placement.axis"), found, accepted);
         }
         None => {
             let accepted = format!("one of the {} axes of the box", scene.space.lengths.len());
-            problems.push(Problem::new(format!("{path}.placement.axis"), format!("found \"{name}\""), accepted));
+            problems.refuse(format!("{path}.placement.axis"), format!("\"{name}\""), accepted);
         }
     }
     if group.fixed {
         let accepted = "no `fixed`: particles behind walls are frozen, and move with their wall";
-        problems.push(Problem::new(format!("{path}.fixed"), "found true", accepted));
+        problems.refuse(format!("{path}.fixed"), "true", accepted);
     }
     if group.chain.is_some() {
-        problems.push(Problem::new(format!("{path}.chain"), "found a chain", "no chains behind walls"));
+        problems.refuse(format!("{path}.chain"), "a chain", "no chains behind walls");
     }
     if group.velocities != Velocities::Thermal {
         let accepted = "no `velocities`: frozen particles have that of their wall";
-        problems.push(Problem::new(format!("{path}.velocities"), "found velocities", accepted));
+        problems.refuse(format!("{path}.velocities"), "velocities", accepted);
     }
 }
 
@@ -90,10 +90,6 @@ fn check_members<const LENGTH: usize>(scene: &Scene, members: &[[u32; LENGTH]], 
     let caught = members.iter().enumerate().find_map(|(index, ends)| Some((index, ends.iter().find(|end| held(end))?)));
     if let Some((index, number)) = caught {
         let accepted = "particles between the walls: what is frozen takes part in pairs only";
-        problems.push(Problem::new(
-            format!("{path}[{index}]"),
-            format!("found particle {number}, which is frozen"),
-            accepted,
-        ));
+        problems.refuse(format!("{path}[{index}]"), format!("particle {number}, which is frozen"), accepted);
     }
 }

@@ -1,7 +1,7 @@
 //! Checks of the many-body repulsion that a schema cannot express.
 
 use super::pairs::{MOST_DIFFERENT, largest_cutoff};
-use crate::document::{DpdInteraction, Problem, Problems, Scene, SpeciesNames};
+use crate::document::{DpdInteraction, Problems, Scene, SpeciesNames};
 
 /// Checks the many-body repulsion of an interaction by itself.
 pub(super) fn check(
@@ -17,8 +17,8 @@ pub(super) fn check(
                 "that of {path}.many_body: local densities are of all particles, and with different coefficients no potential has \
                  these forces (Warren, doi:10.1103/PhysRevE.87.045303); pairs of species differ in their `repulsion`"
             );
-            let found = "found another many-body repulsion than that of the interaction";
-            problems.push(Problem::new(format!("{path}.pairs[{index}].many_body"), found, accepted));
+            let found = "another many-body repulsion than that of the interaction";
+            problems.refuse(format!("{path}.pairs[{index}].many_body"), found, accepted);
         }
     }
     // Without species there is no pair whose cutoff it could be compared with.
@@ -26,11 +26,9 @@ pub(super) fn check(
     let largest = largest_cutoff(scene, species);
     if many_body.cutoff > largest {
         let accepted = format!("at most {largest}, the largest cutoff of pairs, which are looked for within it");
-        let found = format!("found {}", many_body.cutoff);
-        problems.push(Problem::new(format!("{path}.many_body.cutoff"), found, accepted));
+        problems.refuse(format!("{path}.many_body.cutoff"), many_body.cutoff, accepted);
     } else if many_body.cutoff < largest / MOST_DIFFERENT {
         let accepted = format!("at least {}, a hundredth of the largest cutoff", largest / MOST_DIFFERENT);
-        let found = format!("found {}", many_body.cutoff);
-        problems.push(Problem::new(format!("{path}.many_body.cutoff"), found, accepted));
+        problems.refuse(format!("{path}.many_body.cutoff"), many_body.cutoff, accepted);
     }
 }

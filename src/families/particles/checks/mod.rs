@@ -1,19 +1,19 @@
 //! Checks of scenes with bonds, angles, baths, coloured noise, tethers and fixed particles that a schema cannot express.
 
 pub(super) mod body_force;
-pub(crate) mod coloured_noise;
-pub(crate) mod harmonic_chain;
+mod coloured_noise;
+mod harmonic_chain;
 mod layers;
 mod many_body;
-pub(crate) mod pairs;
+mod pairs;
 pub(super) mod shear;
 pub(super) mod walls;
 
 use std::collections::{HashMap, HashSet};
 
 use crate::document::{
-    AnglesInteraction, Bath, BondPotential, BondsInteraction, Chain, Integrator, Interaction, LangevinInteraction,
-    ParticleGroup, Placement, Problem, Problems, Scene, SpeciesNames, Stress,
+    Bath, BondPotential, BondsInteraction, Chain, Integrator, Interaction, LangevinInteraction, LinkSource, Links,
+    ParticleGroup, Placement, Problems, Scene, SpeciesNames, Stress,
 };
 use crate::families::particles::combinations::{self, Feature};
 use crate::families::{Bonds, Particles};
@@ -29,22 +29,25 @@ pub(crate) fn check_interaction(
 ) {
     match interaction {
         Interaction::Dpd(dpd) => {
+            pairs::check(scene, names, dpd, path, problems);
             let named = dpd.pairs.iter().enumerate().filter_map(|(index, pair)| {
                 pair.friction.map(|friction| (format!("{path}.pairs[{index}].friction"), friction))
             });
             let frictions = std::iter::once((format!("{path}.friction"), dpd.friction)).chain(named).collect();
             check_bath(&dpd.bath, frictions, path, problems);
         }
+        Interaction::ColouredNoise(noise) => coloured_noise::check(scene, noise, path, problems),
+        Interaction::HarmonicChain(chain) => harmonic_chain::check(scene, chain, path, problems),
         Interaction::Langevin(langevin) => {
             if langevin.velocity.is_some() && scene.space.shear.is_none() {
                 let accepted = "no `velocity`: only in a box with `space.shear` are there two that friction may act on";
-                problems.push(Problem::new(format!("{path}.velocity"), "found in a box without shear", accepted));
+                problems.refuse(format!("{path}.velocity"), "in a box without shear", accepted);
             }
             check_langevin(names, langevin, path, problems);
         }
         Interaction::Bonds(bonds) => check_bonds(scene, names, bonds, path, problems),
         Interaction::BodyForce(force) => body_force::check(scene, names, force, path, problems),
-        Interaction::Angles(angles) => check_angles(scene, names, angles, path, problems),
+        Interaction::Angles(angles) => check_links(scene, names, &angles.links(scene), path, problems),
         _ => {}
     }
 }
@@ -55,9 +58,21 @@ pub(crate) fn check_scene(scene: &Scene, names: &SpeciesNames<'_>, problems: &mu
     pairs::check_together(scene, names, problems);
     check_numbers(scene, problems);
     body_force::check_together(scene, problems);
-    walls::check(scene, problems);
+    let other = scene.interactions.iter().position(|interaction| !interaction.is_of_particles());
+    if let Some(index) = other {
+        let found = format!("in a scene of another kind, by interactions[{index}]");
+        if !scene.space.walls.is_empty() {
+            problems.refuse("space.walls", &found, "walls with particles only: meshes and tessellations are periodic");
+        }
+        if scene.space.shear.is_some() {
+            let accepted = "shear of particles only: meshes and tessellations are periodic without a shift";
+            problems.refuse("space.shear", &found, accepted);
+        }
+    } else {
+        walls::check(scene, problems);
+        shear::check(scene, problems);
+    }
     layers::check(scene, problems);
-    shear::check(scene, problems);
     check_groups(scene, problems);
     if matches!(scene.integrator, Integrator::Splitting { .. }) {
         check_splitting(scene, problems);
@@ -78,7 +93,7 @@ fn check_chain_sizes(scene: &Scene, problems: &mut Problems) {
     if !chained && !bonded {
         let accepted =
             "a scene with chains, a `chain` in one of `particles`, or with `bonds` of `molecules` or of a file";
-        problems.push(Problem::new("output.chain_sizes", "found in a scene without chains", accepted));
+        problems.refuse("output.chain_sizes", "in a scene without chains", accepted);
     }
 }
 
@@ -87,10 +102,8 @@ pub(super) fn check_kinds(particles: &Particles, problems: &mut Problems) {
     const MOST: usize = 256;
     let kinds = particles.chain_groups.len();
     if kinds > MOST {
-        let found =
-            format!("found {} kinds of molecules, which differ in their particles or bonds", grouped(kinds as u64));
-        let accepted = format!("at most {MOST}; `output.trajectory` has all of them");
-        problems.push(Problem::new("output.chain_sizes", found, accepted));
+        let found = format!("{} kinds of molecules, which differ in their particles or bonds", grouped(kinds as u64));
+        problems.refuse("output.chain_sizes", found, format!("at most {MOST}; `output.trajectory` has all of them"));
     }
 }
 
@@ -100,20 +113,17 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
         return;
     }
     let rubs = |interaction: &Interaction| match interaction {
-        Interaction::Dpd(dpd) => {
-            let own = dpd.pairs.iter().filter_map(|pair| pair.friction);
-            !dpd.remembers() && own.chain([dpd.friction]).any(|friction| friction > 0.0)
-        }
-        Interaction::Bonds(bonds) => bonds.has_bath() && matches!(bonds.bath, Bath::White { .. }),
+        Interaction::Dpd(dpd) => dpd.has_bath() && !dpd.remembers(),
+        Interaction::Bonds(bonds) => bonds.has_bath() && !bonds.bath.remembers(),
         _ => false,
     };
     if asked.every > 1 && scene.interactions.iter().any(rubs) {
         let accepted = "1 with a `window`: noise of a step that is not sampled would be missing from the viscosity";
-        problems.push(Problem::new("output.stress.every", format!("found {}", asked.every), accepted));
+        problems.refuse("output.stress.every", asked.every, accepted);
     }
     if scene.temperature == 0.0 {
         let accepted = "a temperature above 0, or no `window`";
-        problems.push(Problem::new("output.stress.window", "found in a scene at a temperature of 0", accepted));
+        problems.refuse("output.stress.window", "in a scene at a temperature of 0", accepted);
     }
 }
 
@@ -179,32 +189,30 @@ fn check_numbers(scene: &Scene, problems: &mut Problems) {
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let Some((name, again, accepted)) = single(interaction) else { continue };
         if !seen.insert(name) {
-            let found = format!("a second `{name}` interaction {again}");
-            problems.push(Problem::new(format!("interactions[{index}]"), found, accepted));
+            problems.add(format!("interactions[{index}]"), format!("a second `{name}` interaction {again}"), accepted);
         }
     }
 }
 
 fn check_groups(scene: &Scene, problems: &mut Problems) {
-    let mut fixed: HashMap<&str, (usize, bool)> = HashMap::new();
-    let mut layers: HashMap<&str, (usize, bool)> = HashMap::new();
+    let mut first: HashMap<&str, usize> = HashMap::new();
     for (index, group) in scene.particles.iter().enumerate() {
         let path = format!("particles[{index}]");
-        let (known, held) = *fixed.entry(&group.species).or_insert((index, group.fixed));
+        let known = *first.entry(&group.species).or_insert(index);
+        let held = scene.particles[known].fixed;
         if held != group.fixed {
             let accepted = format!(
                 "{held} as in particles[{known}]: particles of species `{}` are all held or all free; or another name",
                 group.species
             );
-            problems.push(Problem::new(format!("{path}.fixed"), format!("found {}", group.fixed), accepted));
+            problems.refuse(format!("{path}.fixed"), group.fixed, accepted);
         }
-        let (known, frozen) = *layers.entry(&group.species).or_insert((index, group.is_frozen()));
-        if frozen != group.is_frozen() {
+        if scene.particles[known].is_frozen() != group.is_frozen() {
             let accepted = format!(
                 "another name than `{}` in particles[{known}]: species are frozen behind walls or between them",
                 group.species
             );
-            problems.push(Problem::new(format!("{path}.species"), format!("found `{}`", group.species), accepted));
+            problems.refuse(format!("{path}.species"), format!("`{}`", group.species), accepted);
         }
         if let Some(chain) = &group.chain {
             check_chain(scene, group, chain, &path, problems);
@@ -222,17 +230,16 @@ fn check_chain(scene: &Scene, group: &ParticleGroup, chain: &Chain, path: &str, 
     if let Placement::Listed { positions } = &group.placement {
         let length = positions.len() as u64;
         if !length.is_multiple_of(beads) {
-            let found = format!("found a list of {length}");
-            problems.push(Problem::new(format!("{path}.placement.positions"), found, wrong(length)));
+            problems.refuse(format!("{path}.placement.positions"), format!("a list of {length}"), wrong(length));
         }
     } else if let Some(count) = group.count.filter(|count| !count.is_multiple_of(beads)) {
-        problems.push(Problem::new(format!("{path}.count"), format!("found {count}"), wrong(count)));
+        problems.refuse(format!("{path}.count"), count, wrong(count));
     }
     if let Placement::Lattice { jitter } = group.placement
         && jitter > 0.0
     {
         let accepted = "no `jitter` for chains, which would stretch their bonds";
-        problems.push(Problem::new(format!("{path}.placement.jitter"), format!("found {jitter}"), accepted));
+        problems.refuse(format!("{path}.placement.jitter"), jitter, accepted);
     }
     let placed = matches!(group.placement, Placement::Random | Placement::Lattice { .. });
     let half = half_box(scene);
@@ -240,7 +247,7 @@ fn check_chain(scene: &Scene, group: &ParticleGroup, chain: &Chain, path: &str, 
         let accepted = format!(
             "at most {half}, half the shortest box edge: two beads further apart would be bonded through the next image"
         );
-        problems.push(Problem::new(format!("{path}.chain.spacing"), format!("found {}", chain.spacing), accepted));
+        problems.refuse(format!("{path}.chain.spacing"), chain.spacing, accepted);
     }
 }
 
@@ -253,25 +260,24 @@ pub(super) fn check_rounds(particles: &Particles, problems: &mut Problems) {
     let Some(bonds) = &particles.bonds else { return };
     let rubbing = bonds.rubbing_count();
     if rubbing > Bonds::MOST_IN_ROUNDS {
-        let found = format!("found `splitting` and {} bonds with friction", grouped(rubbing));
+        let found = format!("`splitting` and {} bonds with friction", grouped(rubbing));
         let accepted = format!("at most {}; or `cotter-reich`", grouped(Bonds::MOST_IN_ROUNDS));
-        problems.push(Problem::new("integrator.type", found, accepted));
+        problems.refuse("integrator.type", found, accepted);
         return;
     }
     let Some((particle, bonds)) = bonds.most_crowded() else { return };
-    let found = format!("found `splitting` and {bonds} bonds with friction at particle {particle}");
+    let found = format!("`splitting` and {bonds} bonds with friction at particle {particle}");
     let accepted = format!("at most {} at one particle; or `cotter-reich`", Bonds::MOST_RUBBING);
-    problems.push(Problem::new("integrator.type", found, accepted));
+    problems.refuse("integrator.type", found, accepted);
 }
 
 /// Bonds relax in a split step or keep a memory in its kicks, all of a scene alike.
 fn check_splitting(scene: &Scene, problems: &mut Problems) {
     let [memory, friction] = [Feature::MemoryOfBonds, Feature::FrictionOfBonds].map(|feature| feature.place(scene));
     if let (Some(memory), Some(friction)) = (memory, friction) {
-        let found =
-            format!("found `splitting` together with friction along bonds in {friction} and memory in {memory}");
+        let found = format!("`splitting` together with friction along bonds in {friction} and memory in {memory}");
         let accepted = "bonds with one of the two; or `cotter-reich`, which takes both together";
-        problems.push(Problem::new("integrator.type", found, accepted));
+        problems.refuse("integrator.type", found, accepted);
     }
 }
 
@@ -280,22 +286,21 @@ fn check_bath(bath: &Bath, frictions: Vec<(String, f64)>, path: &str, problems: 
     let Bath::Memory { rate, coupling, .. } = *bath else { return };
     let given = frictions.into_iter().filter(|(_, friction)| *friction > 0.0);
     for (place, friction) in given {
-        let found = if friction < 1e6 { format!("found {friction}") } else { format!("found {friction:e}") };
+        let found = if friction < 1e6 { friction.to_string() } else { format!("{friction:e}") };
         if coupling.is_some() {
             let accepted = format!("either friction or {path}.bath.coupling: each follows from the other");
-            problems.push(Problem::new(place, found, accepted));
+            problems.refuse(place, found, accepted);
         } else if rate == 0.0 {
             let found = format!("{found}, which at a rate of 0 is no coupling at all: λ = αγ");
-            let accepted = "a `bath.coupling` λ in place of the friction where the bath never forgets";
-            problems.push(Problem::new(place, found, accepted));
+            problems.refuse(place, found, "a `bath.coupling` λ in place of the friction where the bath never forgets");
         } else if !fits(rate * friction) {
             let found = format!("{found}, a coupling λ = αγ of {:.3e}", rate * friction);
-            problems.push(Problem::new(place, found, "a coupling that single precision holds, up to 3e38"));
+            problems.refuse(place, found, "a coupling that single precision holds, up to 3e38");
         }
     }
     if let Some(coupling) = coupling.filter(|coupling| !fits(*coupling)) {
         let accepted = "a coupling that single precision holds, up to 3e38";
-        problems.push(Problem::new(format!("{path}.bath.coupling"), format!("found {coupling:.3e}"), accepted));
+        problems.refuse(format!("{path}.bath.coupling"), format!("{coupling:.3e}"), accepted);
     }
 }
 
@@ -311,7 +316,7 @@ fn check_langevin(names: &SpeciesNames<'_>, langevin: &LangevinInteraction, path
         names.check(&entry.name, &format!("{path}.name"), problems);
         if let Some(earlier) = known.insert(&entry.name, index) {
             let found = format!("species[{earlier}] gives the friction of `{}` already", entry.name);
-            problems.push(Problem::new(&path, found, "every species once"));
+            problems.add(&path, found, "every species once");
         }
         frictions.push((format!("{path}.friction"), entry.friction));
     }
@@ -320,26 +325,7 @@ fn check_langevin(names: &SpeciesNames<'_>, langevin: &LangevinInteraction, path
 
 fn check_bonds(scene: &Scene, names: &SpeciesNames<'_>, bonds: &BondsInteraction, path: &str, problems: &mut Problems) {
     check_bath(&bonds.bath, vec![(format!("{path}.friction"), bonds.friction)], path, problems);
-    check_members(scene, names, bonds.species.as_deref(), "pairs", &bonds.pairs, path, problems);
-    let in_file = || {
-        scene.file_bonds(bonds.types.as_deref()).any(|links| !(links.members.is_empty() && scene.molecules.is_empty()))
-    };
-    if check_file(
-        scene,
-        bonds.types.as_deref(),
-        "pairs",
-        bonds.pairs.is_empty(),
-        bonds.species.is_some(),
-        &in_file,
-        path,
-        problems,
-    ) {
-        check_rest_length(scene, bonds, path, problems);
-        return;
-    }
-    if bonds.species.is_none() || bonds.pairs.is_empty() {
-        check_presence(scene, bonds.species.as_deref(), "pairs", bonds.pairs.is_empty(), 2, path, problems);
-    }
+    check_links(scene, names, &bonds.links(scene), path, problems);
     check_rest_length(scene, bonds, path, problems);
 }
 
@@ -353,37 +339,7 @@ fn check_rest_length(scene: &Scene, bonds: &BondsInteraction, path: &str, proble
         let accepted = format!(
             "less than {half}, half the shortest box edge: a longer bond would reach the next image of its end"
         );
-        problems.push(Problem::new(format!("{path}.potential.length"), format!("found {rest}"), accepted));
-    }
-}
-
-fn check_angles(
-    scene: &Scene,
-    names: &SpeciesNames<'_>,
-    angles: &AnglesInteraction,
-    path: &str,
-    problems: &mut Problems,
-) {
-    check_members(scene, names, angles.species.as_deref(), "triples", &angles.triples, path, problems);
-    let in_file = || {
-        scene
-            .file_angles(angles.types.as_deref())
-            .any(|links| !(links.members.is_empty() && scene.molecules.is_empty()))
-    };
-    if check_file(
-        scene,
-        angles.types.as_deref(),
-        "triples",
-        angles.triples.is_empty(),
-        angles.species.is_some(),
-        &in_file,
-        path,
-        problems,
-    ) {
-        return;
-    }
-    if angles.species.is_none() || angles.triples.is_empty() {
-        check_presence(scene, angles.species.as_deref(), "triples", angles.triples.is_empty(), 3, path, problems);
+        problems.refuse(format!("{path}.potential.length"), rest, accepted);
     }
 }
 
@@ -394,22 +350,19 @@ const LISTED: usize = 5;
 fn check_members<const LENGTH: usize>(
     scene: &Scene,
     names: &SpeciesNames<'_>,
-    species: Option<&[String]>,
-    key: &str,
-    members: &[[u32; LENGTH]],
+    links: &Links<'_, LENGTH>,
     path: &str,
     problems: &mut Problems,
 ) {
-    if species.is_some() && !members.is_empty() {
-        let found = format!("found together with `{key}`");
-        let accepted = format!("either `species`, or {key} of particle ids");
-        problems.push(Problem::new(format!("{path}.species"), found, accepted));
+    let (key, members) = (Links::<LENGTH>::KEY, links.listed);
+    if links.species.is_some() && !members.is_empty() {
+        let found = format!("together with `{key}`");
+        problems.refuse(format!("{path}.species"), found, format!("either `species`, or {key} of particle ids"));
     }
-    for (index, name) in species.unwrap_or_default().iter().enumerate() {
+    for (index, name) in links.species.unwrap_or_default().iter().enumerate() {
         names.check(name, &format!("{path}.species[{index}]"), problems);
     }
-    let counts = scene.particles.iter().map(|group| group.resolved_count(&scene.space));
-    let total = counts.fold(0, u64::saturating_add);
+    let total = scene.numbered_groups().map(|numbered| numbered.count).fold(0, u64::saturating_add);
     let mut known: HashMap<[u32; LENGTH], usize> = HashMap::with_capacity(members.len());
     let mut mistakes = 0;
     for (index, numbers) in members.iter().enumerate() {
@@ -426,66 +379,70 @@ fn check_members<const LENGTH: usize>(
         if mistakes > LISTED {
             continue;
         }
-        problems.push(match (beyond, earlier) {
+        match (beyond, earlier) {
+            (Some(at), _) if total == 0 => {
+                problems.refuse(format!("{}[{at}]", place()), numbers[at], "no id: there are no particles");
+            }
             (Some(at), _) => {
-                let accepted = match total {
-                    0 => "no id: there are no particles".to_owned(),
-                    _ => format!("a particle id from 0 to {}", total - 1),
-                };
-                Problem::new(format!("{}[{at}]", place()), format!("found {}", numbers[at]), accepted)
+                let accepted = format!("a particle id from 0 to {}", total - 1);
+                problems.refuse(format!("{}[{at}]", place()), numbers[at], accepted);
             }
             (None, Some(earlier)) if !repeated => {
-                let found = format!("{key}[{earlier}] lists the same particles");
-                Problem::new(place(), found, format!("each of the {key} once, in either order"))
+                let phrase = format!("{key}[{earlier}] lists the same particles");
+                problems.add(place(), phrase, format!("each of the {key} once, in either order"));
             }
-            _ => Problem::new(place(), format!("found {numbers:?}"), "particles that are all different"),
-        });
+            _ => problems.refuse(place(), format!("{numbers:?}"), "particles that are all different"),
+        }
     }
     if mistakes > LISTED {
         let more = mistakes - LISTED;
-        problems.push(Problem::new(format!("{path}.{key}"), format!("{more} more like this"), "as above"));
+        problems.add(format!("{path}.{key}"), format!("{more} more like this"), "as above");
     }
 }
 
-/// Whether bonds or angles are those of a file; mistakes of what they say about it are added.
-#[expect(clippy::too_many_arguments, reason = "bonds and angles have the same keys in different types")]
-fn check_file(
+/// Bonds or angles have to be where the interaction says that they are.
+fn check_links<const LENGTH: usize>(
     scene: &Scene,
-    types: Option<&[String]>,
-    key: &str,
-    unlisted: bool,
-    names_species: bool,
-    in_file: &dyn Fn() -> bool,
+    names: &SpeciesNames<'_>,
+    links: &Links<'_, LENGTH>,
     path: &str,
     problems: &mut Problems,
-) -> bool {
-    if types.is_some() && (!scene.has_start() || !unlisted || names_species) {
-        let found = match (scene.has_start(), unlisted) {
-            (false, _) => "found in a scene without a `state` and without `molecules`".to_owned(),
-            (_, false) => format!("found together with `{key}`"),
-            _ => "found together with `species`".to_owned(),
+) {
+    check_members(scene, names, links, path, problems);
+    let (key, noun) = (Links::<LENGTH>::KEY, Links::<LENGTH>::NOUN);
+    let listed = !links.listed.is_empty();
+    if links.types.is_some() && (!scene.has_start() || listed || links.species.is_some()) {
+        let found = match (scene.has_start(), listed) {
+            (false, _) => "in a scene without a `state` and without `molecules`".to_owned(),
+            (_, true) => format!("together with `{key}`"),
+            _ => "together with `species`".to_owned(),
         };
         let accepted =
             format!("`types` of the file of `state` or of `molecules`, or `{key}`, or `species` with chains");
-        problems.push(Problem::new(format!("{path}.types"), found, accepted));
-        return true;
+        problems.refuse(format!("{path}.types"), found, accepted);
+        return;
     }
-    if !unlisted || names_species || !scene.links_are_from_file(types) {
-        return false;
+    match links.source(scene) {
+        LinkSource::Listed(_) => {}
+        LinkSource::Start(all) if links.species.is_none() => {
+            let are_there = all.iter().any(|links| !links.members.is_empty() || !scene.molecules.is_empty());
+            // Of a run that continues, the file was there once.
+            if scene.start().is_none() || are_there {
+                return;
+            }
+            let (place, accepted) = match &scene.state {
+                Some(_) => (
+                    "the file of `state`",
+                    format!("a file with {noun}, `{key}` of particle ids, or particles with a `chain`"),
+                ),
+                None => ("`molecules`", format!("molecules with {noun}, or `{key}` of particle ids")),
+            };
+            problems.refuse(path, format!("no {noun} in {place}"), accepted);
+        }
+        LinkSource::Start(_) | LinkSource::Chains(_) => {
+            check_presence(scene, links.species, key, LENGTH as u32, path, problems);
+        }
     }
-    // Of a run that continues, the file was there once.
-    if scene.start().is_some() && !in_file() {
-        let noun = if key == "pairs" { "bonds" } else { "angles" };
-        let (place, accepted) = match &scene.state {
-            Some(_) => (
-                "the file of `state`",
-                format!("a file with {noun}, `{key}` of particle ids, or particles with a `chain`"),
-            ),
-            None => ("`molecules`", format!("molecules with {noun}, or `{key}` of particle ids")),
-        };
-        problems.push(Problem::new(path, format!("found no {noun} in {place}"), accepted));
-    }
-    true
 }
 
 /// An interaction along chains needs chains.
@@ -493,28 +450,23 @@ fn check_presence(
     scene: &Scene,
     species: Option<&[String]>,
     key: &str,
-    unlisted: bool,
     length: u32,
     path: &str,
     problems: &mut Problems,
 ) {
-    if !unlisted {
-        return;
-    }
     let exists = |name: &String| scene.particles.iter().any(|group| group.species == *name);
     if species.is_some_and(|names| !names.iter().all(exists)) {
         return;
     }
-    let named = |group: &&ParticleGroup| species.is_none_or(|names| names.contains(&group.species));
-    let longest =
-        scene.particles.iter().filter(named).filter_map(|group| group.chain.as_ref()).map(|chain| chain.beads);
+    let named = scene.particles.iter().filter(|group| group.is_among(species));
+    let longest = named.filter_map(|group| group.chain.as_ref()).map(|chain| chain.beads);
     let found = match longest.max() {
         // A chain of less than two beads is a mistake by itself.
         Some(beads) if beads >= length || beads < 2 => return,
-        Some(beads) => format!("found chains of {beads} beads"),
-        None if species.is_some() => "found no chains of these species".to_owned(),
-        None => "found neither chains nor a list".to_owned(),
+        Some(beads) => format!("chains of {beads} beads"),
+        None if species.is_some() => "no chains of these species".to_owned(),
+        None => "neither chains nor a list".to_owned(),
     };
     let accepted = format!("`{key}` of particle ids, or particles with a `chain` of at least {length} `beads`");
-    problems.push(Problem::new(path, found, accepted));
+    problems.refuse(path, found, accepted);
 }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::{half_box, many_body};
-use crate::document::{DpdInteraction, DpdPair, Problem, Problems, Scene, SpeciesNames};
+use crate::document::{DpdInteraction, DpdPair, Problems, Scene, SpeciesNames};
 
 /// The largest cutoff over the smallest that a pair of species may have.
 pub(super) const MOST_DIFFERENT: f64 = 100.0;
@@ -27,7 +27,7 @@ pub(crate) fn check(
         let key = pair.key();
         if let Some(earlier) = defined.insert(key, index) {
             let found = format!("pairs[{earlier}] defines `{}` with `{}` already", key[0], key[1]);
-            problems.push(Problem::new(path, found, "every pair of species once, in either order"));
+            problems.add(path, found, "every pair of species once, in either order");
         }
     }
 }
@@ -42,24 +42,24 @@ fn check_cutoffs(scene: &Scene, species: &SpeciesNames<'_>, dpd: &DpdInteraction
         let Some(cutoff) = pair.cutoff else { continue };
         let path = format!("{path}.pairs[{index}].cutoff");
         let [first, second] = pair.key();
-        let found = format!("found {cutoff} between `{first}` and `{second}`");
+        let found = format!("{cutoff} between `{first}` and `{second}`");
         if cutoff > half {
             let accepted = format!(
                 "at most {half}, half the shortest box edge: beyond it a particle would meet two images of a neighbour"
             );
-            problems.push(Problem::new(path, found, accepted));
+            problems.refuse(path, found, accepted);
         } else if cutoff < least {
             let accepted = format!(
                 "at least {least}, a hundredth of the largest cutoff, {largest}: cells are as wide as that, and distances are \
                  resolved to a small part of it"
             );
-            problems.push(Problem::new(path, found, accepted));
+            problems.refuse(path, found, accepted);
         }
     }
     if let Some(cutoff) = common.filter(|cutoff| *cutoff < least) {
-        let found = format!("found {cutoff} between species that have no cutoff of their own");
+        let found = format!("{cutoff} between species that have no cutoff of their own");
         let accepted = format!("at least {least}, a hundredth of the largest cutoff, {largest}, in `pairs`");
-        problems.push(Problem::new(format!("{path}.cutoff"), found, accepted));
+        problems.refuse(format!("{path}.cutoff"), found, accepted);
     }
 }
 
@@ -80,7 +80,7 @@ pub(super) fn check_together(scene: &Scene, species: &SpeciesNames<'_>, problems
         for (index, _) in densities {
             let found = format!("a second many-body repulsion, beside that of interactions[{first}]");
             let accepted = "one for all pairs: local densities are of all particles";
-            problems.push(Problem::new(format!("interactions[{index}].many_body"), found, accepted));
+            problems.add(format!("interactions[{index}].many_body"), found, accepted);
         }
     }
     let bathed: Vec<(usize, &DpdInteraction)> = scene.pair_interactions().filter(|(_, dpd)| dpd.has_bath()).collect();
@@ -89,14 +89,14 @@ pub(super) fn check_together(scene: &Scene, species: &SpeciesNames<'_>, problems
         if dpd.bath != other.bath {
             let found = format!("another bath than that of interactions[{first}]");
             let accepted = format!("the `bath` of interactions[{first}]: all pairs with friction have one");
-            problems.push(Problem::new(format!("interactions[{index}].bath"), found, accepted));
+            problems.add(format!("interactions[{index}].bath"), found, accepted);
             continue;
         }
         if let Some((earlier, [a, b])) = find_shared_friction(&bathed[..number], dpd, species) {
             let found = format!("friction between `{a}` and `{b}`, which they have in interactions[{earlier}] too");
             let accepted = "the friction of a pair of species in one `dpd` (not implemented: a weight that is a sum); \
                             repulsions of several add up";
-            problems.push(Problem::new(format!("interactions[{index}].friction"), found, accepted));
+            problems.add(format!("interactions[{index}].friction"), found, accepted);
         }
     }
 }

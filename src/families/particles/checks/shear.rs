@@ -1,6 +1,6 @@
 //! Checks of shear that a schema cannot express.
 
-use crate::document::{Axis, DpdInteraction, Frame, Interaction, Output, Problem, Problems, Scene, brief};
+use crate::document::{Axis, DpdInteraction, Frame, Interaction, Problems, Scene, brief};
 use crate::families::{Model, ShearedBox};
 
 /// The largest jump of momentum at a boundary, in its units: half of it, the flow at a boundary, leaves room for heat.
@@ -9,50 +9,44 @@ const LARGEST: f64 = (1_u64 << 28) as f64;
 /// Checks the shear of a scene, with what else is in it.
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     let Some(shear) = &scene.space.shear else { return };
-    let mut refuse = |path: &str, found: String, accepted: &str| {
-        problems.push(Problem::new(path, found, accepted));
-    };
-    let at = "space.shear";
-    if let Some(index) = scene.interactions.iter().position(|interaction| !interaction.is_of_particles()) {
-        let found = format!("found in a scene of another kind, by interactions[{index}]");
-        refuse(at, found, "shear of particles only: meshes and tessellations are periodic without a shift");
-        return;
-    }
-    if !shear.rate.is_finite() {
-        refuse("space.shear.rate", format!("found {}", shear.rate), "a finite number");
-    }
-    if !shear.displacement.is_finite() {
-        refuse("space.shear.displacement", format!("found {}", shear.displacement), "a finite number");
+    for (key, value) in [("rate", shear.rate), ("displacement", shear.displacement)] {
+        if !value.is_finite() {
+            problems.refuse(format!("space.shear.{key}"), value, "a finite number");
+        }
     }
     let dimension = scene.space.lengths.len();
+    let [flow, gradient] = [shear.flow, shear.gradient].map(|axis| format!("\"{}\"", axis.name()));
     if shear.flow != Axis::X {
-        let found = format!("found \"{}\"", shear.flow.name());
-        refuse("space.shear.flow", found, "x: cells of neighbours lie in rows along x, which slide past each other");
+        let accepted = "x: cells of neighbours lie in rows along x, which slide past each other";
+        problems.refuse("space.shear.flow", &flow, accepted);
     }
+    let accepted = if dimension == 3 { "y or z" } else { "y, in two dimensions" };
     if shear.gradient as usize >= dimension {
-        let found = format!("found \"{}\", an axis that the box has not", shear.gradient.name());
-        refuse("space.shear.gradient", found, if dimension == 3 { "y or z" } else { "y, in two dimensions" });
+        problems.refuse("space.shear.gradient", format!("{gradient}, an axis that the box has not"), accepted);
     } else if shear.gradient == Axis::X {
-        let found = format!("found \"{}\", along the flow", shear.gradient.name());
-        refuse("space.shear.gradient", found, if dimension == 3 { "y or z" } else { "y, in two dimensions" });
+        problems.refuse("space.shear.gradient", format!("{gradient}, along the flow"), accepted);
     } else {
-        check_edge(scene, shear.gradient, &mut refuse);
+        check_edge(scene, shear.gradient, problems);
     }
     for (index, interaction) in scene.interactions.iter().enumerate() {
         if let Interaction::BodyForce(force) = interaction
             && force.axis == Some(shear.flow)
         {
-            let found = format!("found \"{}\", along the flow of `space.shear`", shear.flow.name());
             let accepted = "an axis across the flow: images of a place have the same force only if it is the same \
                             along the flow";
-            refuse(&format!("interactions[{index}].axis"), found, accepted);
+            let found = format!("{flow}, along the flow of `space.shear`");
+            problems.refuse(format!("interactions[{index}].axis"), found, accepted);
         }
     }
-    check_frames(&scene.output, &mut refuse);
+    // Velocities are relative to the flow already.
+    for (path, ..) in scene.output.frames().filter(|(_, _, frame)| *frame == Frame::CentreOfMass) {
+        let accepted = "no `frame`: in shear velocities are relative to the linear profile of the flow";
+        problems.refuse(format!("{path}.frame"), "`centre-of-mass` in a scene with shear", accepted);
+    }
 }
 
 /// Rows at one boundary are not next to the other.
-fn check_edge(scene: &Scene, gradient: Axis, refuse: &mut impl FnMut(&str, String, &str)) {
+fn check_edge(scene: &Scene, gradient: Axis, problems: &mut Problems) {
     let cutoffs = |dpd: &DpdInteraction| dpd.pairs.iter().filter_map(|pair| pair.cutoff).fold(dpd.cutoff, f64::max);
     let cutoff = scene.pair_interactions().map(|(_, dpd)| cutoffs(dpd)).fold(0.0, f64::max);
     let edge = scene.space.lengths[gradient as usize];
@@ -61,23 +55,7 @@ fn check_edge(scene: &Scene, gradient: Axis, refuse: &mut impl FnMut(&str, Strin
             "at least {}, three cutoffs of {cutoff}: what is at one boundary that shears is not at the other",
             3.0 * cutoff
         );
-        refuse(&format!("space.box[{}]", gradient as usize), format!("found {edge}"), &accepted);
-    }
-}
-
-/// Velocities are relative to the flow already.
-fn check_frames(output: &Output, refuse: &mut impl FnMut(&str, String, &str)) {
-    let histograms = output.histograms.iter().map(|asked| asked.frame).enumerate();
-    let autocorrelations = output.autocorrelations.iter().map(|asked| asked.frame).enumerate();
-    for (name, index, frame) in histograms
-        .map(|(index, frame)| ("histograms", index, frame))
-        .chain(autocorrelations.map(|(index, frame)| ("autocorrelations", index, frame)))
-    {
-        if frame == Some(Frame::CentreOfMass) {
-            let path = format!("output.{name}[{index}].frame");
-            let accepted = "no `frame`: in shear velocities are relative to the linear profile of the flow";
-            refuse(&path, "found `centre-of-mass` in a scene with shear".to_owned(), accepted);
-        }
+        problems.refuse(format!("space.box[{}]", gradient as usize), edge, accepted);
     }
 }
 
@@ -94,7 +72,7 @@ pub(in crate::families::particles) fn check_step(
     let (reach, speed) = (model.physics().reach(model), asked.speed(&scene.space.lengths));
     if speed * scene.time.step > reach {
         let found = format!(
-            "found {}, with which the flow at a boundary goes {} in a step",
+            "{}, with which the flow at a boundary goes {} in a step",
             brief(asked.rate),
             brief(speed * scene.time.step)
         );
@@ -104,13 +82,13 @@ pub(in crate::families::particles) fn check_step(
             model.physics().reach_in_words(),
             brief(reach)
         );
-        problems.push(Problem::new(path, found, accepted));
+        problems.refuse(path, found, accepted);
         return;
     }
     let heaviest = model.species.iter().map(|species| species.mass).fold(0.0, f64::max);
     let most = LARGEST * model.units.momentum / (heaviest * edge);
     if asked.rate.abs() > most {
         let accepted = format!("at most {}, whose jump of momentum at a boundary integers hold", brief(most));
-        problems.push(Problem::new(path, format!("found {}", brief(asked.rate)), accepted));
+        problems.refuse(path, brief(asked.rate), accepted);
     }
 }

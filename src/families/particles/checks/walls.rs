@@ -2,7 +2,7 @@
 
 use super::layers;
 use crate::document::{
-    BodyForceInteraction, ForceProfile, Interaction, Placement, Problem, Problems, Reflection, Scene, WallPair,
+    BodyForceInteraction, ForceProfile, Interaction, Placement, Problems, Reflection, Scene, WallPair,
 };
 use crate::families::{Model, Particles};
 use crate::state::State;
@@ -11,24 +11,13 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Checks the walls of a scene, with what else is in it.
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
-    if scene.space.walls.is_empty() {
-        return;
-    }
-    let refuse = |problems: &mut Problems, found: String, accepted: &str| {
-        problems.push(Problem::new("space.walls", found, accepted));
-    };
-    if let Some(index) = scene.interactions.iter().position(|interaction| !interaction.is_of_particles()) {
-        let found = format!("found in a scene of another kind, by interactions[{index}]");
-        refuse(problems, found, "walls with particles only: meshes and tessellations are periodic");
-        return;
-    }
     let dimension = scene.space.lengths.len();
     for (axis, walls) in scene.space.walls.of_axes().into_iter().enumerate() {
         let Some(walls) = walls else { continue };
         let path = format!("space.walls.{}", AXES[axis]);
         if axis >= dimension {
             let accepted = format!("walls across one of the {dimension} axes of the box");
-            problems.push(Problem::new(path, "found on an axis that the box has not", accepted));
+            problems.refuse(path, "on an axis that the box has not", accepted);
             continue;
         }
         check_pair(scene, walls, axis, &path, problems);
@@ -48,28 +37,26 @@ fn check_pair(scene: &Scene, walls: &WallPair, axis: usize, path: &str, problems
         let Some(velocity) = velocity else { continue };
         let path = format!("{path}.{key}");
         if velocity.len() != dimension {
-            let found = format!("found {} components", velocity.len());
-            problems.push(Problem::new(path, found, format!("{dimension}, one for each axis of the box")));
+            let found = format!("{} components", velocity.len());
+            problems.refuse(path, found, format!("{dimension}, one for each axis of the box"));
         } else if let Some(component) = velocity.iter().find(|component| !component.is_finite()) {
-            problems.push(Problem::new(path, format!("found {component}"), "finite numbers"));
+            problems.refuse(path, component, "finite numbers");
         } else if velocity[axis] != 0.0 {
-            let found = format!("found {} along {}, across the wall", velocity[axis], AXES[axis]);
-            problems.push(Problem::new(path, found, "0 there: walls move along themselves"));
+            let found = format!("{} along {}, across the wall", velocity[axis], AXES[axis]);
+            problems.refuse(path, found, "0 there: walls move along themselves");
         } else if let Some(other) = (0..dimension).find(|other| velocity[*other] != 0.0 && all[*other].is_some()) {
-            let found = format!("found {} along {}, across which there are walls too", velocity[other], AXES[other]);
-            problems.push(Problem::new(path, found, "0 there: walls move along axes without walls"));
+            let found = format!("{} along {}, across which there are walls too", velocity[other], AXES[other]);
+            problems.refuse(path, found, "0 there: walls move along axes without walls");
         } else if let Some(other) = sticking.filter(|_| velocity.iter().any(|component| *component != 0.0)) {
             // In the corner of the two, particles would be reflected in ever shorter times and ever faster.
-            let found =
-                format!("found a wall that moves beside walls across {} that reverse velocities too", AXES[other]);
-            let accepted = format!("walls at rest, or `specular` reflection across {}", AXES[other]);
-            problems.push(Problem::new(path, found, accepted));
+            let found = format!("a wall that moves beside walls across {} that reverse velocities too", AXES[other]);
+            problems.refuse(path, found, format!("walls at rest, or `specular` reflection across {}", AXES[other]));
         } else if walls.reflection == Reflection::Specular
             && velocity.iter().any(|component| *component != 0.0)
             && !scene.particles.iter().any(|group| layers::is_behind(group, axis))
         {
             let accepted = "no velocity: specular walls drag nothing along; or the reflection `bounce-back`, or frozen particles behind the walls";
-            problems.push(Problem::new(path, "found a velocity of a wall with specular reflection", accepted));
+            problems.refuse(path, "a velocity of a wall with specular reflection", accepted);
         }
     }
 }
@@ -83,9 +70,9 @@ fn check_forces(scene: &Scene, problems: &mut Problems) {
     for (index, interaction) in scene.interactions.iter().enumerate() {
         let Interaction::BodyForce(force) = interaction else { continue };
         if let Some(axis) = varies(force) {
-            let found = format!("found \"{}\", across which there are walls", AXES[axis]);
+            let found = format!("\"{}\", across which there are walls", AXES[axis]);
             let accepted = "an axis without walls, along which the force is periodic; or the profile `uniform`";
-            problems.push(Problem::new(format!("interactions[{index}].axis"), found, accepted));
+            problems.refuse(format!("interactions[{index}].axis"), found, accepted);
         }
     }
 }
@@ -105,18 +92,16 @@ fn check_places(scene: &Scene, problems: &mut Problems) {
                         .find(|axis| position.get(**axis).is_some_and(|place| outside(**axis, *place, *place)));
                     let Some(axis) = behind else { continue };
                     let accepted = format!("0 to {}, between the walls", scene.space.lengths[*axis]);
-                    let found = format!("found {}, behind a wall", position[*axis]);
-                    problems.push(Problem::new(format!("{path}.positions[{number}][{axis}]"), found, accepted));
+                    let found = format!("{}, behind a wall", position[*axis]);
+                    problems.refuse(format!("{path}.positions[{number}][{axis}]"), found, accepted);
                 }
             }
             Placement::Circle { center, radius } => {
                 for axis in walled.iter().filter(|axis| **axis < 2) {
                     if outside(*axis, center[*axis] - radius, center[*axis] + radius) {
-                        let found = format!(
-                            "found a circle of radius {radius} that reaches behind a wall across {}",
-                            AXES[*axis]
-                        );
-                        problems.push(Problem::new(&path, found, "a circle between the walls"));
+                        let found =
+                            format!("a circle of radius {radius} that reaches behind a wall across {}", AXES[*axis]);
+                        problems.refuse(&path, found, "a circle between the walls");
                     }
                 }
             }
@@ -147,16 +132,16 @@ pub(in crate::families::particles) fn check_bonds(
             more => format!(", and {more} more"),
         };
         let found = format!(
-            "found a bond between particles {} and {}, {:.4} apart along {}{more}: more than half the distance of the walls",
+            "a bond between particles {} and {}, {:.4} apart along {}{more}: more than half the distance of the walls",
             first[0],
             first[1],
             apart(first),
             AXES[axis]
         );
-        problems.push(Problem::new(
+        problems.refuse(
             format!("space.walls.{}", AXES[axis]),
             found,
             "bonds that lead through no wall: molecules that are whole between them",
-        ));
+        );
     }
 }

@@ -2,6 +2,7 @@
 
 use super::topology::Runs;
 use crate::document::{AnglesInteraction, Scene};
+use crate::families::Species;
 
 /// All angles of a scene, with V = k(1 + cos θ).
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -22,22 +23,10 @@ pub struct Angle {
 }
 
 impl Angles {
-    pub(crate) fn add(
-        &mut self,
-        interaction: &AnglesInteraction,
-        scene: &Scene,
-        species: impl Fn(&str) -> Option<usize>,
-    ) {
+    pub(crate) fn add(&mut self, interaction: &AnglesInteraction, scene: &Scene, species: &[Species]) {
         let kind = self.stiffness.len() as u32;
         self.stiffness.push(interaction.stiffness);
-        let types = interaction.types.as_deref();
-        if interaction.triples.is_empty() && scene.links_are_from_file(types) {
-            scene.file_angles(types).for_each(|links| self.runs.add_file(kind, links));
-        } else if interaction.triples.is_empty() {
-            self.runs.add_chains(kind, scene, interaction.species.as_deref(), species);
-        } else {
-            self.runs.add_listed(kind, &interaction.triples);
-        }
+        self.runs.add(kind, &interaction.links(scene), scene, species);
     }
 
     /// Number of angles.

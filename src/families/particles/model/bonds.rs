@@ -2,7 +2,7 @@
 
 use super::topology::{Alike, Runs};
 use crate::document::{BondPotential, BondsInteraction, Scene};
-use crate::families::BathStep;
+use crate::families::{BathStep, Species};
 
 /// All bonds of a scene.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -36,12 +36,7 @@ pub struct Bond {
 }
 
 impl Bonds {
-    pub(crate) fn add(
-        &mut self,
-        interaction: &BondsInteraction,
-        scene: &Scene,
-        species: impl Fn(&str) -> Option<usize>,
-    ) {
+    pub(crate) fn add(&mut self, interaction: &BondsInteraction, scene: &Scene, species: &[Species]) {
         let kind = self.kinds.len() as u32;
         let step = BathStep::of(&interaction.bath, interaction.friction, scene.time.step);
         self.kinds.push(BondKind {
@@ -50,14 +45,7 @@ impl Bonds {
             temperature: interaction.bath.temperature(scene.temperature),
             exclude_repulsion: interaction.exclude_repulsion,
         });
-        let types = interaction.types.as_deref();
-        if interaction.pairs.is_empty() && scene.links_are_from_file(types) {
-            scene.file_bonds(types).for_each(|links| self.runs.add_file(kind, links));
-        } else if interaction.pairs.is_empty() {
-            self.runs.add_chains(kind, scene, interaction.species.as_deref(), species);
-        } else {
-            self.runs.add_listed(kind, &interaction.pairs);
-        }
+        self.runs.add(kind, &interaction.links(scene), scene, species);
     }
 
     /// Number of bonds.

@@ -1,12 +1,11 @@
 //! Momenta that the forces of a scene make by themselves, however cold it is.
 
-use std::collections::HashSet;
 use std::f64::consts::PI;
 
 use super::{PairForce, surroundings};
 use crate::document::{
-    AnglesInteraction, BondPotential, BondsInteraction, Chain, FileLinks, Interaction, ParticleGroup, Placement, Scene,
-    SpeciesNames,
+    AnglesInteraction, BondPotential, BondsInteraction, Chain, Interaction, LinkSource, NumberedGroup, NumberedSpecies,
+    ParticleGroup, Placement, Scene, SpeciesNames,
 };
 use crate::families::Species;
 
@@ -62,9 +61,10 @@ fn mobile_mass(mass: f64, fixed: bool, heaviest: f64) -> Option<f64> {
 /// The mass that goes with the largest momentum from a force between some particles: that of the heaviest where one is held, else
 /// of the second heaviest, for what the heaviest gets the others get too.
 fn moved<const LENGTH: usize>(masses: [Option<f64>; LENGTH]) -> f64 {
-    let mut mobile: Vec<f64> = masses.into_iter().flatten().collect();
-    mobile.sort_by(|a, b| b.total_cmp(a));
-    mobile.get(usize::from(mobile.len() == LENGTH)).copied().unwrap_or(0.0)
+    let all_move = masses.iter().all(Option::is_some);
+    let mut masses = masses.map(|mass| mass.unwrap_or(0.0));
+    masses.sort_by(|a, b| b.total_cmp(a));
+    masses[usize::from(all_move)]
 }
 
 /// How a bond starts: off its length at rest, and the mass that it moves.
@@ -76,8 +76,8 @@ struct Start {
 /// Who the particles of a scene are and, where it says so, where they are.
 struct Particles<'a> {
     scene: &'a Scene,
-    /// Groups with the number of their first particle and of their particles.
-    groups: Vec<(u64, u64, &'a ParticleGroup)>,
+    groups: Vec<NumberedGroup<'a>>,
+    species: NumberedSpecies<'a>,
     /// Masses of the species, by their places; none of what is held.
     masses: Vec<Option<f64>>,
     heaviest: f64,
@@ -85,35 +85,28 @@ struct Particles<'a> {
 
 impl<'a> Particles<'a> {
     fn of(scene: &'a Scene, heaviest: f64) -> Self {
-        let mut first = 0_u64;
-        let mut groups = Vec::with_capacity(scene.particles.len());
-        for group in &scene.particles {
-            let count = group.resolved_count(&scene.space);
-            groups.push((first, count, group));
-            first = first.saturating_add(count);
-        }
         let mass = |name: &&str| {
             let group = scene.particles.iter().find(|group| group.species == **name)?;
             mobile_mass(group.mass, group.is_held(), heaviest)
         };
-        let masses = SpeciesNames::of(scene).names().iter().map(mass).collect();
-        Self { scene, groups, masses, heaviest }
-    }
-
-    fn mass(&self, group: &ParticleGroup) -> Option<f64> {
-        mobile_mass(group.mass, group.is_held(), self.heaviest)
+        Self {
+            scene,
+            groups: scene.numbered_groups().collect(),
+            species: NumberedSpecies::new(scene),
+            masses: SpeciesNames::of(scene).names().iter().map(mass).collect(),
+            heaviest,
+        }
     }
 
     fn heaviest_mobile(&self) -> f64 {
-        self.groups.iter().filter_map(|(_, _, group)| self.mass(group)).fold(0.0, f64::max)
+        self.masses.iter().flatten().copied().fold(0.0, f64::max)
     }
 
-    /// The group of a particle, and its number there.
-    fn group_of(&self, particle: u32) -> Option<(u64, u64, &'a ParticleGroup)> {
+    /// The group of a particle.
+    fn group_of(&self, particle: u32) -> Option<NumberedGroup<'a>> {
         let number = u64::from(particle);
-        let after = self.groups.partition_point(|(first, ..)| *first <= number);
-        let (first, count, group) = self.groups[..after].last()?;
-        (number - first < *count).then_some((number - first, *count, *group))
+        let after = self.groups.partition_point(|numbered| numbered.first <= number);
+        self.groups[..after].last().copied().filter(|numbered| number - numbered.first < numbered.count)
     }
 
     /// The mass of a species, by its place.
@@ -122,42 +115,26 @@ impl<'a> Particles<'a> {
     }
 
     fn mass_of(&self, particle: u32) -> Option<f64> {
-        if let Some(start) = self.scene.start() {
-            return start.species_of(particle).and_then(|place| self.mass_of_species(place));
-        }
-        self.group_of(particle).and_then(|(_, _, group)| self.mass(group))
+        self.species.of(particle).and_then(|place| self.mass_of_species(place))
     }
 
-    /// Groups of chains of some species; of all where none are named.
-    fn chains(&self, named: Option<&[String]>) -> impl Iterator<Item = (u64, &'a ParticleGroup, &'a Chain)> {
-        let asked = move |group: &ParticleGroup| named.is_none_or(|names| names.contains(&group.species));
-        self.groups.iter().filter_map(move |(_, count, group)| {
-            let chain = group.chain.as_ref()?;
-            (asked(group) && *count > 0).then_some((*count, *group, chain))
+    /// Groups of chains of some species, of all where none are named, with their masses.
+    fn chains(&self, named: Option<&[String]>) -> impl Iterator<Item = (NumberedGroup<'a>, &'a Chain, f64)> {
+        let asked = move |numbered: &&NumberedGroup<'_>| numbered.count > 0 && numbered.group.is_among(named);
+        self.groups.iter().filter(asked).filter_map(|numbered| {
+            let mass = mobile_mass(numbered.group.mass, numbered.group.is_held(), self.heaviest)?;
+            Some((*numbered, numbered.group.chain.as_ref()?, mass))
         })
     }
 
     /// The mass that angles move.
     fn bent(&self, angles: &AnglesInteraction) -> f64 {
         let of_triple = |triple: &[u32; 3]| moved(triple.map(|particle| self.mass_of(particle)));
-        if angles.triples.is_empty() && self.scene.links_are_from_file(angles.types.as_deref()) {
-            self.scene.file_angles(angles.types.as_deref()).map(|links| self.heaviest_of(links)).fold(0.0, f64::max)
-        } else if angles.triples.is_empty() {
-            let masses = self.chains(angles.species.as_deref()).filter_map(|(_, group, _)| self.mass(group));
-            masses.fold(0.0, f64::max)
-        } else {
-            angles.triples.iter().map(of_triple).fold(0.0, f64::max)
+        match angles.links(self.scene).source(self.scene) {
+            LinkSource::Listed(triples) => triples.iter().map(of_triple).fold(0.0, f64::max),
+            LinkSource::Start(all) => all.iter().flat_map(|links| &links.members).map(of_triple).fold(0.0, f64::max),
+            LinkSource::Chains(named) => self.chains(named).map(|(_, _, mass)| mass).fold(0.0, f64::max),
         }
-    }
-
-    /// The largest mass that angles of a file move.
-    fn heaviest_of(&self, links: &FileLinks<3>) -> f64 {
-        let kinds: HashSet<[Option<usize>; 3]> = match self.scene.start() {
-            Some(start) => links.members.iter().map(|members| members.map(|member| start.species_of(member))).collect(),
-            None => HashSet::new(),
-        };
-        let mass = |place: Option<usize>| place.and_then(|place| self.mass_of_species(place));
-        kinds.into_iter().map(|kinds| moved(kinds.map(mass))).fold(0.0, f64::max)
     }
 
     /// How bonds of a length at rest start: of those that start alike, one.
@@ -167,31 +144,32 @@ impl<'a> Particles<'a> {
         let off = |distance: Option<f64>| {
             distance.map_or((farthest - length).max(length), |distance| (distance - length).abs())
         };
-        if bonds.pairs.is_empty() && self.scene.links_are_from_file(bonds.types.as_deref()) {
-            let of_types = self.scene.file_bonds(bonds.types.as_deref()).flat_map(|links| &links.spans);
-            let of_span = |((a, b), span): (&(u8, u8), &[f64; 2])| {
-                let mass = moved([*a, *b].map(|place| self.mass_of_species(place.into())));
-                let extension = span.iter().map(|distance| off(Some(*distance))).fold(0.0, f64::max);
-                Start { mass, extension }
-            };
-            return of_types.map(of_span).collect();
+        match bonds.links(self.scene).source(self.scene) {
+            LinkSource::Start(all) => {
+                let of_span = |((a, b), span): (&(u8, u8), &[f64; 2])| {
+                    let mass = moved([*a, *b].map(|place| self.mass_of_species(place.into())));
+                    let extension = span.iter().map(|distance| off(Some(*distance))).fold(0.0, f64::max);
+                    Start { mass, extension }
+                };
+                all.iter().flat_map(|links| &links.spans).map(of_span).collect()
+            }
+            LinkSource::Chains(named) => {
+                let of_chains = self.chains(named).map(|(numbered, chain, mass)| {
+                    let spacings = self.spacings(numbered.count, numbered.group, chain);
+                    Start { mass, extension: spacings.into_iter().map(off).fold(0.0, f64::max) }
+                });
+                of_chains.collect()
+            }
+            LinkSource::Listed(pairs) => {
+                let of_pair = |ends: &[u32; 2]| {
+                    let mass = moved(ends.map(|end| self.mass_of(end)));
+                    let [a, b] = ends.map(|end| self.position(end));
+                    let distance = a.zip(b).map(|(a, b)| self.distance(&a, &b));
+                    Start { mass, extension: off(distance) }
+                };
+                pairs.iter().map(of_pair).collect()
+            }
         }
-        if bonds.pairs.is_empty() {
-            let chains = self.chains(bonds.species.as_deref());
-            let of_chains = chains.filter_map(|(count, group, chain)| {
-                let mass = self.mass(group)?;
-                let extension = self.spacings(count, group, chain).into_iter().map(off).fold(0.0, f64::max);
-                Some(Start { mass, extension })
-            });
-            return of_chains.collect();
-        }
-        let of_pair = |ends: &[u32; 2]| {
-            let mass = moved(ends.map(|end| self.mass_of(end)));
-            let [a, b] = ends.map(|end| self.position(end));
-            let distance = a.zip(b).map(|(a, b)| self.distance(&a, &b));
-            Start { mass, extension: off(distance) }
-        };
-        bonds.pairs.iter().map(of_pair).collect()
     }
 
     /// Lengths of the bonds along the chains of a group; none for one that may be any.
@@ -224,7 +202,8 @@ impl<'a> Particles<'a> {
 
     /// Where a particle starts, if the scene says so.
     fn position(&self, particle: u32) -> Option<[f64; 3]> {
-        let (number, count, group) = self.group_of(particle)?;
+        let NumberedGroup { group, first, count } = self.group_of(particle)?;
+        let number = u64::from(particle) - first;
         match &group.placement {
             Placement::Random | Placement::Lattice { .. } | Placement::BehindWalls { .. } => None,
             Placement::Listed { positions } => {

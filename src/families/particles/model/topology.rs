@@ -2,7 +2,9 @@
 
 use super::Bonds;
 use super::molecules::{BondedMolecules, molecules};
-use crate::document::{FileLinks, Scene, SpeciesNames};
+use crate::document::{FileLinks, LinkSource, Links, NumberedGroup, Scene, SpeciesNames};
+use crate::families::Species;
+use crate::families::particles::index_of;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
@@ -43,39 +45,29 @@ pub enum Alike<'a, const LENGTH: usize> {
 }
 
 impl<const LENGTH: usize> Runs<LENGTH> {
-    /// Adds the neighbours along the chains of some species; of all where none are named. A closed chain continues from its
-    /// last particle to its first, if it is long enough that no particle is its own neighbour and no run is met twice.
-    pub fn add_chains(
-        &mut self,
-        kind: u32,
-        scene: &Scene,
-        named: Option<&[String]>,
-        species: impl Fn(&str) -> Option<usize>,
-    ) {
-        let mut first = 0_u64;
-        for group in &scene.particles {
-            let count = group.resolved_count(&scene.space);
-            let asked = named.is_none_or(|names| names.contains(&group.species));
-            if let (Some(chain), true) = (&group.chain, asked) {
-                let beads = u64::from(chain.beads.max(1));
-                let open = beads.saturating_sub(LENGTH as u64 - 1);
-                let starts = if chain.closed && beads > 2 { beads } else { open };
-                let species = species(&group.species).unwrap_or(0);
-                let shape = Shape::Chains { first, chains: count / beads, beads, starts, species };
-                self.stretches.push(Stretch { kind, shape });
+    /// Adds links from wherever they come.
+    pub fn add(&mut self, kind: u32, links: &Links<'_, LENGTH>, scene: &Scene, species: &[Species]) {
+        let shapes: Vec<Shape<LENGTH>> = match links.source(scene) {
+            LinkSource::Listed(listed) => vec![Shape::Listed(listed.to_vec())],
+            LinkSource::Start(links) => links.into_iter().map(|links| Shape::File(Arc::clone(links))).collect(),
+            LinkSource::Chains(named) => {
+                let chains = scene.numbered_groups().filter(|numbered| numbered.group.is_among(named));
+                let shapes = chains.filter_map(|NumberedGroup { group, first, count }| {
+                    let chain = group.chain.as_ref()?;
+                    let beads = u64::from(chain.beads.max(1));
+                    let species = index_of(species, &group.species).unwrap_or(0);
+                    Some(Shape::Chains {
+                        first,
+                        chains: count / beads,
+                        beads,
+                        starts: chain.links(LENGTH as u64),
+                        species,
+                    })
+                });
+                shapes.collect()
             }
-            first = first.saturating_add(count);
-        }
-    }
-
-    /// Adds listed runs.
-    pub fn add_listed(&mut self, kind: u32, runs: &[[u32; LENGTH]]) {
-        self.stretches.push(Stretch { kind, shape: Shape::Listed(runs.to_vec()) });
-    }
-
-    /// Adds those of a file.
-    pub fn add_file(&mut self, kind: u32, links: &Arc<FileLinks<LENGTH>>) {
-        self.stretches.push(Stretch { kind, shape: Shape::File(Arc::clone(links)) });
+        };
+        self.stretches.extend(shapes.into_iter().map(|shape| Stretch { kind, shape }));
     }
 
     /// Number of runs.
@@ -218,27 +210,20 @@ pub enum Walks {
 
 /// All groups of chains, or all kinds of molecules that the bonds of a start make.
 pub(crate) fn chain_groups(scene: &Scene, bonds: &Bonds) -> Vec<ChainGroup> {
-    let mut groups = Vec::new();
-    let mut first = 0_u64;
-    for group in &scene.particles {
-        let count = group.resolved_count(&scene.space);
-        if let Some(chain) = &group.chain {
-            let beads = chain.beads.max(1);
-            groups.push(ChainGroup {
-                name: group.species.clone(),
-                chains: (count / u64::from(beads)) as u32,
-                beads,
-                linear: !chain.closed || beads <= 2,
-                steps: beads,
-                walks: Walks::Consecutive(first as u32),
-            });
-        }
-        first = first.saturating_add(count);
-    }
-    if groups.is_empty() {
-        groups = molecule_groups(scene, bonds);
-    }
-    groups
+    let chained = scene.numbered_groups().filter_map(|NumberedGroup { group, first, count }| {
+        let chain = group.chain.as_ref()?;
+        let beads = chain.beads.max(1);
+        Some(ChainGroup {
+            name: group.species.clone(),
+            chains: (count / u64::from(beads)) as u32,
+            beads,
+            linear: !chain.closed || beads <= 2,
+            steps: beads,
+            walks: Walks::Consecutive(first as u32),
+        })
+    });
+    let chained: Vec<ChainGroup> = chained.collect();
+    if chained.is_empty() { molecule_groups(scene, bonds) } else { chained }
 }
 
 /// All kinds of molecules, where a scene measures them: nothing else needs to know them.

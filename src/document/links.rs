@@ -1,0 +1,70 @@
+//! Bonds and angles, however a scene says which particles they join.
+
+use super::{FileLinks, Scene};
+use std::sync::Arc;
+
+/// What an interaction says of its bonds, of two particles, or angles, of three.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Links<'a, const LENGTH: usize> {
+    /// Particle numbers that are listed.
+    pub listed: &'a [[u32; LENGTH]],
+    /// Species whose chains they are along.
+    pub species: Option<&'a [String]>,
+    /// Types in a file or of molecules.
+    pub types: Option<&'a [String]>,
+    /// What there is in a file or of molecules.
+    pub of_start: &'a [Arc<FileLinks<LENGTH>>],
+}
+
+/// Where links come from.
+#[derive(Debug, Clone)]
+pub(crate) enum LinkSource<'a, const LENGTH: usize> {
+    /// A list of particle numbers.
+    Listed(&'a [[u32; LENGTH]]),
+    /// A file or molecules: links of the types that are named, of all where none are, in the order of the file.
+    Start(Vec<&'a Arc<FileLinks<LENGTH>>>),
+    /// Chains of the species that are named, of all where none are.
+    Chains(Option<&'a [String]>),
+}
+
+impl<'a, const LENGTH: usize> Links<'a, LENGTH> {
+    /// The key that lists them.
+    pub const KEY: &'static str = if LENGTH == 2 { "pairs" } else { "triples" };
+    /// Their name in the plural.
+    pub const NOUN: &'static str = if LENGTH == 2 { "bonds" } else { "angles" };
+
+    /// Where they come from: those that name nothing from a file where it has them and groups have no chains.
+    pub fn source(&self, scene: &Scene) -> LinkSource<'a, LENGTH> {
+        let are_chained = || scene.particles.iter().any(|group| group.chain.is_some());
+        if !self.listed.is_empty() {
+            LinkSource::Listed(self.listed)
+        } else if scene.has_start() && (self.types.is_some() || !are_chained()) {
+            let asked = |links: &&Arc<FileLinks<LENGTH>>| self.types.is_none_or(|types| types.contains(&links.name));
+            LinkSource::Start(self.of_start.iter().filter(asked).collect())
+        } else {
+            LinkSource::Chains(self.species)
+        }
+    }
+
+    /// Whether links of a type in a file or of molecules are among them.
+    pub fn include(&self, kind: &str, scene: &Scene) -> bool {
+        let named = self.types.is_none_or(|types| types.iter().any(|name| name == kind));
+        named && matches!(self.source(scene), LinkSource::Start(_))
+    }
+
+    /// Their number.
+    pub fn count(&self, scene: &Scene) -> u64 {
+        match self.source(scene) {
+            LinkSource::Listed(listed) => listed.len() as u64,
+            LinkSource::Start(links) => links.iter().map(|links| links.count()).fold(0, u64::saturating_add),
+            LinkSource::Chains(species) => {
+                let chains = scene.numbered_groups().filter(|numbered| numbered.group.is_among(species));
+                let links = chains.filter_map(|numbered| {
+                    let chain = numbered.group.chain.as_ref()?;
+                    Some((numbered.count / u64::from(chain.beads.max(1))).saturating_mul(chain.links(LENGTH as u64)))
+                });
+                links.fold(0, u64::saturating_add)
+            }
+        }
+    }
+}
