@@ -24,11 +24,6 @@ impl Problem {
         Self { path: path.to_string(), found: cut(found.into()), accepted: cut(accepted.into()), suggestion: None }
     }
 
-    /// A mistake that is counted and not read.
-    pub(crate) fn unread() -> Self {
-        Self::new("", "", "")
-    }
-
     pub(crate) fn suggest(mut self, suggestion: Option<String>) -> Self {
         self.suggestion = suggestion;
         self

@@ -184,13 +184,10 @@ impl FileStart {
     #[must_use]
     pub(crate) fn to_bytes(&self) -> Vec<u8> {
         fn described<const LENGTH: usize>(all: &[Arc<FileLinks<LENGTH>>]) -> Vec<DescribedLinks> {
-            let spans = |links: &FileLinks<LENGTH>| {
-                links.spans.iter().map(|((a, b), [least, most])| (*a, *b, *least, *most)).collect()
-            };
             let one = |links: &Arc<FileLinks<LENGTH>>| DescribedLinks {
                 name: links.name.clone(),
                 count: links.members.len() as u64,
-                spans: spans(links),
+                spans: links.spans.iter().map(|((a, b), [least, most])| (*a, *b, *least, *most)).collect(),
             };
             all.iter().map(one).collect()
         }

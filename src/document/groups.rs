@@ -4,6 +4,7 @@ use super::defaults::{is_zero, one};
 use super::{Axis, Space};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// A group of particles of one species.
@@ -140,6 +141,21 @@ impl Placement {
         let Self::BehindWalls { axis, wall, thickness } = self else { return space.volume() };
         let layers = if wall.is_some() { 1.0 } else { 2.0 };
         space.lengths.get(*axis as usize).map_or(0.0, |length| layers * thickness * space.volume() / length)
+    }
+
+    /// Where one of so many particles starts, if the scene says so.
+    pub(crate) fn position(&self, number: u64, count: u64) -> Option<[f64; 3]> {
+        match self {
+            Self::Listed { positions } => {
+                let position = positions.get(number as usize)?;
+                Some(std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0)))
+            }
+            Self::Circle { center, radius } => {
+                let (sine, cosine) = (TAU * number as f64 / count as f64).sin_cos();
+                Some([center[0] + radius * cosine, center[1] + radius * sine, 0.0])
+            }
+            Self::Random | Self::Lattice { .. } | Self::BehindWalls { .. } => None,
+        }
     }
 
     /// Whether the particles start on a lattice, shifted or not.

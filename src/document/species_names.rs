@@ -46,6 +46,11 @@ impl<'a> SpeciesNames<'a> {
         if self.known.contains(name) {
             return true;
         }
+        // What is nearest takes time.
+        if problems.is_full() {
+            problems.add("", "", "");
+            return false;
+        }
         // One without a name is a mistake of its own.
         let names = || self.names.iter().copied().filter(|name| !name.is_empty());
         let accepted = match names().next() {

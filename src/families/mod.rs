@@ -40,7 +40,7 @@ pub(crate) use particles::chains::mirrored;
 pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, MOST_RELAXATION, RelaxationErrors, TOLERANCE};
 pub use particles::model::{
     Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
-    HarmonicChain, Jump, Likeness, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SoftRepulsion,
+    HarmonicChain, Jump, Likeness, Link, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SoftRepulsion,
     SpringChain, Strand, Walks,
 };
 pub(crate) use particles::surroundings;

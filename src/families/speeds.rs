@@ -2,7 +2,7 @@
 
 use super::units::noise_momentum;
 use super::{Model, Physics, Species};
-use crate::document::{Interaction, ParticleGroup, Problems, Scene, Velocities, brief};
+use crate::document::{ColouredNoiseInteraction, ParticleGroup, Problems, Scene, Velocities, brief};
 
 /// Times that the fastest of many particles may exceed the velocities expected here: for Maxwell's distribution five are enough
 /// for a million, and forces add to it.
@@ -61,21 +61,10 @@ pub(super) fn expected(scene: &Scene, species: &[Species], physics: &dyn Physics
     if let Some(shear) = &scene.space.shear {
         most += shear.speed(&scene.space.lengths);
     }
-    for interaction in &scene.interactions {
-        if let Interaction::ColouredNoise(noise) = interaction {
-            most = most.max(noise_momentum(noise, scene.time.step) / lightest);
-        }
+    if let Some(noise) = scene.coloured_noise() {
+        most = most.max(noise_momentum(noise, scene.time.step) / lightest);
     }
     most
-}
-
-/// The momentum along an axis that a random force gives in half a step.
-fn random_impulse(scene: &Scene) -> f64 {
-    let impulses = scene.interactions.iter().map(|interaction| match interaction {
-        Interaction::ColouredNoise(noise) => 0.5 * noise.strength.sqrt() * noise.time.min(scene.time.step),
-        _ => 0.0,
-    });
-    impulses.fold(0.0, f64::max)
 }
 
 /// Refuses a time step in which particles go beyond the reach of their family with the velocities that they start with or that
@@ -83,7 +72,9 @@ fn random_impulse(scene: &Scene) -> f64 {
 pub(super) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
     let physics = model.physics();
     let (reach, step) = (physics.reach(model), scene.time.step);
-    let pushed = random_impulse(scene);
+    // The momentum along an axis that a random force gives in half a step.
+    let impulse = |noise: &ColouredNoiseInteraction| 0.5 * noise.strength.sqrt() * noise.time.min(scene.time.step);
+    let pushed = scene.coloured_noise().map_or(0.0, impulse);
     let heat = if physics.is_heated(model) { hottest(scene) } else { 0.0 };
     let speed = |group| {
         let [start, bath] = [at_start(scene, group, physics), thermal(heat, physics.mean_mass(group))];

@@ -236,17 +236,9 @@ fn place(state: &mut State, group: &ParticleGroup, count: usize, model: &Model, 
                 }))
             }));
         }
-        Placement::Circle { center, radius } => {
-            state.positions.extend((0..count).map(|index| {
-                let (sine, cosine) = (std::f64::consts::TAU * index as f64 / count as f64).sin_cos();
-                model.units.place([center[0] + radius * cosine, center[1] + radius * sine, 0.0])
-            }));
-        }
-        Placement::Listed { positions } => {
-            state.positions.extend(positions.iter().map(|position| {
-                let position = std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0));
-                model.units.place(position)
-            }));
+        Placement::Circle { .. } | Placement::Listed { .. } => {
+            let places = (0..count as u64).filter_map(|index| group.placement.position(index, count as u64));
+            state.positions.extend(places.map(|place| model.units.place(place)));
         }
         Placement::BehindWalls { .. } => layers::place(state, &group.placement, count, model),
     }

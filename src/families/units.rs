@@ -2,7 +2,7 @@
 
 use super::particles::model::forces;
 use super::{ChainTrios, PairForce, Species, speeds};
-use crate::document::{ColouredNoiseInteraction, Interaction, NoiseProcess, Scene};
+use crate::document::{ColouredNoiseInteraction, NoiseProcess, Scene};
 
 /// A momentum that forces make this many times larger than motion from elsewhere is the one that integers have to hold: they
 /// have room for 64 of the scale that their unit follows, rounded up to a power of two, and heat and neighbours add to it.
@@ -33,10 +33,8 @@ pub(super) fn momentum_unit(
     if let Some(shear) = &scene.space.shear {
         scale = scale.max(heaviest * shear.speed(&scene.space.lengths) / 8.0);
     }
-    for interaction in &scene.interactions {
-        if let Interaction::ColouredNoise(noise) = interaction {
-            scale = scale.max(noise_momentum(noise, scene.time.step));
-        }
+    if let Some(noise) = scene.coloured_noise() {
+        scale = scale.max(noise_momentum(noise, scene.time.step));
     }
     if scale == 0.0
         && let Some(force) = pair_force

@@ -68,8 +68,8 @@ pub fn load_fitting(
     fits: &Fits<'_>,
 ) -> Result<(Scene, Vec<Warning>), SceneError> {
     let (name, text) = read(source)?;
-    let files = StateFiles::default();
-    parse_checked(&name, &text, overrides, steps, StepCheck::Refuse, Source::File(&files, Some(fits)))
+    let draft = Draft { name: &name, text: &text, overrides, steps };
+    draft.parse(StepCheck::Refuse, Source::File(&StateFiles::default(), Some(fits)))
 }
 
 /// The name and the text of the scene in the file `source`, or of the built-in scene of that name.
@@ -186,7 +186,7 @@ pub(crate) fn parse_with(
     steps: Option<u64>,
     step: StepCheck,
 ) -> Result<(Scene, Vec<Warning>), SceneError> {
-    parse_checked(name, text, overrides, steps, step, Source::File(files, None))
+    Draft { name, text, overrides, steps }.parse(step, Source::File(files, None))
 }
 
 /// Like [`parse`], but the file of a state is not read: what a run keeps of it is given, as far as it is known. Nor is the time step
@@ -200,7 +200,7 @@ pub(crate) fn parse_kept(
     overrides: &[String],
     start: Option<Arc<FileStart>>,
 ) -> Result<Scene, SceneError> {
-    Ok(parse_checked(name, text, overrides, None, StepCheck::Allow, Source::Kept(start))?.0)
+    Ok(Draft { name, text, overrides, steps: None }.parse(StepCheck::Allow, Source::Kept(start))?.0)
 }
 
 /// Where what a scene keeps of the file of its state comes from.
@@ -212,62 +212,93 @@ enum Source<'a> {
     Kept(Option<Arc<FileStart>>),
 }
 
-fn parse_checked(
-    name: &str,
-    text: &str,
-    overrides: &[String],
+/// The text of a scene with a name for messages, what is set in it, and the steps of its run, if it is to have fewer.
+#[derive(Clone, Copy)]
+struct Draft<'a> {
+    name: &'a str,
+    text: &'a str,
+    overrides: &'a [String],
     steps: Option<u64>,
-    step: StepCheck,
-    source: Source<'_>,
-) -> Result<(Scene, Vec<Warning>), SceneError> {
-    // A run that was begun without a rule of relaxation goes on without one.
-    let is_kept = matches!(source, Source::Kept(_));
-    let mut reading = Reading::of(name, text, overrides, steps, Substitute::Least)?;
-    let mut unreadable = Problems::default();
-    if let Ok(scene) = &mut reading.scene {
-        match source {
-            // Numbers that stand in for refused ones are not compared with a file.
-            Source::File(..) if reading.problems.iter().any(|known| says_where_particles_are(&known.path)) => {}
-            Source::File(files, fits) => {
-                unreadable = start::read(scene, &reading.masses, (name, files), fits, &mut reading.notices)?;
-                let known: Vec<&str> = reading.problems.iter().map(|known| known.path.as_str()).collect();
-                unreadable.retain(|found| known.iter().all(|known| !related(known, &found.path)));
+}
+
+impl Draft<'_> {
+    /// What can be read of it, with numbers in place of those that are refused.
+    fn read(&self, substitute: Substitute) -> Result<Reading, SceneError> {
+        let (mut document, mut problems) = text::parse(self.name, self.text)?;
+        problems.extend(overridden(&mut document, self.overrides));
+        let notices =
+            self.steps.map(|steps| shorten::shorten(&mut document, steps, self.overrides)).unwrap_or_default();
+        let left_out = |place: &str| document.pointer(place).is_none();
+        let (integrator, colour) = (left_out("/integrator"), left_out("/output/snapshot/color"));
+        problems.append(shape::check(&SCHEMA, &mut document, substitute));
+        let groups = document.get("particles").and_then(Value::as_array).into_iter().flatten();
+        let masses = groups.map(|group| group.get("mass").is_some()).collect();
+        // What the shape check has mended may be readable, and then everything can be said at once.
+        if !problems.is_empty() {
+            fill_in(&mut document, substitute);
+        }
+        let scene = serde_json::from_value(document).map_err(|error| error.to_string()).map(|mut scene| {
+            families::complete(&mut scene, integrator, colour);
+            scene
+        });
+        Ok(Reading { problems, scene, notices, masses })
+    }
+
+    fn parse(&self, step: StepCheck, source: Source<'_>) -> Result<(Scene, Vec<Warning>), SceneError> {
+        let name = self.name;
+        // A run that was begun without a rule of relaxation goes on without one.
+        let is_kept = matches!(source, Source::Kept(_));
+        let mut reading = self.read(Substitute::Least)?;
+        let mut unreadable = Problems::default();
+        if let Ok(scene) = &mut reading.scene {
+            match source {
+                // Numbers that stand in for refused ones are not compared with a file.
+                Source::File(..) if reading.problems.iter().any(|known| says_where_particles_are(&known.path)) => {}
+                Source::File(files, fits) => {
+                    unreadable = start::read(scene, &reading.masses, (name, files), fits, &mut reading.notices)?;
+                    let known: Vec<&str> = reading.problems.iter().map(|known| known.path.as_str()).collect();
+                    unreadable.retain(|found| known.iter().all(|known| !related(known, &found.path)));
+                }
+                Source::Kept(start) => scene.kept = start.map(KeptStart::of).unwrap_or_default(),
             }
-            Source::Kept(start) => scene.kept = start.map(KeptStart::of).unwrap_or_default(),
         }
-    }
-    if reading.problems.is_empty() && unreadable.is_empty() {
-        let mut scene =
-            reading.scene.map_err(|message| SceneError::SchemaMismatch { name: name.to_owned(), message })?;
-        let mut problems = semantics::check(&scene);
-        // What needs a model or a start needs a scene that makes sense.
-        let further = !problems.is_empty();
-        if !further {
-            if !is_kept {
-                families::settle(&mut scene);
+        if reading.problems.is_empty() && unreadable.is_empty() {
+            let mut scene =
+                reading.scene.map_err(|message| SceneError::SchemaMismatch { name: name.to_owned(), message })?;
+            let mut problems = semantics::check(&scene);
+            // What needs a model or a start needs a scene that makes sense.
+            let further = !problems.is_empty();
+            if !further {
+                if !is_kept {
+                    families::settle(&mut scene);
+                }
+                families::check(&scene, step, &mut problems);
             }
-            families::check(&scene, step, &mut problems);
+            return if problems.is_empty() {
+                Ok((scene, reading.notices))
+            } else {
+                Err(invalid(name, problems, further))
+            };
         }
-        return if problems.is_empty() { Ok((scene, reading.notices)) } else { Err(invalid(name, problems, further)) };
-    }
-    let mut problems = reading.problems;
-    problems.append(unreadable);
-    // What a file should say, or what its box is compared with, is missing wherever it is needed.
-    if let Some(scene) = reading.scene.ok().filter(|scene| !scene.has_start()) {
-        let mut misfits = semantics::check(&scene);
-        drop(scene);
-        // What depends on a number that stands in for a refused one is nobody's mistake, nor is a misfit in the same place.
-        if !misfits.is_empty() {
-            let other = Reading::of(name, text, overrides, steps, Substitute::Most)?.scene;
-            let others = other.map(|scene| semantics::check(&scene)).unwrap_or_default();
-            let others: HashSet<&Problem> = others.iter().collect();
-            misfits.retain(|misfit| {
-                others.contains(misfit) && problems.iter().all(|known| !related(&known.path, &misfit.path))
-            });
+        let mut problems = reading.problems;
+        problems.append(unreadable);
+        // What a file should say, or what its box is compared with, is missing wherever it is needed.
+        if let Some(scene) = reading.scene.ok().filter(|scene| !scene.has_start()) {
+            let mut misfits = semantics::check(&scene);
+            drop(scene);
+            // What depends on a number that stands in for a refused one is nobody's mistake, nor is a misfit in the same place.
+            if !misfits.is_empty() {
+                let other = self.read(Substitute::Most)?.scene;
+                let others = other.map(|scene| semantics::check(&scene)).unwrap_or_default();
+                let others: HashSet<&Problem> = others.iter().collect();
+                misfits.retain(|misfit| {
+                    others.contains(misfit) && problems.iter().all(|known| !related(&known.path, &misfit.path))
+                });
+            }
+            problems.append(misfits);
         }
-        problems.append(misfits);
+        Err(invalid(name, problems, true))
     }
-    Err(invalid(name, problems, true))
 }
 
 /// Whether a mistake in this place concerns which file is read, the box that the file is compared with, or which molecules there are.
@@ -280,7 +311,7 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
 
 /// The first mistake that overrides make in the shape of a scene, whatever it means.
 pub(crate) fn misshapen(name: &str, text: &str, overrides: &[String]) -> Option<Problem> {
-    Reading::of(name, text, overrides, None, Substitute::Least).ok()?.problems.iter().next().cloned()
+    Draft { name, text, overrides, steps: None }.read(Substitute::Least).ok()?.problems.iter().next().cloned()
 }
 
 /// Applies overrides to the JSON of a scene; returns those that cannot be.
@@ -299,34 +330,6 @@ struct Reading {
     notices: Vec<Warning>,
     /// Which groups give their mass.
     masses: Vec<bool>,
-}
-
-impl Reading {
-    fn of(
-        name: &str,
-        text: &str,
-        overrides: &[String],
-        steps: Option<u64>,
-        substitute: Substitute,
-    ) -> Result<Self, SceneError> {
-        let (mut document, mut problems) = text::parse(name, text)?;
-        problems.extend(overridden(&mut document, overrides));
-        let notices = steps.map(|steps| shorten::shorten(&mut document, steps, overrides)).unwrap_or_default();
-        let left_out = |place: &str| document.pointer(place).is_none();
-        let (integrator, colour) = (left_out("/integrator"), left_out("/output/snapshot/color"));
-        problems.append(shape::check(&SCHEMA, &mut document, substitute));
-        let groups = document.get("particles").and_then(Value::as_array).into_iter().flatten();
-        let masses = groups.map(|group| group.get("mass").is_some()).collect();
-        // What the shape check has mended may be readable, and then everything can be said at once.
-        if !problems.is_empty() {
-            fill_in(&mut document, substitute);
-        }
-        let scene = serde_json::from_value(document).map_err(|error| error.to_string()).map(|mut scene| {
-            families::complete(&mut scene, integrator, colour);
-            scene
-        });
-        Ok(Self { problems, scene, notices, masses })
-    }
 }
 
 /// The text of a scene with overrides written into it, and nothing else changed but the path of the file of its state: that becomes

@@ -86,11 +86,13 @@ impl<'a> Walker<'a> {
 
     /// Reports that the value at `path` is not accepted by `schema`.
     fn refuse(&mut self, schema: &Value, value: &Value, path: &Path<'_>) {
-        if self.problems.is_full() {
-            self.problems.push(Problem::unread());
-        } else {
-            self.problems.add(path, found(value), accepted(self.root, schema));
-        }
+        self.report(schema, path, found(value));
+    }
+
+    /// Reports what is not accepted by `schema`.
+    fn report(&mut self, schema: &Value, path: &Path<'_>, phrase: String) {
+        let accepted = if self.problems.is_full() { String::new() } else { accepted(self.root, schema) };
+        self.problems.add(path, phrase, accepted);
     }
 
     fn check_alternatives(
@@ -252,12 +254,8 @@ impl<'a> Walker<'a> {
             let short = layer["minItems"].as_u64().is_some_and(|least| length < least);
             let long = layer["maxItems"].as_u64().is_some_and(|most| length > most);
             if short || long {
-                if self.problems.is_full() {
-                    self.problems.push(Problem::unread());
-                } else {
-                    let entries = if length == 1 { "entry" } else { "entries" };
-                    self.problems.refuse(path, format!("a list of {length} {entries}"), accepted(self.root, schema));
-                }
+                let entries = if length == 1 { "entry" } else { "entries" };
+                self.report(schema, path, format!("found a list of {length} {entries}"));
                 readable &= layer["minItems"] != layer["maxItems"] && self.resize(layer, list);
             }
             let first = layer["prefixItems"].as_array().map_or(&[][..], Vec::as_slice);
@@ -315,7 +313,7 @@ impl<'a> Walker<'a> {
                     taken_out.push(key.clone());
                 }
                 None if closed && self.problems.is_full() => {
-                    self.problems.push(Problem::unread());
+                    self.problems.add("", "", "");
                     taken_out.push(key.clone());
                 }
                 None if closed => {

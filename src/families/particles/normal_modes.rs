@@ -1,6 +1,6 @@
 //! The normal modes of networks of springs without a length.
 
-use super::model::Bonds;
+use super::model::{Bond, Bonds, Neighbours};
 use crate::document::BondPotential;
 use nalgebra::DMatrix;
 use std::collections::HashMap;
@@ -29,30 +29,42 @@ pub(super) fn stiffnesses(bonds: &Bonds, particles: u64) -> Option<Vec<(f64, u64
     if bonds.count() > MOST_BONDS {
         return None;
     }
-    let mut networks = Networks::default();
-    for bond in bonds.iter() {
-        networks.join(bond.ends);
+    let bonded: Vec<Bond> = bonds.iter().collect();
+    let mut members: Vec<u32> = bonded.iter().flat_map(|bond| bond.ends).collect();
+    members.sort_unstable();
+    members.dedup();
+    let place = |end: u32| members.partition_point(|member| *member < end);
+    let joins = bonded.iter().map(|bond| bond.ends.map(|end| place(end) as u32));
+    let neighbours = Neighbours::new(joins, members.len() as u32);
+    let mut is_known = vec![false; members.len()];
+    // The network of each particle that has bonds, and its place there.
+    let mut networks = vec![(0, 0); members.len()];
+    let mut sizes = Vec::new();
+    for particle in 0..members.len() {
+        if is_known[particle] {
+            continue;
+        }
+        let mut network = neighbours.joined(particle as u32, &mut is_known);
+        network.sort_unstable();
+        for (at, member) in network.iter().enumerate() {
+            networks[*member as usize] = (sizes.len(), at);
+        }
+        sizes.push(network.len());
     }
-    let mut parts: HashMap<u32, Vec<([u32; 2], u32)>> = HashMap::new();
-    for bond in bonds.iter() {
-        parts.entry(networks.root(bond.ends[0])).or_default().push((bond.ends, bond.kind));
+    if sizes.iter().any(|size| *size > LARGEST_NETWORK) {
+        return None;
+    }
+    let mut shapes: Vec<Shape> = vec![Vec::new(); sizes.len()];
+    for bond in &bonded {
+        let ends = bond.ends.map(|end| networks[place(end)]);
+        shapes[ends[0].0].push((ends.map(|(_, at)| at), bond.kind));
     }
     // Networks alike in the order of their particles have the same modes.
     let mut alike: HashMap<Shape, (usize, u64)> = HashMap::new();
-    let mut bonded = 0_u64;
-    for part in parts.into_values() {
-        let mut members: Vec<u32> = part.iter().flat_map(|(ends, _)| *ends).collect();
-        members.sort_unstable();
-        members.dedup();
-        if members.len() > LARGEST_NETWORK {
-            return None;
-        }
-        bonded += members.len() as u64;
-        let place = |end: u32| members.partition_point(|member| *member < end);
-        let shape: Shape = part.iter().map(|(ends, kind)| (ends.map(place), *kind)).collect();
-        alike.entry(shape).or_insert((members.len(), 0)).1 += 1;
+    for (shape, size) in shapes.into_iter().zip(&sizes) {
+        alike.entry(shape).or_insert((*size, 0)).1 += 1;
     }
-    let mut modes = vec![(0.0, particles.checked_sub(bonded)?)];
+    let mut modes = vec![(0.0, particles.checked_sub(members.len() as u64)?)];
     for (shape, (size, copies)) in alike {
         let mut matrix = DMatrix::<f64>::zeros(size, size);
         for ([a, b], kind) in shape {
@@ -71,34 +83,6 @@ pub(super) fn stiffnesses(bonds: &Bonds, particles: u64) -> Option<Vec<(f64, u64
     modes.retain(|(_, count)| *count > 0);
     modes.sort_by(|a, b| a.0.total_cmp(&b.0));
     Some(modes)
-}
-
-/// Which particles bonds join, directly or not.
-#[derive(Debug, Default)]
-struct Networks {
-    parents: HashMap<u32, u32>,
-}
-
-impl Networks {
-    fn root(&mut self, particle: u32) -> u32 {
-        let mut root = particle;
-        while let Some(parent) = self.parents.get(&root).copied() {
-            root = parent;
-        }
-        // The way is short the next time.
-        let mut next = particle;
-        while next != root {
-            next = self.parents.insert(next, root).unwrap_or(root);
-        }
-        root
-    }
-
-    fn join(&mut self, ends: [u32; 2]) {
-        let [a, b] = ends.map(|end| self.root(end));
-        if a != b {
-            self.parents.insert(a.max(b), a.min(b));
-        }
-    }
 }
 
 #[cfg(test)]

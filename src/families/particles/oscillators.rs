@@ -119,16 +119,12 @@ fn coordinates(model: &Model, particles: &Particles) -> Option<Vec<Coordinates>>
         return None;
     }
     let modes = normal_modes::stiffnesses(bonds, of_all.count)?;
-    let coordinates = modes.into_iter();
-    Some(
-        coordinates
-            .map(|(stiffness, count)| Coordinates {
-                count: count as f64 * dimension,
-                stiffness: tether + stiffness,
-                species,
-            })
-            .collect(),
-    )
+    let mode = |(stiffness, count): (f64, u64)| Coordinates {
+        count: count as f64 * dimension,
+        stiffness: tether + stiffness,
+        species,
+    };
+    Some(modes.into_iter().map(mode).collect())
 }
 
 /// ⟨s²⟩ = kT λ of the continuous motion, whatever the forces: in equilibrium baths are independent of all coordinates.

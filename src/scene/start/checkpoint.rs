@@ -1,6 +1,6 @@
 //! The particles of an earlier run, from its last checkpoint.
 
-use crate::families::{Angles, Bonds, Family, Model};
+use crate::families::{Angles, Bonds, Family, Link, Model};
 use crate::scene::{EarlierRun, FileStart, Integrator, Scene, parse_kept};
 use crate::state::{State, StateArray};
 use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
@@ -160,11 +160,8 @@ fn of_state(model: &Model, state: &State) -> Result<ParticleFile, Mistake> {
         positions: state.positions.iter().map(|position| model.units.position(*position)).collect(),
         velocities: (0..state.len()).map(velocity).collect(),
         images: state.images.clone(),
-        bonds: by_kind("bond", model.particles().bonds.iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind))),
-        angles: by_kind(
-            "angle",
-            model.particles().angles.iter().flat_map(Angles::iter).map(|angle| (angle.ends, angle.kind)),
-        ),
+        bonds: by_kind("bond", model.particles().bonds.iter().flat_map(Bonds::iter)),
+        angles: by_kind("angle", model.particles().angles.iter().flat_map(Angles::iter)),
         tethers: state.tethers.iter().map(|tether| model.units.position(*tether)).collect(),
         ..ParticleFile::default()
     })
@@ -198,13 +195,13 @@ const fn lost(array: StateArray) -> Option<&'static str> {
 }
 
 /// Bonds or angles by their kind, which trajectories name so too.
-fn by_kind<const LENGTH: usize>(noun: &str, all: impl Iterator<Item = ([u32; LENGTH], u32)>) -> Vec<Links<LENGTH>> {
+fn by_kind<const LENGTH: usize>(noun: &str, all: impl Iterator<Item = Link<LENGTH>>) -> Vec<Links<LENGTH>> {
     let mut found: Vec<Links<LENGTH>> = Vec::new();
-    for (members, kind) in all {
+    for Link { ends, kind } in all {
         while found.len() <= kind as usize {
             found.push(Links { name: format!("{noun} {}", found.len()), members: Vec::new() });
         }
-        found[kind as usize].members.push(members);
+        found[kind as usize].members.push(ends);
     }
     found
 }

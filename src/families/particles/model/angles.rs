@@ -1,6 +1,6 @@
 //! Stiffness of chains.
 
-use super::topology::Runs;
+use super::topology::{Angle, Runs};
 use crate::document::{AnglesInteraction, Scene};
 use crate::families::Species;
 
@@ -11,15 +11,6 @@ pub struct Angles {
     pub stiffness: Vec<f64>,
     /// The angles, interaction by interaction.
     pub(crate) runs: Runs<3>,
-}
-
-/// An angle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Angle {
-    /// Numbers of the particles; the angle is at the middle one.
-    pub ends: [u32; 3],
-    /// Index of its kind.
-    pub kind: u32,
 }
 
 impl Angles {
@@ -37,6 +28,6 @@ impl Angles {
 
     /// All angles, interaction by interaction.
     pub fn iter(&self) -> impl Iterator<Item = Angle> {
-        self.runs.iter().map(|(ends, kind)| Angle { ends, kind })
+        self.runs.iter()
     }
 }

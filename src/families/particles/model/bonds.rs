@@ -1,6 +1,6 @@
 //! Bonds between particles: a potential, and a heat bath coupled to the length.
 
-use super::topology::{Alike, Runs};
+use super::topology::{Alike, Bond, Runs};
 use crate::document::{BondPotential, BondsInteraction, Scene};
 use crate::families::{BathStep, Species};
 
@@ -24,15 +24,6 @@ pub struct BondKind {
     pub temperature: f64,
     /// Whether bonded particles are spared each other's repulsion.
     pub exclude_repulsion: bool,
-}
-
-/// A bond.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Bond {
-    /// Numbers of the particles.
-    pub ends: [u32; 2],
-    /// Index of its kind.
-    pub kind: u32,
 }
 
 impl Bonds {
@@ -70,7 +61,7 @@ impl Bonds {
 
     /// All bonds, interaction by interaction.
     pub fn iter(&self) -> impl Iterator<Item = Bond> {
-        self.runs.iter().map(|(ends, kind)| Bond { ends, kind })
+        self.runs.iter()
     }
 
     /// Kinds of bonds and what their bonds have in common.

@@ -203,18 +203,7 @@ impl<'a> Particles<'a> {
     /// Where a particle starts, if the scene says so.
     fn position(&self, particle: u32) -> Option<[f64; 3]> {
         let NumberedGroup { group, first, count } = self.group_of(particle)?;
-        let number = u64::from(particle) - first;
-        match &group.placement {
-            Placement::Random | Placement::Lattice { .. } | Placement::BehindWalls { .. } => None,
-            Placement::Listed { positions } => {
-                let position = positions.get(number as usize)?;
-                Some(std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0)))
-            }
-            Placement::Circle { center, radius } => {
-                let (sine, cosine) = (2.0 * PI * number as f64 / count as f64).sin_cos();
-                Some([center[0] + radius * cosine, center[1] + radius * sine, 0.0])
-            }
-        }
+        group.placement.position(u64::from(particle) - first, count)
     }
 
     /// The shortest distance of two places.

@@ -104,13 +104,13 @@ impl Kind {
 }
 
 /// The particles that each particle has bonds to, in order.
-struct Neighbours {
+pub(crate) struct Neighbours {
     starts: Vec<usize>,
     all: Vec<u32>,
 }
 
 impl Neighbours {
-    fn new(bonds: impl Iterator<Item = [u32; 2]>, particles: u32) -> Self {
+    pub fn new(bonds: impl Iterator<Item = [u32; 2]>, particles: u32) -> Self {
         let mut bonds: Vec<[u32; 2]> = bonds.flat_map(|[a, b]| [[a, b], [b, a]]).collect();
         bonds.retain(|[a, b]| a != b);
         bonds.sort_unstable();
@@ -125,7 +125,7 @@ impl Neighbours {
     }
 
     /// All particles that bonds join with one.
-    fn joined(&self, particle: u32, is_known: &mut [bool]) -> Vec<u32> {
+    pub fn joined(&self, particle: u32, is_known: &mut [bool]) -> Vec<u32> {
         let mut members = vec![particle];
         is_known[particle as usize] = true;
         let mut next = 0;

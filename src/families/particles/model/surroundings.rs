@@ -9,7 +9,7 @@
 use super::PairForce;
 use crate::document::{ParticleGroup, Placement, Scene, Surroundings};
 use crate::families::Species;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Particles whose neighbours are counted, at most; of more, some.
 const MOST_CENTRES: usize = 1 << 13;
@@ -48,18 +48,16 @@ pub(crate) fn of(scene: &Scene, species: &[Species], force: &PairForce) -> Optio
     for group in &scene.particles {
         let kind = super::super::index_of(species, &group.species).unwrap_or(0);
         let count = group.resolved_count(&scene.space);
-        let place = |position: &[f64]| {
-            std::array::from_fn(|axis| match (position.get(axis), lengths.get(axis)) {
-                (Some(place), Some(edge)) => ((place / edge).rem_euclid(1.0) * EDGE) as u64 as u32,
-                _ => 0,
+        let place = |position: [f64; 3]| {
+            std::array::from_fn(|axis| match lengths.get(axis) {
+                Some(edge) => ((position[axis] / edge).rem_euclid(1.0) * EDGE) as u64 as u32,
+                None => 0,
             })
         };
         match &group.placement {
-            Placement::Listed { positions } => places.extend(positions.iter().map(|position| place(position))),
-            Placement::Circle { center, radius } => places.extend((0..count).map(|index| {
-                let (sine, cosine) = (TAU * index as f64 / count as f64).sin_cos();
-                place(&[center[0] + radius * cosine, center[1] + radius * sine])
-            })),
+            Placement::Listed { .. } | Placement::Circle { .. } => {
+                places.extend((0..count).filter_map(|index| group.placement.position(index, count)).map(place));
+            }
             _ if group.is_frozen() => {}
             _ => even[kind] += count as f64 / scene.space.volume(),
         }

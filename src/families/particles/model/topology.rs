@@ -8,6 +8,20 @@ use crate::families::particles::index_of;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
+/// A bond or an angle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Link<const LENGTH: usize> {
+    /// Numbers of the particles; an angle is at the middle one.
+    pub ends: [u32; LENGTH],
+    /// Index of its kind.
+    pub kind: u32,
+}
+
+/// A bond.
+pub type Bond = Link<2>;
+/// An angle.
+pub type Angle = Link<3>;
+
 /// Runs of `LENGTH` particles in a row, in order: bonds and angles.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Runs<const LENGTH: usize> {
@@ -82,10 +96,10 @@ impl<const LENGTH: usize> Runs<LENGTH> {
     }
 
     /// All runs with their kinds, in order.
-    pub fn iter(&self) -> impl Iterator<Item = ([u32; LENGTH], u32)> {
-        self.stretches
-            .iter()
-            .flat_map(|stretch| (0..stretch.shape.count()).map(|index| (stretch.shape.run(index), stretch.kind)))
+    pub fn iter(&self) -> impl Iterator<Item = Link<LENGTH>> {
+        self.stretches.iter().flat_map(|stretch| {
+            (0..stretch.shape.count()).map(|index| Link { ends: stretch.shape.run(index), kind: stretch.kind })
+        })
     }
 
     /// Kinds and what their runs have in common.
@@ -275,13 +289,13 @@ mod tests {
     #[test]
     fn chains_open_and_closed_are_described_without_being_listed() {
         let runs = Runs { stretches: vec![chains(2, 2, 3, 2), chains(8, 1, 3, 3)] };
-        let all: Vec<[u32; 2]> = runs.iter().map(|(ends, _)| ends).collect();
+        let all: Vec<[u32; 2]> = runs.iter().map(|link| link.ends).collect();
         assert_eq!(all, [[2, 3], [3, 4], [5, 6], [6, 7], [8, 9], [9, 10], [10, 8]]);
         assert_eq!(runs.count(), 7);
         // Four thousand million beads take no more than ten.
         let endless = Runs { stretches: vec![chains(0, 400_000_000, 10, 9)] };
         assert_eq!((endless.count(), endless.most_partners(|_| true)), (3_600_000_000, 2));
-        assert_eq!(endless.iter().nth(9), Some(([10, 11], 0)));
+        assert_eq!(endless.iter().nth(9), Some(Link { ends: [10, 11], kind: 0 }));
     }
 
     /// The number of partners counted by hand.
@@ -298,7 +312,7 @@ mod tests {
             stretches.push(Stretch { kind: 0, shape: Shape::Listed(listed) });
             let runs = Runs { stretches };
             let mut partners = vec![HashSet::new(); 20];
-            for ([a, b], _) in runs.iter() {
+            for Link { ends: [a, b], .. } in runs.iter() {
                 partners[a as usize].insert(b);
                 partners[b as usize].insert(a);
             }
@@ -311,6 +325,7 @@ mod tests {
     fn a_strand_hangs_between_its_ends() {
         let mut runs = Runs::<2>::default();
         runs.add_strand(3, [20, 21], 5, 2, [0, 2]);
-        assert_eq!(runs.iter().collect::<Vec<_>>(), [([20, 5], 3), ([5, 6], 3), ([6, 21], 3)]);
+        let strand = [[20, 5], [5, 6], [6, 21]].map(|ends| Link { ends, kind: 3 });
+        assert_eq!(runs.iter().collect::<Vec<_>>(), strand);
     }
 }
