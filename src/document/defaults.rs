@@ -1,4 +1,4 @@
-//! What keys of several types are where a scene leaves them out.
+//! Defaults of keys of several types.
 
 pub(in crate::document) fn one() -> f64 {
     1.0

@@ -143,7 +143,7 @@ impl Placement {
         space.lengths.get(*axis as usize).map_or(0.0, |length| layers * thickness * space.volume() / length)
     }
 
-    /// Where one of so many particles starts, if the scene says so.
+    /// The place where a particle of a group starts, if the scene says so: by its number and the number of all.
     pub(crate) fn position(&self, number: u64, count: u64) -> Option<[f64; 3]> {
         match self {
             Self::Listed { positions } => {
@@ -198,7 +198,7 @@ fn one_period() -> u32 {
 }
 
 impl Chain {
-    /// Numbers of links of so many neighbours along one chain. A closed one goes on from its last particle to its first, if it is long
+    /// Number of links of a length along one chain. A closed one goes on from its last particle to its first, if it is long
     /// enough that no particle is its own neighbour and no link is met twice.
     pub(crate) fn links(&self, length: u64) -> u64 {
         let beads = u64::from(self.beads.max(1));
@@ -213,12 +213,12 @@ pub(crate) struct NumberedGroup<'a> {
     pub group: &'a ParticleGroup,
     /// The number of its first particle; the others follow.
     pub first: u64,
-    /// How many they are.
+    /// Number of its particles.
     pub count: u64,
 }
 
 impl ParticleGroup {
-    /// Whether its species is among those that are named, or none are.
+    /// True if its species is named, or none is.
     pub(crate) fn is_among(&self, species: Option<&[String]>) -> bool {
         species.is_none_or(|names| names.contains(&self.species))
     }

@@ -1,9 +1,9 @@
-//! Bonds and angles, however a scene says which particles they join.
+//! Bonds and angles, by the ways in which a scene says which particles they join.
 
 use super::{FileLinks, Scene};
 use std::sync::Arc;
 
-/// What an interaction says of its bonds, of two particles, or angles, of three.
+/// The bonds, of two particles, or angles, of three, that an interaction asks for.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Links<'a, const LENGTH: usize> {
     /// Particle numbers that are listed.
@@ -12,11 +12,11 @@ pub(crate) struct Links<'a, const LENGTH: usize> {
     pub species: Option<&'a [String]>,
     /// Types in a file or of molecules.
     pub types: Option<&'a [String]>,
-    /// What there is in a file or of molecules.
+    /// Links in a file or of molecules.
     pub of_start: &'a [Arc<FileLinks<LENGTH>>],
 }
 
-/// Where links come from.
+/// The source of links.
 #[derive(Debug, Clone)]
 pub(crate) enum LinkSource<'a, const LENGTH: usize> {
     /// A list of particle numbers.
@@ -33,7 +33,7 @@ impl<'a, const LENGTH: usize> Links<'a, LENGTH> {
     /// Their name in the plural.
     pub const NOUN: &'static str = if LENGTH == 2 { "bonds" } else { "angles" };
 
-    /// Where they come from: those that name nothing from a file where it has them and groups have no chains.
+    /// Their source. Links that name nothing are those of a file or of molecules, where groups have no chains.
     pub fn source(&self, scene: &Scene) -> LinkSource<'a, LENGTH> {
         let are_chained = || scene.particles.iter().any(|group| group.chain.is_some());
         if !self.listed.is_empty() {
@@ -46,7 +46,7 @@ impl<'a, const LENGTH: usize> Links<'a, LENGTH> {
         }
     }
 
-    /// Whether links of a type in a file or of molecules are among them.
+    /// True if links of a type in a file or of molecules are among them.
     pub fn include(&self, kind: &str, scene: &Scene) -> bool {
         let named = self.types.is_none_or(|types| types.iter().any(|name| name == kind));
         named && matches!(self.source(scene), LinkSource::Start(_))

@@ -80,7 +80,7 @@ impl<'a> NumberedSpecies<'a> {
         Self { ends: scene.numbered_groups().map(end).collect(), start: scene.start().map(Arc::as_ref) }
     }
 
-    /// The same with further species, whose particles follow: so many of each.
+    /// The same with further species, whose particles follow, in these numbers.
     pub fn with(mut self, counts: impl Iterator<Item = u64>) -> Self {
         let mut end = self.ends.last().map_or(0, |(end, _)| *end);
         self.ends.extend(counts.enumerate().map(|(species, count)| {

@@ -13,11 +13,11 @@ pub enum KeptQuantity {
     MeshMass,
     /// Of all particles, with or less what they exchange with something else.
     Momentum {
-        /// With what walls have taken up.
+        /// Momentum that walls have taken up counts.
         walls: bool,
-        /// With what boundaries that shear have taken from those that crossed them.
+        /// Momentum that boundaries which shear have taken from those that crossed them counts.
         shear: bool,
-        /// Less what body forces have put in.
+        /// Momentum that body forces have put in does not count.
         body_forces: bool,
     },
     /// Kinetic and internal energy together.

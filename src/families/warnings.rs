@@ -28,7 +28,7 @@ pub(super) fn warn_of_momentum(scene: &Scene, warnings: &mut Vec<Warning>) {
         Velocities::Listed { velocities } => Some(velocities.iter().map(|velocity| (group.mass, velocity.as_slice()))),
         _ => None,
     });
-    // Rounding to single precision leaves a file more than that.
+    // Velocities of a file may have been rounded to single precision.
     let of_file = momentum(scene, momenta_of_file(scene).into_iter().flatten(), 1e-6);
     for (path, which, momentum) in [
         ("state.velocities", "velocities of the file", of_file),

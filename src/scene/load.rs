@@ -222,7 +222,7 @@ struct Draft<'a> {
 }
 
 impl Draft<'_> {
-    /// What can be read of it, with numbers in place of those that are refused.
+    /// The scene that can be read of it, with numbers in place of those that are refused.
     fn read(&self, substitute: Substitute) -> Result<Reading, SceneError> {
         let (mut document, mut problems) = text::parse(self.name, self.text)?;
         problems.extend(overridden(&mut document, self.overrides));
