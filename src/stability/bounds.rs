@@ -4,6 +4,7 @@ use super::range::Spacing;
 use super::request::Request;
 use crate::families::{self, Beyond};
 use crate::scene::SceneError;
+use crate::study::each_once;
 use serde::{Deserialize, Serialize};
 
 /// Halvings of the distance to a bound.
@@ -41,17 +42,11 @@ pub(super) fn bounds(request: &Request, row: usize) -> Result<Bounds, SceneError
     let along = &request.along;
     let of_value = |value: &f64| Ok(limits(request, row, *value)?.unwrap_or_default());
     let shares: Vec<Vec<families::Limit>> = along.values.iter().map(of_value).collect::<Result<_, SceneError>>()?;
-    let mut laws: Vec<&'static str> = Vec::new();
-    for limit in shares.iter().flatten() {
-        if !laws.contains(&limit.law) {
-            laws.push(limit.law);
-        }
-    }
     let share = |limits: &[families::Limit], law: &str| {
         limits.iter().find(|limit| limit.law == law).map_or(0.0, |limit| limit.share)
     };
     let mut found = Bounds::default();
-    for law in laws {
+    for law in each_once(shares.iter().flatten().map(|limit| limit.law)) {
         let beyond = shares.iter().flatten().find(|limit| limit.law == law).map(|limit| limit.beyond);
         let is_within = |value: f64| Ok(limits(request, row, value)?.map(|limits| share(&limits, law) < 1.0));
         let crossing = shares.windows(2).position(|pair| (share(&pair[0], law) < 1.0) != (share(&pair[1], law) < 1.0));

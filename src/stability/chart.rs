@@ -6,7 +6,7 @@ use super::summary::{Row, StabilitySummary};
 use super::verdict::Verdict;
 use crate::numbers::short;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesInk, SeriesStyle};
-use crate::study::readable;
+use crate::study::{each_once, readable};
 
 fn axis(label: &str, spacing: Spacing) -> Axis {
     match spacing {
@@ -54,8 +54,9 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
         let style = if alone { SeriesStyle::LineMarkers } else { SeriesStyle::Line };
         Series { style, ..Series::line(name, points) }.with_ink(SeriesInk::Ink { pattern })
     };
-    for (number, law) in laws(summary).into_iter().enumerate() {
-        let bound = |row: &Row| row.bounds.iter().find(|bound| bound.law == law).map(|bound| bound.at);
+    let bounds = summary.rows.iter().flat_map(|row| &row.bounds);
+    for (number, law) in each_once(bounds.map(|bound| &bound.law)).into_iter().enumerate() {
+        let bound = |row: &Row| row.bounds.iter().find(|bound| bound.law == *law).map(|bound| bound.at);
         panel.series.push(line(&format!("law: {law}"), &bound, number));
     }
     let number_of = |verdict| Verdict::ALL.iter().position(|known| *known == verdict).unwrap_or_default();
@@ -90,17 +91,6 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
         panel.series.push(Series::markers(&name, points).with_ink(SeriesInk::Numbered(number)));
     }
     panel
-}
-
-/// The laws that bound some row, in the order in which they are met.
-fn laws(summary: &StabilitySummary) -> Vec<String> {
-    let mut laws: Vec<String> = Vec::new();
-    for bound in summary.rows.iter().flat_map(|row| &row.bounds) {
-        if !laws.contains(&bound.law) {
-            laws.push(bound.law.clone());
-        }
-    }
-    laws
 }
 
 /// Errors over the key, the tolerance, and where runs end.

@@ -6,6 +6,7 @@ use super::request::Request;
 use super::summary::{Row, StabilitySummary};
 use super::verdict::Verdict;
 use crate::numbers::{short, three_digits};
+use crate::study::by_key;
 use crate::tradeoff;
 use std::fmt::Write as _;
 
@@ -53,17 +54,13 @@ fn side(row: &Row, bound: &Bound) -> &'static str {
 /// The laws that bound no row within its range, and where they do.
 pub(super) fn laws_outside(summary: &StabilitySummary) -> Vec<String> {
     let inside = |law: &str| summary.rows.iter().flat_map(|row| &row.bounds).any(|bound| bound.law == law);
-    let mut found: Vec<(&str, &str, Vec<f64>)> = Vec::new();
-    for row in &summary.rows {
-        for bound in row.outside.iter().filter(|bound| !inside(&bound.law)) {
-            let side = side(row, bound);
-            match found.iter_mut().find(|(law, known, _)| *law == bound.law && *known == side) {
-                Some((.., places)) => places.push(bound.at),
-                None => found.push((&bound.law, side, vec![bound.at])),
-            }
-        }
-    }
-    let words = |(law, side, places): (&str, &str, Vec<f64>)| {
+    let of_row = |row| {
+        let row: &Row = row;
+        let outside = row.outside.iter().filter(|bound| !inside(&bound.law));
+        outside.map(|bound| ((bound.law.as_str(), side(row, bound)), bound.at))
+    };
+    let found = by_key(summary.rows.iter().flat_map(of_row));
+    let words = |((law, side), places): ((&str, &str), Vec<f64>)| {
         let [least, most] =
             [f64::min, f64::max].map(|of| three_digits(places.iter().copied().reduce(of).unwrap_or(f64::NAN)));
         let places = if least == most { least } else { format!("{least} to {most}") };
@@ -74,18 +71,13 @@ pub(super) fn laws_outside(summary: &StabilitySummary) -> Vec<String> {
 
 /// Where laws and measurement part, law by law: the first law of stability and the first unstable runs, the first law of all and the first biased
 /// ones: a law of accuracy says nothing where runs end before it.
-fn differences<'s>(summary: &'s StabilitySummary) -> Vec<String> {
-    let mut found: Vec<(&'s Bound, &'static str, Vec<f64>)> = Vec::new();
+fn differences(summary: &StabilitySummary) -> Vec<String> {
+    let mut found = Vec::new();
     for row in &summary.rows {
-        let mut parts = |bound: &'s Bound, kind: &'static str, edge: Option<f64>| {
-            let Some(ratio) = edge.map(|edge| edge / bound.at) else { return };
-            if (1.0 / APART..=APART).contains(&ratio) {
-                return;
-            }
-            match found.iter_mut().find(|(known, of, _)| (&known.law, *of) == (&bound.law, kind)) {
-                Some((.., ratios)) => ratios.push(ratio),
-                None => found.push((bound, kind, vec![ratio])),
-            }
+        let mut parts = |bound, kind, edge: Option<f64>| {
+            let bound: &Bound = bound;
+            let ratio = edge.map(|edge| edge / bound.at).filter(|ratio| !(1.0 / APART..=APART).contains(ratio));
+            found.extend(ratio.map(|ratio| ((bound.law.as_str(), bound.is_of_stability, kind), ratio)));
         };
         let middle = |low: f64, high: f64| summary.spacing.middle(low, high);
         let first = |counts: &dyn Fn(&Bound) -> bool| {
@@ -102,7 +94,7 @@ fn differences<'s>(summary: &'s StabilitySummary) -> Vec<String> {
             parts(bound, "biased", bias.map(|edge| middle(edge.low, edge.high)));
         }
     }
-    let words = |(bound, kind, mut ratios): (&Bound, &str, Vec<f64>)| {
+    let words = |((law, is_of_stability, kind), mut ratios): ((&str, bool, &str), Vec<f64>)| {
         ratios.sort_by(f64::total_cmp);
         let (least, most) = (three_digits(ratios[0]), three_digits(ratios[ratios.len() - 1]));
         let (place, rows) = if ratios.len() == 1 {
@@ -110,10 +102,10 @@ fn differences<'s>(summary: &'s StabilitySummary) -> Vec<String> {
         } else {
             (format!("{least} to {most}"), format!("in {} rows runs", ratios.len()))
         };
-        let says = if bound.is_of_stability && kind == "biased" { ", the edge of stability," } else { "" };
-        format!("{rows} become {kind} at {place} times what the law {}{says} says", bound.law)
+        let says = if is_of_stability && kind == "biased" { ", the edge of stability," } else { "" };
+        format!("{rows} become {kind} at {place} times what the law {law}{says} says")
     };
-    found.into_iter().map(words).collect()
+    by_key(found).into_iter().map(words).collect()
 }
 
 /// Rows whose runs are the same, digit by digit: what tells these rows apart makes no difference.
@@ -185,14 +177,8 @@ pub(super) fn findings(summary: &StabilitySummary) -> Vec<String> {
         ));
     }
     let refused = cells().filter(|cell| cell.verdict == Verdict::Refused);
-    let mut reasons: Vec<(String, usize)> = Vec::new();
-    for reason in refused.filter_map(Cell::reason_in_a_line) {
-        match reasons.iter_mut().find(|(known, _)| *known == reason) {
-            Some((_, count)) => *count += 1,
-            None => reasons.push((reason, 1)),
-        }
-    }
-    lines.extend(reasons.into_iter().map(|(reason, count)| format!("{count} refused: {reason}")));
+    let reasons = by_key(refused.filter_map(|cell| Some((cell.reason_in_a_line()?, cell))));
+    lines.extend(reasons.into_iter().map(|(reason, cells)| format!("{} refused: {reason}", cells.len())));
     if summary.measures.is_empty() {
         lines.push("nothing is compared, as no law says what this scene measures: whether what ran to its end is right is not known; --reference MEASURE=VALUE gives a value".to_owned());
     }

@@ -1,6 +1,7 @@
 //! From what is to be varied to checked variants.
 
 use super::error::{Mistake, StudyError};
+use super::lists::each_once;
 use super::naming::{self, ShortKeys};
 use super::variation::{Setting, Variation, settings};
 use crate::families::StepCheck;
@@ -173,14 +174,8 @@ fn unreadable() -> StudyError {
 }
 
 fn keys<'a>(vary: &'a [Variation], also: &'a [Vec<Setting>]) -> Vec<&'a str> {
-    let mut keys: Vec<&str> = Vec::new();
     let varied = vary.iter().map(|variation| variation.key.as_str());
-    for key in varied.chain(also.iter().flatten().map(|setting| setting.key.as_str())) {
-        if !keys.contains(&key) {
-            keys.push(key);
-        }
-    }
-    keys
+    each_once(varied.chain(also.iter().flatten().map(|setting| setting.key.as_str())))
 }
 
 /// Every combination of places, the last varying fastest.

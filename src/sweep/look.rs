@@ -2,7 +2,7 @@
 
 use crate::families::Model;
 use crate::run;
-use crate::study::{StudyError, Sweep};
+use crate::study::{StudyError, Sweep, Variant, each_once};
 use serde::{Deserialize, Serialize};
 
 /// What the plots of a sweep show.
@@ -20,15 +20,9 @@ impl Look {
     /// # Errors
     /// [`StudyError::Arguments`] names the first.
     pub(super) fn check(&self, sweep: &Sweep) -> Result<(), StudyError> {
-        let mut accepted: Vec<String> = Vec::new();
-        for variant in sweep.variants() {
-            for quantity in run::quantities(&Model::new(&variant.scene)) {
-                if accepted.iter().all(|known| known != quantity) {
-                    accepted.push(quantity.to_owned());
-                }
-            }
-        }
-        match self.quantities.iter().find(|wanted| !accepted.contains(wanted)) {
+        let measured = |variant: &Variant| run::quantities(&Model::new(&variant.scene));
+        let accepted: Vec<&str> = each_once(sweep.variants().iter().flat_map(measured));
+        match self.quantities.iter().find(|wanted| !accepted.contains(&wanted.as_str())) {
             Some(wanted) => Err(StudyError::mistake(format!(
                 "there is no quantity `{wanted}` to plot; accepted: {}",
                 accepted.join(", ")

@@ -5,7 +5,7 @@ use super::look::Look;
 use super::observables::Observable;
 use super::summary::SweepSummary;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesStyle, UNEQUILIBRATED, quantity_label};
-use crate::study::{Setting, ShortKeys, Sweep, Variation, readable};
+use crate::study::{Setting, ShortKeys, Sweep, Variation, by_key, each_once, readable};
 use serde_json::Value;
 
 /// Panels of one picture.
@@ -43,18 +43,16 @@ pub(super) fn charts(sweep: &Sweep, summary: &SweepSummary, look: &Look) -> Vec<
 }
 
 /// The quantities to show: those asked for; else those with errors whose means differ.
-fn quantities(found: &[(&Group<'_>, Vec<Observable>)], look: &Look) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for observable in found.iter().flat_map(|(_, found)| found) {
-        let wanted = if look.quantities.is_empty() {
+fn quantities<'f>(found: &'f [(&Group<'_>, Vec<Observable>)], look: &Look) -> Vec<&'f str> {
+    let is_wanted = |observable: &&Observable| {
+        if look.quantities.is_empty() {
             observable.error.is_some() && LEFT_OUT.iter().all(|start| !observable.name.starts_with(start))
         } else {
             look.quantities.contains(&observable.name)
-        };
-        if wanted && !names.contains(&observable.name) {
-            names.push(observable.name.clone());
         }
-    }
+    };
+    let wanted = found.iter().flat_map(|(_, found)| found).filter(is_wanted);
+    let mut names = each_once(wanted.map(|observable| observable.name.as_str()));
     names.retain(|name| {
         let mut values = found.iter().filter_map(|(_, found)| value_of(found, name)).map(|observable| observable.value);
         let first = values.next();
@@ -68,9 +66,6 @@ fn quantities(found: &[(&Group<'_>, Vec<Observable>)], look: &Look) -> Vec<Strin
 fn value_of<'a>(found: &'a [Observable], name: &str) -> Option<&'a Observable> {
     found.iter().find(|observable| observable.name == name && observable.value.is_finite())
 }
-
-/// A point and its error.
-type Point = ([f64; 2], f64);
 
 /// The key along the horizontal axis.
 struct MeansAxis<'a> {
@@ -119,7 +114,7 @@ impl<'a> MeansAxis<'a> {
         let label = quantity_label(last, false) + &mark;
         let mut panel = Panel { x: self.axis.clone(), ..Panel::new("", &label) };
         // Points with their errors, curve by curve.
-        let mut curves: Vec<(String, Vec<Point>)> = Vec::new();
+        let mut points = Vec::new();
         for (group, observables) in found {
             let Some(observable) = value_of(observables, quantity) else { continue };
             let others: Vec<Setting> = group
@@ -133,12 +128,9 @@ impl<'a> MeansAxis<'a> {
                 panel = panel.with_reference(&name, observable.value);
                 continue;
             };
-            let point = ([place, observable.value], observable.error.unwrap_or(f64::NAN));
-            match curves.iter_mut().find(|(known, _)| *known == name) {
-                Some((_, points)) => points.push(point),
-                None => curves.push((name, vec![point])),
-            }
+            points.push((name, ([place, observable.value], observable.error.unwrap_or(f64::NAN))));
         }
+        let curves = by_key(points);
         let several = curves.len() + panel.references.len() > 1;
         for (name, mut points) in curves {
             points.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));

@@ -9,7 +9,7 @@ use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::plot::{Chart, Curve, SeriesInk, overlay_chart};
 use crate::run;
 use crate::scene::{self, PlotStyle};
-use crate::study::{self, Setting, StudyError, Sweep, Variant};
+use crate::study::{self, Setting, StudyError, Sweep, Variant, each_once};
 use crate::table::Table;
 use serde_json::Value;
 use std::path::Path;
@@ -63,15 +63,13 @@ pub(super) fn draw(
         }
     }
     let look = &summary.plots;
-    let mut quantities: Vec<&str> = Vec::new();
-    for column in finished.iter().flat_map(|(_, table)| &table.columns) {
-        let asked = look.quantities.is_empty() || look.quantities.contains(column);
-        if asked && !["step", "time"].contains(&column.as_str()) && !quantities.contains(&column.as_str()) {
-            quantities.push(column);
-        }
-    }
+    let is_shown = |column: &&String| {
+        let is_asked = look.quantities.is_empty() || look.quantities.contains(column);
+        is_asked && !["step", "time"].contains(&column.as_str())
+    };
+    let quantities = each_once(finished.iter().flat_map(|(_, table)| &table.columns).filter(is_shown));
     let inks = inks(sweep);
-    let of_quantity = |quantity: &str| -> Option<(String, Chart)> {
+    let of_quantity = |quantity: &String| -> Option<(String, Chart)> {
         let mut curves: Vec<Curve> = Vec::new();
         let mut without: Vec<&str> = Vec::new();
         for (variant, table) in &finished {

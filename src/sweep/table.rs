@@ -5,8 +5,8 @@ use super::files;
 use super::observables::{Observable, observable, observables};
 use super::summary::SweepSummary;
 use crate::output::{OutputError, write_atomically};
-use crate::study::Setting;
 use crate::study::table::{line, number, plain};
+use crate::study::{Setting, by_key};
 use std::path::Path;
 
 /// Writes the table into the directory of the sweep, and that of averages over the seed where there are any; `keys` are those
@@ -73,13 +73,9 @@ fn values(settings: &[Setting], keys: &[&str]) -> Vec<String> {
 /// Lines of cells in front, under their header, and of all observables with their errors.
 fn table(mut header: Vec<String>, rows: &[Row]) -> String {
     // A column of errors is there if any row has one.
-    let mut columns: Vec<(&str, bool)> = Vec::new();
-    for Observable { name, error, .. } in rows.iter().flat_map(|(_, observables)| observables) {
-        match columns.iter_mut().find(|(known, _)| known == name) {
-            Some((_, has_error)) => *has_error |= error.is_some(),
-            None => columns.push((name, error.is_some())),
-        }
-    }
+    let found = rows.iter().flat_map(|(_, observables)| observables);
+    let columns = by_key(found.map(|observable| (observable.name.as_str(), observable.error.is_some())));
+    let columns: Vec<(&str, bool)> = columns.into_iter().map(|(name, errors)| (name, errors.contains(&true))).collect();
     for (name, has_error) in &columns {
         // Set and measured may have the same name: `temperature`.
         let mean = if header.iter().any(|known| known == name) { "_mean" } else { "" };

@@ -6,7 +6,7 @@ use super::reference::Source;
 use super::summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary};
 use super::target::{Target, Verdict};
 use crate::numbers::{short, with_error};
-use crate::study::{Setting, in_hours};
+use crate::study::{Setting, by_key, in_hours};
 use std::fmt::Write as _;
 
 /// Errors that the page names the cheapest choice for.
@@ -155,24 +155,15 @@ fn refused_steps(summary: &TradeoffSummary) -> Vec<String> {
 
 /// Choices whose runs measure the same to the last digit: what tells them apart makes no difference to them.
 fn same_runs(summary: &TradeoffSummary) -> Vec<String> {
-    let mut groups: Vec<Vec<&Choice>> = Vec::new();
     let measured = summary.choices.iter().filter(|choice| choice.measured.iter().any(|found| found.fluctuates));
-    for choice in measured {
-        let is_same =
-            |group: &&mut Vec<&Choice>| (group[0].steps, &group[0].measured) == (choice.steps, &choice.measured);
-        match groups.iter_mut().find(is_same) {
-            Some(group) => group.push(choice),
-            None => groups.push(vec![choice]),
-        }
-    }
-    let in_words = |group: Vec<&Choice>| {
-        let labels: Vec<String> = group.iter().map(|choice| format!("`{}`", choice.label)).collect();
+    let groups = by_key(measured.map(|choice| ((choice.steps, &choice.measured), format!("`{}`", choice.label))));
+    let in_words = |labels: Vec<String>| {
         format!(
             "{} are the same run, to the last digit of all that is measured: what tells them apart can only change what a step costs.",
             labels.join(" and ")
         )
     };
-    groups.into_iter().filter(|group| group.len() > 1).map(in_words).collect()
+    groups.into_iter().map(|(_, labels)| labels).filter(|labels| labels.len() > 1).map(in_words).collect()
 }
 
 /// Targets that no choice can be said to meet, as they are parts of nothing.

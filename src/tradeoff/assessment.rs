@@ -7,7 +7,7 @@ use super::reference::{self, Reference};
 use super::request::{FINER, Request};
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
 use super::target::{Target, Verdict};
-use crate::study::StudyError;
+use crate::study::{StudyError, each_once};
 
 impl TradeoffSummary {
     /// References, errors and Pareto fronts.
@@ -20,14 +20,10 @@ impl TradeoffSummary {
         if summary.measures.is_empty() {
             let finished = summary.choices.iter().find(|choice| choice.state == ChoiceState::Finished);
             let usual = finished.map(|choice| measures::usual(&choice.measured)).unwrap_or_default();
-            summary.measures = if arguments.measures.is_empty() { usual } else { arguments.measures.clone() };
+            let measures = if arguments.measures.is_empty() { usual } else { arguments.measures.clone() };
             let further = arguments.targets.iter().map(|target| target.measure.clone());
             let further = further.chain(arguments.references.measures().map(str::to_owned));
-            for measure in further {
-                if !summary.measures.contains(&measure) {
-                    summary.measures.push(measure);
-                }
-            }
+            summary.measures = each_once(measures.into_iter().chain(further));
         }
         let is_finished = |choice: &&Choice| choice.state == ChoiceState::Finished;
         if summary.choices.iter().any(|choice| is_finished(&choice)) {

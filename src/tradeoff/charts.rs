@@ -5,7 +5,7 @@ use super::files;
 use super::request::Request;
 use super::summary::{Choice, TradeoffSummary};
 use crate::plot::{Axis, Chart, Panel, Series, SeriesInk};
-use crate::study::{Setting, ShortKeys, readable};
+use crate::study::{Setting, ShortKeys, each_once, readable};
 use serde_json::Value;
 
 /// A choice in the picture.
@@ -49,7 +49,7 @@ fn chart(summary: &TradeoffSummary, request: &Request, measure: &str) -> Option<
     let mut front: Vec<[f64; 2]> =
         points.iter().filter(|point| point.error.on_front).map(|point| point.place).collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    for name in groups.names(&points) {
+    for name in each_once(points.iter().map(|point| groups.name(point.choice))) {
         let own: Vec<&Point<'_>> =
             points.iter().filter(|point| point.error.on_front && groups.name(point.choice) == name).collect();
         if !own.is_empty() {
@@ -122,18 +122,6 @@ impl<'a> Groups<'a> {
     /// What tells a choice from others of its colour.
     fn label(&self, choice: &Choice) -> String {
         self.in_words(&choice.settings, |key| Some(key) == self.labelled)
-    }
-
-    /// The names of all groups, in order.
-    fn names(&self, points: &[Point<'_>]) -> Vec<String> {
-        let mut names = Vec::new();
-        for point in points {
-            let name = self.name(point.choice);
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-        names
     }
 }
 

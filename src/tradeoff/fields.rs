@@ -4,7 +4,7 @@ use super::measures::Measured;
 use crate::families::{Model, PictureKind};
 use crate::output::{RunDirectory, files as run_files, read_npy, read_table};
 use crate::scene::{AnalysisId, FieldQuantity, Scene};
-use crate::study::StudyError;
+use crate::study::{StudyError, by_key, each_once};
 
 /// How the names of these measures end.
 pub(super) const DISTANCE: &str = "_distance";
@@ -20,13 +20,7 @@ fn compared_as(field: &str) -> &str {
 
 /// The names of the distances of fields, each once.
 pub(super) fn names(fields: impl Iterator<Item = FieldQuantity>, end: &str) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for name in fields.map(|field| format!("{}{end}", compared_as(field.stem()))) {
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    names
+    each_once(fields.map(|field| format!("{}{end}", compared_as(field.stem()))))
 }
 
 /// An array and its shape.
@@ -41,22 +35,13 @@ struct Squares {
 
 /// √(Σ(a-b)²/Σ(b-⟨b⟩)²) by name, over both components of a velocity, where all of them are compared.
 fn distances_of<'f>(fields: impl Iterator<Item = (&'f str, Option<Squares>)>) -> Vec<(&'f str, f64)> {
-    let mut sums: Vec<(&str, Option<Squares>)> = Vec::new();
-    for (field, squares) in fields {
-        match sums.iter_mut().find(|(name, _)| *name == compared_as(field)) {
-            Some((_, sum)) => {
-                let add =
-                    |(a, b): (Squares, Squares)| Squares { between: a.between + b.between, scale: a.scale + b.scale };
-                *sum = sum.zip(squares).map(add);
-            }
-            None => sums.push((compared_as(field), squares)),
-        }
-    }
-    let distance = |(name, sum): (&'f str, Option<Squares>)| {
-        let sum = sum?;
-        Some((name, (sum.between / sum.scale).sqrt())).filter(|(_, distance)| distance.is_finite())
+    let distance = |(name, parts): (&'f str, Vec<Option<Squares>>)| {
+        let parts: Vec<Squares> = parts.into_iter().collect::<Option<_>>()?;
+        let sum = |of: fn(&Squares) -> f64| parts.iter().map(of).sum::<f64>();
+        let distance = (sum(|part| part.between) / sum(|part| part.scale)).sqrt();
+        Some((name, distance)).filter(|(_, distance)| distance.is_finite())
     };
-    sums.into_iter().filter_map(distance).collect()
+    by_key(fields.map(|(field, squares)| (compared_as(field), squares))).into_iter().filter_map(distance).collect()
 }
 
 /// The distances of a run from a finer one at the same time, by name: √(Σ(a-b)²/Σ(b-⟨b⟩)²) for every field that both leave on common
@@ -100,13 +85,7 @@ pub(super) fn compared(scene: &Scene, model: &Model) -> Vec<FieldQuantity> {
     if model.picture() != PictureKind::Fields {
         return Vec::new();
     }
-    let mut fields = scene.output.fields.clone().unwrap_or_default().quantities;
-    for field in FLOW {
-        if !fields.contains(&field) {
-            fields.push(field);
-        }
-    }
-    fields
+    each_once(scene.output.fields.clone().unwrap_or_default().quantities.into_iter().chain(FLOW))
 }
 
 /// The scene, which leaves all fields that are compared.

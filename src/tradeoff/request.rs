@@ -8,7 +8,7 @@ use crate::families::Model;
 use crate::families::StepCheck;
 use crate::run;
 use crate::scene::{self, AnalysisId, PlotStyle, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
-use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, settings, steps_of};
+use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, each_once, settings, steps_of};
 use serde::{Deserialize, Serialize};
 
 /// Names of the runs that give references.
@@ -193,11 +193,7 @@ impl Request {
     /// [`StudyError::Arguments`] names those that no run has.
     pub fn with_measures(mut self, measures: &[String]) -> Result<Self, StudyError> {
         self.check_names("--measure", measures.iter().map(String::as_str))?;
-        for measure in measures {
-            if !self.arguments.measures.contains(measure) {
-                self.arguments.measures.push(measure.clone());
-            }
-        }
+        self.arguments.measures = each_once(self.arguments.measures.into_iter().chain(measures.iter().cloned()));
         Ok(self)
     }
 
