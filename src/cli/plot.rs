@@ -3,7 +3,11 @@
 use std::path::PathBuf;
 
 use mesoscope::output::{RunDirectory, files};
-use mesoscope::{printable, run, stability, sweep, tradeoff};
+use mesoscope::stability::{self, StabilitySummary};
+use mesoscope::study::redraw;
+use mesoscope::sweep::{self, SweepSummary};
+use mesoscope::tradeoff::{self, TradeoffSummary};
+use mesoscope::{printable, run};
 
 use super::{AdapterArgument, Failure, guidance, heading, print};
 
@@ -46,11 +50,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let directory = RunDirectory::claim(directory)?;
         run::redraw(&directory, &choice, set)?.into_iter().map(str::to_owned).collect()
     } else if has(sweep::files::SUMMARY) {
-        sweep::redraw(directory, &choice, set)?
+        redraw::<SweepSummary>(directory, &choice, set)?
     } else if has(tradeoff::files::SUMMARY) {
-        tradeoff::redraw(directory, &choice, set)?
+        redraw::<TradeoffSummary>(directory, &choice, set)?
     } else if has(stability::files::SUMMARY) {
-        stability::redraw(directory, &choice, set)?
+        redraw::<StabilitySummary>(directory, &choice, set)?
     } else {
         let found = RunDirectory::open(directory)?;
         run::redraw(&found, &choice, set)?.into_iter().map(str::to_owned).collect()

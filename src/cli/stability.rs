@@ -1,8 +1,8 @@
 //! `mesoscope stability`: how far a scene may go.
 
 use mesoscope::printable;
-use mesoscope::stability::{Request, StabilityOutcome, StabilityRun};
-use mesoscope::study::StudyError;
+use mesoscope::stability::{Request, StabilityRun, StabilitySummary};
+use mesoscope::study::{StudyError, StudyOutcome};
 
 use super::table::aligned;
 use super::{ComparisonArguments, Failure, StudyArguments, heading, print};
@@ -64,7 +64,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// The table at the end, and the files written.
-fn results(outcome: &StabilityOutcome, directory: &str) -> String {
+fn results(outcome: &StudyOutcome<StabilitySummary>, directory: &str) -> String {
     let summary = &outcome.summary;
     let header = [
         "ROW".to_owned(),

@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 
 use mesoscope::numbers::with_error;
 use mesoscope::printable;
-use mesoscope::study::StudyError;
+use mesoscope::study::{StudyError, StudyOutcome};
 use mesoscope::tradeoff::{
-    Choice, ChoiceState, Length, References, Request, Target, TradeoffOutcome, TradeoffRun, TradeoffSummary,
-    error_in_words,
+    Choice, ChoiceState, Length, References, Request, Target, TradeoffRun, TradeoffSummary, error_in_words,
 };
 
 use super::table::aligned;
@@ -174,7 +173,7 @@ fn write(summary: &TradeoffSummary, path: &Path) -> Result<(), Failure> {
 }
 
 /// The table at the end, what to choose, and the files written.
-fn results(outcome: &TradeoffOutcome, directory: &str) -> String {
+fn results(outcome: &StudyOutcome<TradeoffSummary>, directory: &str) -> String {
     let summary = &outcome.summary;
     let mut header = vec!["CHOICE".to_owned(), "S A UNIT OF TIME".to_owned()];
     header.extend(summary.measures.iter().map(|measure| measure.replace('_', " ").to_uppercase()));

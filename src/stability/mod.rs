@@ -37,6 +37,6 @@ pub use bounds::Bound;
 pub use cell::Cell;
 pub use range::Spacing;
 pub use request::Request;
-pub use run::{Bisecting, StabilityOutcome, StabilityRun, redraw};
+pub use run::{Bisecting, StabilityRun};
 pub use summary::{Edge, Row, StabilitySummary};
 pub use verdict::Verdict;

@@ -3,15 +3,12 @@
 use super::bounds::bounds;
 use super::cell::{Cell, Comparison, evaluate};
 use super::summary::{MOST_EDGES, StabilitySummary};
-use super::{chart, files, page, table};
-use crate::gpu::{AdapterChoice, Gpu, Requirements};
+use crate::gpu::{AdapterChoice, Gpu};
 use crate::numbers::short;
-use crate::output::{RunDirectory, write_atomically};
 use crate::run::{self, RunError};
 use crate::scene::{Output, Scene, SceneError};
-use crate::study::{self, Observer, StudyError, StudyEvent, StudyRun, at_once};
+use crate::study::{self, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun, at_once};
 use std::fmt;
-use std::path::Path;
 use std::time::Instant;
 
 /// A map to be made.
@@ -27,18 +24,6 @@ impl fmt::Display for Bisecting {
     }
 }
 
-/// What a map leaves.
-#[derive(Debug)]
-#[non_exhaustive]
-pub struct StabilityOutcome {
-    /// What `stability.json` says.
-    pub summary: StabilitySummary,
-    /// Names of the files in its directory.
-    pub files: Vec<&'static str>,
-    /// The page in words.
-    pub page: String,
-}
-
 /// A scene to be run: its row and its value.
 type Place = (usize, f64);
 
@@ -51,7 +36,7 @@ impl StudyRun<StabilitySummary> {
         mut self,
         adapter: &AdapterChoice,
         observer: &mut Observer<'_, StabilitySummary>,
-    ) -> Result<StabilityOutcome, StudyError> {
+    ) -> Result<StudyOutcome<StabilitySummary>, StudyError> {
         self.check_place()?;
         for row in 0..self.summary.rows.len() {
             // Also of a map that goes on: this version may know of other laws.
@@ -84,7 +69,8 @@ impl StudyRun<StabilitySummary> {
             }
         }
         observer(StudyEvent::Finishing);
-        self.finish(&place, &gpu)
+        let files = self.finish(&place, &gpu)?;
+        Ok(StudyOutcome { summary: self.summary, files })
     }
 
     /// Scenes to be run next: those of the grid, or else those that locate edges.
@@ -163,30 +149,6 @@ impl StudyRun<StabilitySummary> {
         })?;
         self.proceed()
     }
-
-    fn finish(self, place: &RunDirectory, gpu: &Gpu) -> Result<StabilityOutcome, StudyError> {
-        let page = page::page(&self.summary, &self.request);
-        write_atomically(&place.file(files::PAGE), |writer| writer.write_all(page.as_bytes()))?;
-        table::write(place.path(), &self.summary)?;
-        self.save()?;
-        let Self { request, summary, .. } = &self;
-        let chart = [(files::PLOT.to_owned(), chart::chart(summary, request))];
-        study::draw(place, summary.stability_id, gpu, &request.base.output.plot, chart, &|| self.proceed())?;
-        Ok(StabilityOutcome { summary: self.summary, files: files::ALL.to_vec(), page })
-    }
-}
-
-/// Draws the picture of a map again from its summary, with changes to the look given as overrides of the scene
-/// (`output.plot.width=800`). Returns the names of the files written.
-///
-/// # Errors
-/// [`StudyError`] when there is no map in the directory, an override does not fit, or the picture cannot be drawn.
-pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, StudyError> {
-    let (summary, request, place) = study::reopen::<StabilitySummary>(directory)?;
-    let style = request.style(overrides)?;
-    let gpu = Gpu::open(choice, Requirements::default())?;
-    let chart = [(files::PLOT.to_owned(), chart::chart(&summary, &request))];
-    study::draw(&place, summary.stability_id, &gpu, &style, chart, &|| Ok(()))
 }
 
 /// The output of a scene that is measured in memory.

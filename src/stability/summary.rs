@@ -6,9 +6,11 @@ use super::range::Spacing;
 use super::request::{Arguments, Request};
 use super::run::Bisecting;
 use super::verdict::Verdict;
-use crate::output::Id;
+use super::{chart, files, page, table};
 use crate::output::summary::AdapterSummary;
-use crate::study::{self, ASKS_ELSE, Kind, Record, STABILITY, Setting, StudyError};
+use crate::output::{Id, RunDirectory};
+use crate::scene::{PlotStyle, SceneError};
+use crate::study::{self, ASKS_ELSE, Charts, Kind, Record, STABILITY, Setting, StudyError};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -187,6 +189,22 @@ impl Record for StabilitySummary {
 
     fn id(&self) -> Id {
         self.stability_id
+    }
+
+    fn tables(&self, _: &Request) -> Vec<(&'static str, String)> {
+        vec![(files::TABLE, table::text(self))]
+    }
+
+    fn page(&self, request: &Request) -> Option<(&'static str, String)> {
+        Some((files::PAGE, page::page(self, request)))
+    }
+
+    fn charts<'c>(&'c self, request: &'c Request, _: &RunDirectory) -> Result<Charts<'c>, StudyError> {
+        Ok(Box::new([(files::PLOT.to_owned(), chart::chart(self, request))].into_iter()))
+    }
+
+    fn style(&self, request: &Request, overrides: &[String]) -> Result<PlotStyle, SceneError> {
+        request.style(overrides)
     }
 }
 

@@ -1,18 +1,10 @@
 //! The table of a map, `stability.csv`: a row for every scene that was run.
 
 use super::cell::Cell;
-use super::files;
 use super::summary::{Row, StabilitySummary};
-use crate::output::{OutputError, write_atomically};
 use crate::study::table::{line, number, plain};
-use std::path::Path;
 
-pub(super) fn write(directory: &Path, summary: &StabilitySummary) -> Result<(), OutputError> {
-    let text = text(summary);
-    write_atomically(&directory.join(files::TABLE), |writer| writer.write_all(text.as_bytes()))
-}
-
-fn text(summary: &StabilitySummary) -> String {
+pub(super) fn text(summary: &StabilitySummary) -> String {
     let key = summary.rows.first().and_then(|row| row.setting.as_ref()).map(|setting| setting.key.clone());
     let mut header: Vec<String> = key.into_iter().chain([summary.key.clone()]).collect();
     header.extend(["verdict", "certain", "steps", "time_step"].map(str::to_owned));

@@ -5,6 +5,8 @@ use super::kind::Kind;
 use super::shard_places;
 use super::version::Version;
 use crate::output::{Id, OutputError, RunDirectory, own_file, write_atomically};
+use crate::plot::Chart;
+use crate::scene::{PlotStyle, SceneError};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -16,6 +18,9 @@ pub(crate) const ASKS_ELSE: &str = "asks for something else than at its beginnin
 
 /// The key of the checksum of what was asked for.
 const CHECKSUM: &str = "request_checksum";
+
+/// Pictures of a study, each made when it is its turn, with the names of their files.
+pub type Charts<'c> = Box<dyn Iterator<Item = (String, Chart)> + 'c>;
 
 /// What a kind of study writes down: what it was asked for and what came out.
 pub trait Record: Debug + Clone + Serialize + DeserializeOwned {
@@ -57,6 +62,26 @@ pub trait Record: Debug + Clone + Serialize + DeserializeOwned {
     fn resumed(self, _: &Self::Request, _: &RunDirectory) -> Self {
         self
     }
+
+    /// The tables that it leaves beside its summary, with the names of their files.
+    fn tables(&self, request: &Self::Request) -> Vec<(&'static str, String)>;
+
+    /// The page that says in words what came out, with the name of its file.
+    fn page(&self, _: &Self::Request) -> Option<(&'static str, String)> {
+        None
+    }
+
+    /// Its pictures; its runs are in this directory.
+    ///
+    /// # Errors
+    /// [`StudyError`] if what a run left there cannot be read or is not of this study.
+    fn charts<'c>(&'c self, request: &'c Self::Request, directory: &RunDirectory) -> Result<Charts<'c>, StudyError>;
+
+    /// The look of its pictures with changes to it, given as overrides of the scene.
+    ///
+    /// # Errors
+    /// [`SceneError`] if they make no scene.
+    fn style(&self, request: &Self::Request, overrides: &[String]) -> Result<PlotStyle, SceneError>;
 
     /// How far it is, to be read after "interrupted".
     fn progress(&self) -> String {
@@ -136,7 +161,7 @@ pub(crate) fn check_version<R: Record>(record: &R, directory: &Path) -> Result<(
 ///
 /// # Errors
 /// [`StudyError`] if there is none, if another process or a shard of it writes there, and if the summary or a picture is not of this study.
-pub(crate) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunDirectory), StudyError> {
+pub(super) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunDirectory), StudyError> {
     // Nothing is written where there is no study, no lock either.
     load::<R>(directory)?;
     let claimed = RunDirectory::claim(directory)?;

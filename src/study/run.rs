@@ -5,10 +5,10 @@ use super::directory;
 use super::error::StudyError;
 use super::record::{self, Record};
 use crate::families::Model;
-use crate::gpu::{AdapterDescription, Gpu};
-use crate::output::{Id, OutputError, RunDirectory};
+use crate::gpu::{AdapterChoice, AdapterDescription, Gpu, Requirements};
+use crate::output::{OutputError, RunDirectory, write_atomically};
 use crate::plan::{Hardware, Options};
-use crate::plot::{Chart, Plotter};
+use crate::plot::Plotter;
 use crate::run::{self, Interrupt, Progress, RunError};
 use crate::scene::{PlotStyle, Scene};
 use std::path::{Path, PathBuf};
@@ -80,6 +80,16 @@ pub enum StudyEvent<'a, E, P> {
     },
     /// Tables and pictures follow.
     Finishing,
+}
+
+/// What a study leaves.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct StudyOutcome<R> {
+    /// What its summary says.
+    pub summary: R,
+    /// Names of the files in its directory, without those of the runs.
+    pub files: Vec<String>,
 }
 
 /// What observes a study.
@@ -166,6 +176,25 @@ impl<R: Record> StudyRun<R> {
         record::save(&self.summary, &self.path)
     }
 
+    /// Writes tables, page and summary, and names their files.
+    pub(crate) fn write(&self) -> Result<Vec<String>, OutputError> {
+        let (tables, page) = (self.summary.tables(&self.request), self.summary.page(&self.request));
+        for (name, text) in tables.iter().chain(&page) {
+            write_atomically(&self.path.join(name), |writer| writer.write_all(text.as_bytes()))?;
+        }
+        self.save()?;
+        let [tables, page] = [tables, page.into_iter().collect()].map(|texts| texts.into_iter().map(|(name, _)| name));
+        Ok(tables.chain([R::KIND.summary]).chain(page).map(str::to_owned).collect())
+    }
+
+    /// Writes and draws all that a study leaves at its end, and names the files.
+    pub(crate) fn finish(&self, place: &RunDirectory, gpu: &Gpu) -> Result<Vec<String>, StudyError> {
+        let mut files = self.write()?;
+        let style = self.summary.style(&self.request, &[])?;
+        files.extend(draw(place, &self.summary, &self.request, &style, gpu, &|| self.proceed())?);
+        Ok(files)
+    }
+
     pub(crate) fn interrupt(&self) -> &Interrupt {
         &self.interrupt
     }
@@ -212,21 +241,38 @@ pub(crate) fn largest<'a>(scenes: impl Iterator<Item = &'a Scene>) -> Option<&'a
     scenes.max_by_key(|scene| Model::new(scene).particle_count())
 }
 
-/// Draws charts into the directory of a study of this id, and names their files; `proceed` says before each whether to.
-pub(crate) fn draw(
+/// Draws the pictures of the study in a directory again from what it left, with changes to the look given as overrides of the scene
+/// (`output.plot.width=800`). Returns the names of the files written.
+///
+/// # Errors
+/// [`StudyError`] when there is no study of this kind in the directory, an override does not fit, or a picture cannot be drawn.
+pub fn redraw<R: Record>(
+    directory: &Path,
+    choice: &AdapterChoice,
+    overrides: &[String],
+) -> Result<Vec<String>, StudyError> {
+    let (record, request, place) = record::reopen::<R>(directory)?;
+    let style = record.style(&request, overrides)?;
+    let gpu = Gpu::open(choice, Requirements::default())?;
+    draw(&place, &record, &request, &style, &gpu, &|| Ok(()))
+}
+
+/// Draws the pictures of a study into its directory, and names their files; `proceed` says before each whether to.
+fn draw<R: Record>(
     place: &RunDirectory,
-    id: Id,
-    gpu: &Gpu,
+    record: &R,
+    request: &R::Request,
     style: &PlotStyle,
-    charts: impl IntoIterator<Item = (String, Chart)>,
+    gpu: &Gpu,
     proceed: &dyn Fn() -> Result<(), StudyError>,
 ) -> Result<Vec<String>, StudyError> {
+    let charts = record.charts(request, place)?;
     let plotter = Plotter::new(gpu.device(), gpu.queue());
     let plotter = plotter.map_err(|source| RunError::Plot { name: "*.png".to_owned(), source })?;
     let mut written = Vec::new();
     for (name, chart) in charts {
         proceed()?;
-        run::save(place, &name, id, plotter.draw_chart(&chart, style))?;
+        run::save(place, &name, record.id(), plotter.draw_chart(&chart, style))?;
         written.push(name);
     }
     Ok(written)

@@ -13,7 +13,8 @@
 //!
 //! ```
 //! use mesoscope::gpu::AdapterChoice;
-//! use mesoscope::sweep::{self, Look, Sweep, SweepRun};
+//! use mesoscope::study;
+//! use mesoscope::sweep::{Look, Sweep, SweepRun, SweepSummary};
 //!
 //! # let directory = tempfile::tempdir()?;
 //! # let results = directory.path().join("frictions");
@@ -27,7 +28,8 @@
 //!     println!("{}: {:?}", variant.name, variant.means.get("temperature"));
 //! }
 //! assert_eq!(outcome.files, ["sweep.csv", "sweep.json", "sweep-means.png", "sweep-temperature.png"]);
-//! assert_eq!(sweep::redraw(&results, &AdapterChoice::Best, &["output.plot.width=1600".to_owned()])?, outcome.files[2..]);
+//! let wide = ["output.plot.width=1600".to_owned()];
+//! assert_eq!(study::redraw::<SweepSummary>(&results, &AdapterChoice::Best, &wide)?, outcome.files[2..]);
 //! assert!(outcome.failures.is_empty() && results.join("friction=4.5/run.json").exists());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -48,7 +50,6 @@ pub use crate::study::{Setting, Shard, Sweep, Variant, Variation};
 pub use averages::SeedAverage;
 pub use look::Look;
 pub(crate) use observables::numbers_of;
-pub use plots::redraw;
 pub use run::{SweepOutcome, SweepRun};
 pub use summary::SweepSummary;
 pub use variant::{VariantState, VariantSummary};

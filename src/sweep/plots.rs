@@ -4,54 +4,22 @@ use super::files;
 use super::means_chart;
 use super::summary::SweepSummary;
 use super::variant::VariantState;
-use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::plot::{Chart, Curve, SeriesInk, overlay_chart};
 use crate::run;
-use crate::scene::{self, PlotStyle};
-use crate::study::{self, Setting, StudyError, Sweep, Variant, each_once};
+use crate::study::{Charts, StudyError, Sweep, Variant, each_once};
 use crate::table::Table;
 use serde_json::Value;
-use std::path::Path;
 
 /// A scale of colours says more than colours apart from more than this many values on.
 const FEW: usize = 5;
 
-/// Draws the plots of a sweep again from the tables it left, with changes to the look given as overrides of the scene
-/// (`output.plot.width=800`). Returns the names of the files written.
-///
-/// # Errors
-/// [`StudyError`] when there is no sweep in the directory, an override does not fit, or a plot cannot be drawn.
-pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, StudyError> {
-    let (summary, sweep, directory) = study::reopen::<SweepSummary>(directory)?;
-    let mut style = style(&sweep);
-    if !overrides.is_empty() {
-        let overrides = [summary.set.as_slice(), &first_settings(&sweep), overrides].concat();
-        let scene = scene::parse_for(&summary.scene, &summary.base.to_string(), &overrides, summary.steps);
-        style = scene.map_err(StudyError::Scene)?.0.output.plot;
-    }
-    let gpu = Gpu::open(choice, Requirements::default())?;
-    draw(&directory, &sweep, &summary, &style, &gpu, &|| Ok(()))
-}
-
-fn first_settings(sweep: &Sweep) -> Vec<String> {
-    sweep.variants().first().map(|variant| variant.settings.iter().map(Setting::argument).collect()).unwrap_or_default()
-}
-
-/// The look of the plots: that of the first variant.
-pub(super) fn style(sweep: &Sweep) -> PlotStyle {
-    sweep.variants().first().map(|variant| variant.scene.output.plot.clone()).unwrap_or_default()
-}
-
-/// Draws the plots of all variants that are finished; `proceed` says before each whether to.
-pub(super) fn draw(
+/// The plots of all variants that are finished, from the tables that they left.
+pub(super) fn charts<'c>(
+    sweep: &'c Sweep,
+    summary: &'c SweepSummary,
     place: &RunDirectory,
-    sweep: &Sweep,
-    summary: &SweepSummary,
-    style: &PlotStyle,
-    gpu: &Gpu,
-    proceed: &dyn Fn() -> Result<(), StudyError>,
-) -> Result<Vec<String>, StudyError> {
+) -> Result<Charts<'c>, StudyError> {
     let mut finished: Vec<(&Variant, Table)> = Vec::new();
     for (variant, ended) in sweep.variants().iter().zip(&summary.variants) {
         if ended.state == VariantState::Finished {
@@ -67,13 +35,13 @@ pub(super) fn draw(
         let is_asked = look.quantities.is_empty() || look.quantities.contains(column);
         is_asked && !["step", "time"].contains(&column.as_str())
     };
-    let quantities = each_once(finished.iter().flat_map(|(_, table)| &table.columns).filter(is_shown));
+    let quantities = each_once(finished.iter().flat_map(|(_, table)| &table.columns).filter(is_shown).cloned());
     let inks = inks(sweep);
-    let of_quantity = |quantity: &String| -> Option<(String, Chart)> {
+    let of_quantity = move |quantity: String| -> Option<(String, Chart)> {
         let mut curves: Vec<Curve> = Vec::new();
         let mut without: Vec<&str> = Vec::new();
         for (variant, table) in &finished {
-            let Some(points) = points(table, quantity, look.relative) else {
+            let Some(points) = points(table, &quantity, look.relative) else {
                 without.push(&variant.label);
                 continue;
             };
@@ -88,12 +56,11 @@ pub(super) fn draw(
         if !without.is_empty() {
             subtitle = format!("{subtitle}; without {}", without.join(", "));
         }
-        Some((files::plot(quantity), overlay_chart(title, &subtitle, quantity, look.relative, curves)))
+        Some((files::plot(&quantity), overlay_chart(title, &subtitle, &quantity, look.relative, curves)))
     };
     let means =
         (1..).zip(means_chart::charts(sweep, summary, look)).map(|(number, chart)| (files::means(number), chart));
-    let charts = means.chain(quantities.into_iter().filter_map(of_quantity));
-    study::draw(place, summary.sweep_id, gpu, style, charts, proceed)
+    Ok(Box::new(means.chain(quantities.into_iter().filter_map(of_quantity))))
 }
 
 /// What is varied, and what is not in the picture.

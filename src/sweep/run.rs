@@ -2,7 +2,6 @@
 
 use super::look::Look;
 use super::summary::SweepSummary;
-use super::{files, plots, table};
 use crate::families::Model;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::run::{self, RunError};
@@ -61,11 +60,7 @@ impl StudyRun<SweepSummary> {
         observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds });
         let failures = self.run_all(&waiting, jobs, adapter, observer, &Self::summarise)?;
         observer(StudyEvent::Finishing);
-        let style = plots::style(&self.request);
-        let drawn = plots::draw(&place, &self.request, &self.summary, &style, &gpu, &|| self.proceed())?;
-        let averages = (!self.summary.averages.is_empty()).then_some(files::AVERAGES);
-        let tables = [files::TABLE].into_iter().chain(averages).chain([files::SUMMARY]);
-        let files = tables.map(str::to_owned).chain(drawn).collect();
+        let files = self.finish(&place, &gpu)?;
         Ok(SweepOutcome { summary: self.summary, failures, files })
     }
 
@@ -130,7 +125,7 @@ impl StudyRun<SweepSummary> {
     /// Writes table and summary.
     fn summarise(&mut self) -> Result<(), StudyError> {
         self.summary.average();
-        self.save()?;
-        Ok(table::write(self.directory(), &self.summary, &self.request.keys())?)
+        self.write()?;
+        Ok(())
     }
 }

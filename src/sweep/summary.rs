@@ -3,10 +3,11 @@
 use super::averages::{SeedAverage, averages};
 use super::look::Look;
 use super::variant::{VariantState, VariantSummary};
+use super::{files, plots, table};
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, RunDirectory};
-use crate::scene::StateFiles;
-use crate::study::{self, Kind, Record, SWEEP, Setting, StudyError, Sweep, Variation};
+use crate::scene::{self, PlotStyle, SceneError, StateFiles};
+use crate::study::{self, Charts, Kind, Record, SWEEP, Setting, StudyError, Sweep, Variation};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::convert::Infallible;
@@ -148,6 +149,26 @@ impl Record for SweepSummary {
             entry.take_up(&directory.file(&variant.name), &variant.scene);
         }
         new
+    }
+
+    fn tables(&self, sweep: &Sweep) -> Vec<(&'static str, String)> {
+        let averages = table::averages_text(self, &sweep.keys()).map(|text| (files::AVERAGES, text));
+        [(files::TABLE, table::text(self, &sweep.keys()))].into_iter().chain(averages).collect()
+    }
+
+    fn charts<'c>(&'c self, sweep: &'c Sweep, directory: &RunDirectory) -> Result<Charts<'c>, StudyError> {
+        plots::charts(sweep, self, directory)
+    }
+
+    /// That of the first variant.
+    fn style(&self, sweep: &Sweep, overrides: &[String]) -> Result<PlotStyle, SceneError> {
+        let Some(first) = sweep.variants().first() else { return Ok(PlotStyle::default()) };
+        if overrides.is_empty() {
+            return Ok(first.scene.output.plot.clone());
+        }
+        let settings: Vec<String> = first.settings.iter().map(Setting::argument).collect();
+        let overrides = [self.set.as_slice(), &settings, overrides].concat();
+        Ok(scene::parse_for(&self.scene, &self.base.to_string(), &overrides, self.steps)?.0.output.plot)
     }
 
     fn progress(&self) -> String {

@@ -1,26 +1,13 @@
 //! The table of a sweep, `sweep.csv`: a row for every variant.
 
 use super::averages::{SEED, SeedAverage};
-use super::files;
 use super::observables::{Observable, observable, observables};
 use super::summary::SweepSummary;
-use crate::output::{OutputError, write_atomically};
 use crate::study::table::{line, number, plain};
 use crate::study::{Setting, by_key};
-use std::path::Path;
 
-/// Writes the table into the directory of the sweep, and that of averages over the seed where there are any; `keys` are those
-/// that distinguish variants.
-pub(super) fn write(directory: &Path, summary: &SweepSummary, keys: &[&str]) -> Result<(), OutputError> {
-    let text = text(summary, keys);
-    write_atomically(&directory.join(files::TABLE), |writer| writer.write_all(text.as_bytes()))?;
-    if let Some(text) = averages_text(summary, keys) {
-        write_atomically(&directory.join(files::AVERAGES), |writer| writer.write_all(text.as_bytes()))?;
-    }
-    Ok(())
-}
-
-fn text(summary: &SweepSummary, keys: &[&str]) -> String {
+/// The table of variants; `keys` are those that distinguish them.
+pub(super) fn text(summary: &SweepSummary, keys: &[&str]) -> String {
     let rows: Vec<Row> = summary
         .variants
         .iter()
@@ -46,7 +33,7 @@ fn text(summary: &SweepSummary, keys: &[&str]) -> String {
 }
 
 /// The table of averages over the seed; none where there are none.
-fn averages_text(summary: &SweepSummary, keys: &[&str]) -> Option<String> {
+pub(super) fn averages_text(summary: &SweepSummary, keys: &[&str]) -> Option<String> {
     if summary.averages.is_empty() {
         return None;
     }

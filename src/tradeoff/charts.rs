@@ -1,7 +1,6 @@
 //! The picture of a measure: error against cost, with the Pareto front.
 
 use super::deviation::Deviation;
-use super::files;
 use super::request::Request;
 use super::summary::{Choice, TradeoffSummary};
 use crate::plot::{Axis, Chart, Panel, Series, SeriesInk};
@@ -16,14 +15,8 @@ struct Point<'a> {
     bar: f64,
 }
 
-/// The charts of all measures that have one, with the names of their files.
-pub(super) fn all(summary: &TradeoffSummary, request: &Request) -> Vec<(String, Chart)> {
-    let of = |measure: &String| Some((files::plot(measure), chart(summary, request, measure)?));
-    summary.measures.iter().filter_map(of).collect()
-}
-
 /// The chart of a measure; none where no choice has both a cost and an error.
-fn chart(summary: &TradeoffSummary, request: &Request, measure: &str) -> Option<Chart> {
+pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str) -> Option<Chart> {
     let reference = summary.reference(measure)?;
     let relative = !reference.is_zero();
     let is_part = summary.choices.iter().find_map(|choice| choice.error(measure)).is_some_and(Deviation::is_part);

@@ -62,7 +62,7 @@ pub(crate) use measures::{names_of_table, of_table};
 pub(crate) use reference::predicted;
 pub use reference::{Reference, References, Source};
 pub use request::Request;
-pub use run::{Phase, TradeoffOutcome, TradeoffRun, redraw};
+pub use run::{Phase, TradeoffRun};
 pub(crate) use stretch::Stretch;
 pub use summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary, Wanted};
 pub use target::{Amount, Target, Verdict};

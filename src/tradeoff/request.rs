@@ -263,6 +263,9 @@ impl Request {
 
     /// The look of pictures with changes to it, given as overrides of the scene.
     pub(super) fn style(&self, overrides: &[String]) -> Result<PlotStyle, SceneError> {
+        if overrides.is_empty() {
+            return Ok(self.base.output.plot.clone());
+        }
         Ok(self.arguments.scene(&[self.arguments.set.as_slice(), overrides].concat())?.output.plot)
     }
 

@@ -6,16 +6,15 @@ use super::measures::{self, Measured};
 use super::stretch::Stretch;
 use super::summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary, Wanted};
 use super::target::Verdict;
-use super::{advice, charts, fields, files, table};
+use super::{advice, fields, files};
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::numbers::with_error;
-use crate::output::{Id, RunDirectory, Summary, checkpoint, files as run_files, write_atomically};
+use crate::output::{Id, RunDirectory, Summary, checkpoint, files as run_files};
 use crate::run::{self, RunError};
 use crate::scene::Scene;
 use crate::self_test;
-use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyRun};
+use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun};
 use std::fmt;
-use std::path::Path;
 use std::time::Instant;
 
 /// What of a budget the first runs may take: they say how long the others have to be.
@@ -75,18 +74,6 @@ impl fmt::Display for Phase {
     }
 }
 
-/// What a tradeoff leaves.
-#[derive(Debug)]
-#[non_exhaustive]
-pub struct TradeoffOutcome {
-    /// What `tradeoff.json` says.
-    pub summary: TradeoffSummary,
-    /// Names of the files in its directory, without those of the runs.
-    pub files: Vec<String>,
-    /// The page in words.
-    pub page: String,
-}
-
 impl StudyRun<TradeoffSummary> {
     /// Runs every choice and what it is compared with, times them, and writes tables, pictures and the page.
     ///
@@ -96,7 +83,7 @@ impl StudyRun<TradeoffSummary> {
         mut self,
         adapter: &AdapterChoice,
         observer: &mut Observer<'_, TradeoffSummary>,
-    ) -> Result<TradeoffOutcome, StudyError> {
+    ) -> Result<StudyOutcome<TradeoffSummary>, StudyError> {
         let runs = self.runs(&self.summary.stretch)?;
         self.check_place()?;
         let waiting = self.waiting(&runs);
@@ -151,7 +138,8 @@ impl StudyRun<TradeoffSummary> {
         self.summary.assess(&self.request)?;
         self.summary.choose();
         observer(StudyEvent::Finishing);
-        self.finish(&place, &gpu)
+        let files = self.finish(&place, &gpu)?;
+        Ok(StudyOutcome { summary: self.summary, files })
     }
 
     /// All runs: the choices, then those that references are taken from where some measure needs them.
@@ -434,28 +422,4 @@ impl StudyRun<TradeoffSummary> {
         }
         Ok(())
     }
-
-    fn finish(self, place: &RunDirectory, gpu: &Gpu) -> Result<TradeoffOutcome, StudyError> {
-        let page = advice::page(&self.summary, self.request.title());
-        write_atomically(&place.file(files::PAGE), |writer| writer.write_all(page.as_bytes()))?;
-        table::write(place.path(), &self.summary, &self.request.sweep.keys())?;
-        self.save()?;
-        let Self { request, summary, .. } = &self;
-        let (id, style) = (summary.tradeoff_id, &request.base.output.plot);
-        let drawn = study::draw(place, id, gpu, style, charts::all(summary, request), &|| self.proceed())?;
-        let tables = [files::TABLE, files::SUMMARY, files::PAGE].map(str::to_owned);
-        Ok(TradeoffOutcome { files: tables.into_iter().chain(drawn).collect(), summary: self.summary, page })
-    }
-}
-
-/// Draws the pictures of a tradeoff again from its summary, with changes to the look given as overrides of the scene
-/// (`output.plot.width=800`). Returns the names of the files written.
-///
-/// # Errors
-/// [`StudyError`] when there is no tradeoff in the directory, an override does not fit, or a picture cannot be drawn.
-pub fn redraw(directory: &Path, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, StudyError> {
-    let (summary, request, place) = study::reopen::<TradeoffSummary>(directory)?;
-    let style = request.style(overrides)?;
-    let gpu = Gpu::open(choice, Requirements::default())?;
-    study::draw(&place, summary.tradeoff_id, &gpu, &style, charts::all(&summary, &request), &|| Ok(()))
 }

@@ -8,10 +8,11 @@ use super::request::{Arguments, Request};
 use super::run::Phase;
 use super::stretch::Stretch;
 use super::target::Verdict;
-use crate::output::Id;
+use super::{advice, charts, files, table};
 use crate::output::summary::AdapterSummary;
-use crate::scene;
-use crate::study::{self, ASKS_ELSE, Kind, Record, Setting, StudyError, TRADEOFF, Variant};
+use crate::output::{Id, RunDirectory};
+use crate::scene::{self, PlotStyle, SceneError};
+use crate::study::{self, ASKS_ELSE, Charts, Kind, Record, Setting, StudyError, TRADEOFF, Variant};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::Path;
@@ -72,7 +73,7 @@ impl fmt::Display for Wanted {
         write!(
             formatter,
             "what is asked for takes {rounds} of longer runs, about {} of runs in all",
-            super::advice::duration(self.seconds)
+            advice::duration(self.seconds)
         )
     }
 }
@@ -217,19 +218,19 @@ impl TradeoffSummary {
     /// What to know before the numbers are trusted, line by line.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
-        super::advice::notes(self)
+        advice::notes(self)
     }
 
     /// What the mark of errors from few samples means, where there are any.
     #[must_use]
     pub fn legend(&self) -> Option<String> {
-        super::advice::legend(self)
+        advice::legend(self)
     }
 
     /// That the runs are not as long as they should be, and what makes them longer; nothing where they are.
     #[must_use]
     pub fn short_of_errors(&self) -> Option<String> {
-        super::advice::short_of_errors(self)
+        advice::short_of_errors(self)
     }
 
     /// What meets the targets, in words; nothing where there are none.
@@ -237,7 +238,7 @@ impl TradeoffSummary {
     pub fn advice(&self) -> String {
         let mut text = String::new();
         if !self.arguments.targets.is_empty() {
-            super::advice::verdict(&mut text, self, ["", "  "]);
+            advice::verdict(&mut text, self, ["", "  "]);
         }
         text
     }
@@ -356,5 +357,22 @@ impl Record for TradeoffSummary {
 
     fn runs(&self) -> Vec<&str> {
         self.choices.iter().chain(&self.finer).map(|run| run.name.as_str()).collect()
+    }
+
+    fn tables(&self, request: &Request) -> Vec<(&'static str, String)> {
+        vec![(files::TABLE, table::text(self, &request.sweep.keys()))]
+    }
+
+    fn page(&self, request: &Request) -> Option<(&'static str, String)> {
+        Some((files::PAGE, advice::page(self, request.title())))
+    }
+
+    fn charts<'c>(&'c self, request: &'c Request, _: &RunDirectory) -> Result<Charts<'c>, StudyError> {
+        let chart = |measure: &String| Some((files::plot(measure), charts::chart(self, request, measure)?));
+        Ok(Box::new(self.measures.iter().filter_map(chart)))
+    }
+
+    fn style(&self, request: &Request, overrides: &[String]) -> Result<PlotStyle, SceneError> {
+        request.style(overrides)
     }
 }

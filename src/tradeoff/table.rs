@@ -1,17 +1,9 @@
 //! The table of a tradeoff, `tradeoff.csv`: a row for every choice.
 
-use super::files;
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
-use crate::output::{OutputError, write_atomically};
 use crate::study::table::{line, number, plain};
-use std::path::Path;
 
-pub(super) fn write(directory: &Path, summary: &TradeoffSummary, keys: &[&str]) -> Result<(), OutputError> {
-    let text = text(summary, keys);
-    write_atomically(&directory.join(files::TABLE), |writer| writer.write_all(text.as_bytes()))
-}
-
-fn text(summary: &TradeoffSummary, keys: &[&str]) -> String {
+pub(super) fn text(summary: &TradeoffSummary, keys: &[&str]) -> String {
     let mut header: Vec<String> = ["choice"].into_iter().chain(keys.iter().copied()).map(str::to_owned).collect();
     header.extend(
         [
