@@ -7,8 +7,8 @@ use super::summary::{Row, StabilitySummary};
 use super::verdict::Verdict;
 use crate::numbers::{short, three_digits};
 use crate::study::by_key;
+use crate::study::table::markdown;
 use crate::tradeoff;
-use std::fmt::Write as _;
 
 /// A law and a measured edge are said to part if they differ by more than this factor.
 const APART: f64 = 1.25;
@@ -135,56 +135,6 @@ fn same_rows(summary: &StabilitySummary) -> Vec<String> {
     groups.into_iter().filter(|group| group.len() > 1).map(in_words).collect()
 }
 
-/// The result, line by line.
-pub(super) fn findings(summary: &StabilitySummary) -> Vec<String> {
-    let mut lines = differences(summary);
-    let cells = || summary.rows.iter().flat_map(|row| &row.cells);
-    let compared = |cell: &&Cell| cell.is_compared(&summary.measures);
-    let has_all = |cell: &&Cell| cell.undefined.is_empty();
-    let lawless = cells().filter(has_all).filter(|cell| cell.verdict == Verdict::Right && !compared(cell)).count();
-    if lawless > 0 {
-        lines.push(format!(
-            "{lawless} runs count as right though no law says what some of their measures should be, as that of a temperature without friction"
-        ));
-    }
-    let few = cells().filter(|cell| !has_all(cell));
-    let mut undefined: Vec<String> =
-        few.clone().flat_map(|cell| &cell.undefined).map(|name| format!("`{name}`")).collect();
-    undefined.sort();
-    undefined.dedup();
-    if !undefined.is_empty() {
-        lines.push(format!(
-            "{} of {} runs have so few particles that they have no {}, which cannot be compared: of these it is known where runs end, and no more",
-            few.count(),
-            cells().count(),
-            undefined.join(", ")
-        ));
-    }
-    lines.extend(same_rows(summary));
-    let settled = |cell: &&Cell| cell.unequilibrated.is_empty();
-    let open = cells().filter(compared).filter(settled).filter(|cell| !cell.is_certain).count();
-    if open > 0 && !summary.measures.is_empty() {
-        lines.push(format!(
-            "{open} of {} verdicts are within two standard errors of the tolerance: longer runs (--set time.steps=N) decide them",
-            cells().count()
-        ));
-    }
-    let moving = cells().filter(|cell| !settled(cell)).count();
-    if moving > 0 {
-        lines.push(format!(
-            "{moving} of {} runs are still on their way to equilibrium, which their errors include: give them time with --set time.equilibration=N",
-            cells().count()
-        ));
-    }
-    let refused = cells().filter(|cell| cell.verdict == Verdict::Refused);
-    let reasons = by_key(refused.filter_map(|cell| Some((cell.reason_in_a_line()?, cell))));
-    lines.extend(reasons.into_iter().map(|(reason, cells)| format!("{} refused: {reason}", cells.len())));
-    if summary.measures.is_empty() {
-        lines.push("nothing is compared, as no law says what this scene measures: whether what ran to its end is right is not known; --reference MEASURE=VALUE gives a value".to_owned());
-    }
-    lines
-}
-
 /// The page.
 pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
     let keys = request.short_keys();
@@ -195,34 +145,20 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
     } else {
         format!("Right means that {} are within {} %.", measures.join(", "), short(100.0 * summary.tolerance()))
     };
-    let mut text = format!("# {}: how far it may go\n\n`{}` is varied. {meaning}", request.title(), summary.key);
-    if let Some(adapter) = &summary.adapter {
-        let _ = write!(
-            text,
-            " {}, {} ({}), version {}.",
-            summary.date, adapter.name, adapter.driver, summary.mesoscope_version
-        );
-    }
+    let begun = summary.adapter.as_ref().map(|adapter| {
+        let (date, version) = (&summary.date, &summary.mesoscope_version);
+        format!(" {date}, {} ({}), version {version}.", adapter.name, adapter.driver)
+    });
     let right = Verdict::Right.name_in(summary);
-    let _ = write!(text, "\n\n| row | {right}: {key} up to | unstable from | laws |\n|---|---|---|---|\n");
-    for row in &summary.rows {
-        let label = if row.label.is_empty() { "the scene" } else { &row.label };
-        let _ = writeln!(
-            text,
-            "| {label} | {} | {} | {} |",
-            right_in_words(row),
-            unstable_in_words(row),
-            bounds_in_words(row)
-        );
-    }
-    let findings = findings(summary);
-    if !findings.is_empty() {
-        text.push('\n');
-        for line in findings {
-            let _ = writeln!(text, "- {line}");
-        }
-    }
-    text
+    let header = ["row".to_owned(), format!("{right}: {key} up to"), "unstable from".to_owned(), "laws".to_owned()];
+    let findings: Vec<String> = summary.findings().iter().map(|finding| format!("- {finding}")).collect();
+    let mut paragraphs = vec![
+        format!("# {}: how far it may go", request.title()),
+        format!("`{}` is varied. {meaning}{}", summary.key, begun.unwrap_or_default()),
+        markdown(header.to_vec(), "---", summary.in_words().into_iter().map(Vec::from)),
+    ];
+    paragraphs.extend((!findings.is_empty()).then(|| findings.join("\n")));
+    paragraphs.join("\n\n") + "\n"
 }
 
 impl StabilitySummary {
@@ -251,7 +187,47 @@ impl StabilitySummary {
     /// What else was found, line by line.
     #[must_use]
     pub fn findings(&self) -> Vec<String> {
-        findings(self)
+        let cells = || self.rows.iter().flat_map(|row| &row.cells);
+        let count = |counts: &dyn Fn(&Cell) -> bool| cells().filter(|cell| counts(cell)).count();
+        let (runs, is_compared) = (cells().count(), |cell: &Cell| cell.is_compared(&self.measures));
+        let mut lines = differences(self);
+        let lawless = count(&|cell| cell.undefined.is_empty() && cell.verdict == Verdict::Right && !is_compared(cell));
+        if lawless > 0 {
+            lines.push(format!(
+                "{lawless} runs count as right though no law says what some of their measures should be, as that of a temperature without friction"
+            ));
+        }
+        let few = count(&|cell| !cell.undefined.is_empty());
+        if few > 0 {
+            let mut undefined: Vec<String> =
+                cells().flat_map(|cell| &cell.undefined).map(|name| format!("`{name}`")).collect();
+            undefined.sort();
+            undefined.dedup();
+            let undefined = undefined.join(", ");
+            lines.push(format!(
+                "{few} of {runs} runs have so few particles that they have no {undefined}, which cannot be compared: of these it is known where runs end, and no more"
+            ));
+        }
+        lines.extend(same_rows(self));
+        let open = count(&|cell| is_compared(cell) && cell.unequilibrated.is_empty() && !cell.is_certain);
+        if open > 0 && !self.measures.is_empty() {
+            lines.push(format!(
+                "{open} of {runs} verdicts are within two standard errors of the tolerance: longer runs (--set time.steps=N) decide them"
+            ));
+        }
+        let moving = count(&|cell| !cell.unequilibrated.is_empty());
+        if moving > 0 {
+            lines.push(format!(
+                "{moving} of {runs} runs are still on their way to equilibrium, which their errors include: give them time with --set time.equilibration=N"
+            ));
+        }
+        let refused = cells().filter(|cell| cell.verdict == Verdict::Refused);
+        let reasons = by_key(refused.filter_map(|cell| Some((cell.reason_in_a_line()?, cell))));
+        lines.extend(reasons.into_iter().map(|(reason, cells)| format!("{} refused: {reason}", cells.len())));
+        if self.measures.is_empty() {
+            lines.push("nothing is compared, as no law says what this scene measures: whether what ran to its end is right is not known; --reference MEASURE=VALUE gives a value".to_owned());
+        }
+        lines
     }
 }
 

@@ -1,4 +1,4 @@
-//! Tables of numbers and words, as comma-separated text.
+//! Tables of numbers and words, as comma-separated text and in Markdown.
 
 use crate::numbers::push_exact;
 use crate::output::quoted;
@@ -21,4 +21,20 @@ pub(crate) fn number(value: Option<f64>) -> String {
 /// The value of a setting: text bare, and all else as JSON.
 pub(crate) fn plain(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// A table in Markdown whose first column is aligned to the left, and the others as `rule` says: `---`, or `--:` for numbers.
+pub(crate) fn markdown(header: Vec<String>, rule: &str, rows: impl Iterator<Item = Vec<String>>) -> String {
+    let mut rules = vec![rule; header.len()];
+    rules[..1].fill("---");
+    let rules = format!("|{}|", rules.join("|"));
+    let line = |cells: Vec<String>| format!("| {} |", cells.join(" | "));
+    let lines: Vec<String> = [line(header), rules].into_iter().chain(rows.map(line)).collect();
+    lines.join("\n")
+}
+
+/// A list in Markdown under its heading; nothing where it has no entries.
+pub(crate) fn list(heading: &str, entries: impl IntoIterator<Item = String>) -> Vec<String> {
+    let entries: Vec<String> = entries.into_iter().map(|entry| format!("- {entry}")).collect();
+    if entries.is_empty() { Vec::new() } else { vec![heading.to_owned(), entries.join("\n")] }
 }

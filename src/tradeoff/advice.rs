@@ -3,23 +3,17 @@
 use super::deviation::Deviation;
 use super::fields::DISTANCE;
 use super::reference::Source;
-use super::summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary};
+use super::summary::{Choice, ChoiceState, TradeoffSummary};
 use super::target::{Target, Verdict};
 use crate::numbers::{short, with_error};
-use crate::study::{Setting, by_key, in_hours};
-use std::fmt::Write as _;
+use crate::study::table::{list, markdown};
+use crate::study::{Setting, by_key, each_once, in_hours};
 
 /// Errors that the page names the cheapest choice for.
 const ROUND_ERRORS: [f64; 3] = [0.05, 0.01, 0.001];
 
-/// A verdict in a word.
-pub(super) fn verdict_word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Meets => "meets",
-        Verdict::Open => "open",
-        Verdict::Misses => "misses",
-    }
-}
+/// The remedy where more samples tell.
+const DECIDED: &str = "A smaller --error or a larger --budget decides it.";
 
 /// A duration in seconds, minutes or hours.
 pub(super) fn duration(seconds: f64) -> String {
@@ -66,153 +60,120 @@ pub fn error_in_words(error: &Deviation) -> String {
 /// What marks an error from few samples.
 const FEW_SAMPLES: char = '‡';
 
-/// What the mark means, where it is used.
-pub(super) fn legend(summary: &TradeoffSummary) -> Option<String> {
-    legend_of(summary.choices.iter().flat_map(|choice| &choice.errors))
-}
-
 /// What the mark means, if one of these errors has it.
 pub(crate) fn legend_of<'e>(mut errors: impl Iterator<Item = &'e Deviation>) -> Option<String> {
     let few = errors.any(|error| error.from_few_samples);
     few.then(|| format!("{FEW_SAMPLES} from few samples: the standard error is taken three times as large as they say"))
 }
 
-/// That the runs are not as long as they should be, and what makes them longer; nothing where they are.
-pub(super) fn short_of_errors(summary: &TradeoffSummary) -> Option<String> {
-    let more = match &summary.wanted {
-        Some(wanted) => format!("{wanted}, and wants --yes"),
-        None if summary.arguments.length.budget.is_some() => "a larger --budget makes them longer".to_owned(),
-        None => "--set time.steps=N begins with longer ones".to_owned(),
-    };
-    summary.is_short.then(|| format!("The runs ended before all errors were as small as asked for: {more}"))
+impl TradeoffSummary {
+    /// What to know before the numbers are trusted, line by line.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let keys = self.physical_keys.join("`, `");
+        let physical = (!keys.is_empty()).then(|| {
+            format!("`{keys}` changes what is simulated, and not only how it is computed: all choices are compared with the scene as it is.")
+        });
+        let spoilt = |choice: &Choice| {
+            let (label, columns) = (&choice.label, choice.unequilibrated.join(", "));
+            choice.unequilibrated.iter().any(|column| self.measures.contains(column)).then(|| {
+                format!("Means of {label} include the way to equilibrium ({columns}): set a longer time.equilibration.")
+            })
+        };
+        // A choice may be the run that others are compared with.
+        let spoilt = each_once(self.choices.iter().chain(&self.finer).filter_map(spoilt));
+        let measured = self.choices.iter().filter(|choice| choice.measured.iter().any(|found| found.fluctuates));
+        let alike = by_key(measured.map(|choice| ((choice.steps, &choice.measured), format!("`{}`", choice.label))));
+        let same_runs = alike.into_iter().map(|(_, labels)| labels).filter(|labels| labels.len() > 1).map(|labels| {
+            format!(
+                "{} are the same run, to the last digit of all that is measured: what tells them apart can only change what a step costs.",
+                labels.join(" and ")
+            )
+        });
+        // Choices that came to their end though a run of their scene alone is refused.
+        let refused = self.finished().filter_map(|choice| {
+            let (label, refusal) = (&choice.label, choice.refusal.as_ref()?);
+            Some(format!("{label} is never chosen, for `mesoscope run` refuses its scene: {refusal}."))
+        });
+        physical.into_iter().chain(spoilt).chain(same_runs).chain(refused).collect()
+    }
+
+    /// What the mark of errors from few samples means, where there are any.
+    #[must_use]
+    pub fn legend(&self) -> Option<String> {
+        legend_of(self.choices.iter().flat_map(|choice| &choice.errors))
+    }
+
+    /// That the runs are not as long as they should be, and what makes them longer; nothing where they are.
+    #[must_use]
+    pub fn short_of_errors(&self) -> Option<String> {
+        let more = match &self.wanted {
+            Some(wanted) => format!("{wanted}, and wants --yes"),
+            None if self.arguments.length.budget.is_some() => "a larger --budget makes them longer".to_owned(),
+            None => "--set time.steps=N begins with longer ones".to_owned(),
+        };
+        self.is_short.then(|| format!("The runs ended before all errors were as small as asked for: {more}"))
+    }
+
+    /// What meets the targets, in words; nothing where there are none.
+    #[must_use]
+    pub fn advice(&self) -> String {
+        let paragraphs = verdict(self, ["", "  "]);
+        paragraphs.into_iter().map(|paragraph| paragraph + "\n\n").collect()
+    }
 }
 
 /// The whole page, in Markdown.
 pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
-    let mut text = format!("# What accuracy costs: {title}\n\n");
     let adapter = summary.adapter.as_ref().map_or("an unknown adapter", |adapter| &adapter.name);
     let (count, time) = (summary.choices.len(), short(summary.averaged_time()));
-    let _ = writeln!(
-        text,
-        "{count} choices, each averaged over {time} units of simulated time after {} of equilibration, on {adapter}. \
-         Costs are medians of steps timed in turns, without reports.\n",
-        short(summary.stretch.equilibration)
-    );
-    for note in &notes(summary) {
-        let _ = writeln!(text, "{note}\n");
-    }
-    if let Some(short) = short_of_errors(summary) {
-        let _ = writeln!(text, "**{short}.**\n");
-    }
-    targets(&mut text, summary);
-    table(&mut text, summary);
-    costs(&mut text, summary);
-    conserved(&mut text, summary);
-    for measure in &summary.measures {
-        section(&mut text, summary, measure);
-    }
-    unstable(&mut text, summary);
-    text
-}
-
-/// What to know before the numbers are trusted.
-pub(super) fn notes(summary: &TradeoffSummary) -> Vec<String> {
-    let mut notes = Vec::new();
-    if !summary.physical_keys.is_empty() {
-        notes.push(format!(
-            "`{}` changes what is simulated, and not only how it is computed: all choices are compared with the scene as it is.",
-            summary.physical_keys.join("`, `")
-        ));
-    }
-    for choice in summary.choices.iter().chain(&summary.finer) {
-        let spoilt: Vec<&str> = choice.unequilibrated.iter().map(String::as_str).collect();
-        if spoilt.iter().any(|column| summary.measures.iter().any(|measure| measure == column)) {
-            let note = format!(
-                "Means of {} include the way to equilibrium ({}): set a longer time.equilibration.",
-                choice.label,
-                spoilt.join(", ")
-            );
-            // A choice may be the run that others are compared with.
-            if !notes.contains(&note) {
-                notes.push(note);
-            }
-        }
-    }
-    notes.extend(same_runs(summary));
-    notes.extend(refused_steps(summary));
-    notes
-}
-
-/// Choices that came to their end though a run of their scene alone is refused.
-fn refused_steps(summary: &TradeoffSummary) -> Vec<String> {
-    let finished = summary.choices.iter().filter(|choice| choice.state == ChoiceState::Finished);
-    let note = |choice: &Choice| {
-        let refusal = choice.refusal.as_ref()?;
-        Some(format!("{} is never chosen, for `mesoscope run` refuses its scene: {refusal}.", choice.label))
-    };
-    finished.filter_map(note).collect()
-}
-
-/// Choices whose runs measure the same to the last digit: what tells them apart makes no difference to them.
-fn same_runs(summary: &TradeoffSummary) -> Vec<String> {
-    let measured = summary.choices.iter().filter(|choice| choice.measured.iter().any(|found| found.fluctuates));
-    let groups = by_key(measured.map(|choice| ((choice.steps, &choice.measured), format!("`{}`", choice.label))));
-    let in_words = |labels: Vec<String>| {
+    let before = short(summary.stretch.equilibration);
+    let mut paragraphs = vec![
+        format!("# What accuracy costs: {title}"),
         format!(
-            "{} are the same run, to the last digit of all that is measured: what tells them apart can only change what a step costs.",
-            labels.join(" and ")
-        )
-    };
-    groups.into_iter().map(|(_, labels)| labels).filter(|labels| labels.len() > 1).map(in_words).collect()
+            "{count} choices, each averaged over {time} units of simulated time after {before} of equilibration, on {adapter}. \
+             Costs are medians of steps timed in turns, without reports."
+        ),
+    ];
+    paragraphs.extend(summary.notes());
+    paragraphs.extend(summary.short_of_errors().map(|short| format!("**{short}.**")));
+    let targets: Vec<String> = summary.arguments.targets.iter().map(Target::to_string).collect();
+    if !targets.is_empty() {
+        paragraphs.push(format!("## {}", targets.join(", ")));
+    }
+    paragraphs.extend(verdict(summary, ["**", "    "]));
+    paragraphs.extend([errors(summary), basis_of_errors(summary), "## Costs".to_owned(), costs(summary)]);
+    paragraphs.extend(list("## What is conserved", conserved(summary)));
+    paragraphs.extend(summary.measures.iter().flat_map(|measure| section(summary, measure)));
+    let unstable = summary.choices.iter().filter(|choice| choice.state == ChoiceState::Unstable);
+    let reason = |choice: &Choice| choice.failure.clone().unwrap_or_else(|| "it became unstable".to_owned());
+    paragraphs.extend(list("## Unstable", unstable.map(|choice| format!("{}: {}", choice.label, reason(choice)))));
+    paragraphs.join("\n\n") + "\n"
 }
 
-/// Targets that no choice can be said to meet, as they are parts of nothing.
-fn parts_of_nothing(summary: &TradeoffSummary) -> Vec<String> {
-    let of_nothing = |target: &Target| target.part_of_nothing(summary.reference(&target.measure)?);
-    summary.arguments.targets.iter().filter_map(of_nothing).collect()
-}
-
-/// The targets, and which choice meets them.
-fn targets(text: &mut String, summary: &TradeoffSummary) {
+/// The choice that meets the targets and the lines to write into the scene, or the one that comes nearest; nothing without targets.
+/// `bold` and `indent` are what the format marks with.
+fn verdict(summary: &TradeoffSummary, [bold, indent]: [&str; 2]) -> Vec<String> {
     let targets = &summary.arguments.targets;
     if targets.is_empty() {
-        return;
+        return Vec::new();
     }
-    let wanted = targets.iter().map(Target::to_string).collect::<Vec<_>>().join(", ");
-    let _ = writeln!(text, "## {wanted}\n");
-    verdict(text, summary, ["**", "    "]);
-}
-
-/// Which choice meets the targets and what to write into the scene, or which comes nearest. `bold` and `indent` are what the format
-/// marks with.
-pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, indent]: [&str; 2]) {
     if let Some(choice) = summary.choice() {
-        let cost = choice.cost.map_or_else(String::new, |cost| {
-            format!(", at {} s a unit of simulated time", with_error(cost.seconds_per_time, None))
-        });
-        let _ = writeln!(
-            text,
-            "Choose {bold}{}{bold}{cost}: the cheapest that meets the targets, with two standard errors.\n",
-            choice.label
-        );
-        for line in lines(&summary.lines_of(choice)) {
-            let _ = writeln!(text, "{indent}{line}");
-        }
-        text.push('\n');
-        let cost = |choice: &Choice| choice.cost.map_or(f64::INFINITY, |cost| cost.seconds_per_time);
-        let open =
-            summary.choices.iter().filter(|other| other.verdict == Some(Verdict::Open) && cost(other) < cost(choice));
-        let open: Vec<&str> = open.map(|other| other.label.as_str()).collect();
-        if !open.is_empty() {
-            let _ = writeln!(
-                text,
-                "Of what costs less it is open: {}. A smaller --error or a larger --budget decides it.\n",
-                open.join("; ")
-            );
-        }
-        return;
+        let cost = choice.cost.map(|cost| with_error(cost.seconds_per_time, None));
+        let cost = cost.map(|cost| format!(", at {cost} s a unit of simulated time")).unwrap_or_default();
+        let label = &choice.label;
+        let chosen =
+            format!("Choose {bold}{label}{bold}{cost}: the cheapest that meets the targets, with two standard errors.");
+        let line = |setting: &Setting| format!("{indent}{}: {}", setting.key, setting.value);
+        let lines: Vec<String> = summary.lines_of(choice).iter().map(line).collect();
+        let is_open = |other: &&Choice| other.verdict == Some(Verdict::Open) && other.seconds() < choice.seconds();
+        let open: Vec<&str> = summary.choices.iter().filter(is_open).map(|other| other.label.as_str()).collect();
+        let open = (!open.is_empty()).then(|| format!("Of what costs less it is open: {}. {DECIDED}", open.join("; ")));
+        return [chosen, lines.join("\n")].into_iter().chain(open).collect();
     }
-    let of_nothing = parts_of_nothing(summary);
+    // Targets that no choice can be said to meet, as they are parts of nothing.
+    let of_nothing = |target: &Target| target.part_of_nothing(summary.reference(&target.measure)?);
+    let of_nothing: Vec<String> = targets.iter().filter_map(of_nothing).collect();
     let any = |verdict: Verdict| summary.choices.iter().any(|choice| choice.verdict == Some(verdict));
     let is_open = of_nothing.is_empty() && any(Verdict::Open);
     let found = if is_open {
@@ -223,32 +184,26 @@ pub(super) fn verdict(text: &mut String, summary: &TradeoffSummary, [bold, inden
     } else {
         "No choice meets the targets."
     };
-    let _ = write!(text, "{bold}{found}{bold} ");
+    let mut sentences = vec![format!("{bold}{found}{bold}")];
     if !of_nothing.is_empty() {
-        for reason in of_nothing {
-            let _ = write!(text, "{}. ", capitalised(&reason));
-        }
-        text.push_str("\n\n");
-        return;
+        sentences.extend(of_nothing.iter().map(|reason| capitalised(reason) + "."));
+        return vec![sentences.join(" ")];
     }
     let nearest = nearest(summary);
-    if let Some((choice, target, factor)) = nearest {
-        let error = choice.error(&target.measure).map_or_else(String::new, error_in_words);
-        let _ = write!(
-            text,
-            "{} comes nearest: its {} is off by {error}, with two standard errors {} times as much as it may be. ",
-            choice.label,
-            target.measure,
-            with_error(factor, None)
-        );
-    }
+    sentences.extend(nearest.map(|(choice, target, factor)| {
+        let (label, measure, factor) = (&choice.label, &target.measure, with_error(factor, None));
+        let error = choice.error(measure).map_or_else(String::new, error_in_words);
+        format!(
+            "{label} comes nearest: its {measure} is off by {error}, with two standard errors {factor} times as much as it may be."
+        )
+    }));
     if is_open {
-        text.push_str("A smaller --error or a larger --budget decides it.\n\n");
-        return;
+        sentences.push(DECIDED.to_owned());
+    } else {
+        sentences.extend(nearest.and_then(|(choice, target, _)| what_to_vary(summary, choice, target)));
+        sentences.push("Vary other keys, or a smaller time step.".to_owned());
     }
-    let further = nearest.and_then(|(choice, target, _)| what_to_vary(summary, choice, target));
-    text.push_str(&further.unwrap_or_default());
-    text.push_str("Vary other keys, or a smaller time step.\n\n");
+    vec![sentences.join(" ")]
 }
 
 /// Which of the keys that were varied matters most to what keeps the nearest choice from its target, judged by the choices that differ from it in
@@ -261,16 +216,12 @@ fn what_to_vary(summary: &TradeoffSummary, nearest: &Choice, target: &Target) ->
         let alone = differ.next().is_none() && nearest.settings.len() == other.settings.len();
         (alone && nearest.settings.iter().any(|one| one.key == setting.key)).then_some((setting, error))
     });
-    let (setting, error) = others.max_by(|(_, a), (_, b)| a.size().total_cmp(&b.size()))?;
+    let (Setting { key, value }, error) = others.max_by(|(_, a), (_, b)| a.size().total_cmp(&b.size()))?;
     let is_seen =
         error.size() > own.size() + 2.0 * error.uncertainty.unwrap_or(0.0).hypot(own.uncertainty.unwrap_or(0.0));
     is_seen.then(|| {
-        format!(
-            "Of what was varied `{}` matters most: with {} it is off by {}; values beyond that of the nearest may be better. ",
-            setting.key,
-            setting.value,
-            error_in_words(error)
-        )
+        let error = error_in_words(error);
+        format!("Of what was varied `{key}` matters most: with {value} it is off by {error}; values beyond that of the nearest may be better.")
     })
 }
 
@@ -291,87 +242,63 @@ fn nearest(summary: &TradeoffSummary) -> Option<(&Choice, &Target, f64)> {
     summary.choices.iter().filter_map(worst).min_by(|a, b| a.2.total_cmp(&b.2))
 }
 
-/// The lines of a scene that a choice changes, as overrides.
-pub(super) fn lines(settings: &[Setting]) -> Vec<String> {
-    settings.iter().map(|setting| format!("{}: {}", setting.key, setting.value)).collect()
+/// The errors of all choices in one table.
+fn errors(summary: &TradeoffSummary) -> String {
+    let measures = || summary.measures.iter();
+    let header = ["choice", "s a unit of time"].map(str::to_owned).into_iter();
+    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "—".to_owned());
+    let row = |choice: &Choice| {
+        let cost = or_dash(choice.cost.map(|cost| with_error(cost.seconds_per_time, None)));
+        let errors = measures().map(|measure| or_dash(choice.error(measure).map(error_in_words)));
+        [choice.label.clone(), cost].into_iter().chain(errors).collect()
+    };
+    let header = header.chain(measures().map(|measure| measure.replace('_', " "))).collect();
+    markdown(header, "--:", summary.choices.iter().map(row))
 }
 
-/// All choices in one table.
-fn table(text: &mut String, summary: &TradeoffSummary) {
-    text.push_str("| choice | s a unit of time |");
-    for measure in &summary.measures {
-        let _ = write!(text, " {} |", measure.replace('_', " "));
-    }
-    text.push_str("\n|---|--:|");
-    text.push_str(&"--:|".repeat(summary.measures.len()));
-    text.push('\n');
-    for choice in &summary.choices {
-        let cost = choice.cost.map_or_else(|| "—".to_owned(), |cost| with_error(cost.seconds_per_time, None));
-        let _ = write!(text, "| {} | {cost} |", choice.label);
-        for measure in &summary.measures {
-            let error = choice.error(measure).map_or_else(|| "—".to_owned(), error_in_words);
-            let _ = write!(text, " {error} |");
-        }
-        text.push('\n');
-    }
-    text.push_str("\nErrors with standard errors, in per cent of the reference of the measure, or of what a drift, a distance or a share is a part of.");
-    text.extend(legend(summary).map(|legend| format!(" {legend}.")));
+/// What errors are parts of, and how far the device is from float64.
+fn basis_of_errors(summary: &TradeoffSummary) -> String {
+    let parts = "Errors with standard errors, in per cent of the reference of the measure, or of what a drift, a distance or a share is a part of.";
+    let mut sentences = vec![parts.to_owned()];
+    sentences.extend(summary.legend().map(|legend| legend + "."));
     let distances = summary.choices.iter().filter_map(|choice| choice.float64_distance);
-    if let Some(largest) = distances.reduce(f64::max) {
-        let _ = write!(
-            text,
-            " One step of the device is off from float64 by {} of what the step changes, at most.",
-            with_error(largest, None)
-        );
-    }
+    sentences.extend(distances.reduce(f64::max).map(|largest| {
+        let largest = with_error(largest, None);
+        format!("One step of the device is off from float64 by {largest} of what the step changes, at most.")
+    }));
     let stretches = summary.choices.iter().filter_map(|choice| choice.float64_stretch);
     let farthest = stretches.filter(|stretch| stretch.steps > 1).max_by(|a, b| a.distance.total_cmp(&b.distance));
-    if let Some(Float64Stretch { steps, distance }) = farthest {
-        let _ = write!(text, " After {steps} steps it is {} of what they change.", with_error(distance, None));
-    }
-    text.push_str("\n\n");
+    sentences.extend(farthest.map(|stretch| {
+        format!("After {} steps it is {} of what they change.", stretch.steps, with_error(stretch.distance, None))
+    }));
+    sentences.join(" ")
 }
 
 /// What choices cost, in time and memory.
-fn costs(text: &mut String, summary: &TradeoffSummary) {
-    text.push_str(
-        "## Costs\n\n| choice | s a unit of time | fastest and slowest round | particle-steps/s | bytes a particle |\n\
-         |---|--:|--:|--:|--:|\n",
-    );
-    for choice in &summary.choices {
-        let Some(cost) = choice.cost else { continue };
-        let [median, fastest, slowest] =
-            [cost.seconds_per_time, cost.fastest, cost.slowest].map(|seconds| with_error(seconds, None));
-        let _ = writeln!(
-            text,
-            "| {} | {median} | {fastest} to {slowest} | {} | {:.0} |",
-            choice.label,
-            with_error(cost.particle_steps_per_second, None),
-            cost.bytes_per_particle
-        );
-    }
-    text.push('\n');
+fn costs(summary: &TradeoffSummary) -> String {
+    let header = ["choice", "s a unit of time", "fastest and slowest round", "particle-steps/s", "bytes a particle"];
+    let row = |choice: &Choice| {
+        let cost = choice.cost?;
+        let [median, fastest, slowest, speed] =
+            [cost.seconds_per_time, cost.fastest, cost.slowest, cost.particle_steps_per_second]
+                .map(|number| with_error(number, None));
+        let bytes = format!("{:.0}", cost.bytes_per_particle);
+        Some(vec![choice.label.clone(), median, format!("{fastest} to {slowest}"), speed, bytes])
+    };
+    markdown(header.map(str::to_owned).to_vec(), "--:", summary.choices.iter().filter_map(row))
 }
 
 /// What the runs have conserved, and how exactly.
-fn conserved(text: &mut String, summary: &TradeoffSummary) {
-    let finished: Vec<&Choice> =
-        summary.choices.iter().filter(|choice| choice.state == ChoiceState::Finished).collect();
-    let mut kinds: Vec<&[String]> = finished.iter().map(|choice| choice.conserved_exactly.as_slice()).collect();
+fn conserved(summary: &TradeoffSummary) -> Vec<String> {
+    let mut kinds = by_key(summary.finished().map(|choice| (&choice.conserved_exactly, choice.label.as_str())));
     kinds.sort();
-    kinds.dedup();
-    if finished.is_empty() {
-        return;
-    }
-    text.push_str("## What is conserved\n\n");
-    for kind in &kinds {
-        let own = finished.iter().filter(|choice| choice.conserved_exactly == *kind);
-        let labels: Vec<&str> = own.map(|choice| choice.label.as_str()).collect();
-        let whose = if kinds.len() == 1 { "all choices".to_owned() } else { labels.join("; ") };
+    let is_one = kinds.len() == 1;
+    let in_words = |(kind, labels): (&Vec<String>, Vec<&str>)| {
+        let whose = if is_one { "all choices".to_owned() } else { labels.join("; ") };
         let what = if kind.is_empty() { "nothing".to_owned() } else { kind.join("; ") };
-        let _ = writeln!(text, "- {whose}: {what}");
-    }
-    text.push('\n');
+        format!("{whose}: {what}")
+    };
+    kinds.into_iter().map(in_words).collect()
 }
 
 /// The beginning of a sentence.
@@ -381,82 +308,42 @@ fn capitalised(text: &str) -> String {
 }
 
 /// What a measure says.
-fn section(text: &mut String, summary: &TradeoffSummary, measure: &str) {
-    let _ = writeln!(text, "## {}\n", measure.replace('_', " "));
-    let _ = writeln!(text, "{}.\n", capitalised(&reference_in_words(summary, measure)));
+fn section(summary: &TradeoffSummary, measure: &str) -> Vec<String> {
+    let heading = format!("## {}", measure.replace('_', " "));
+    let mut paragraphs = vec![heading, capitalised(&reference_in_words(summary, measure)) + "."];
     if measure.ends_with(DISTANCE) {
-        let _ = writeln!(text, "The finer run is one{}.\n", finer_in_words(summary));
+        paragraphs.push(format!("The finer run is one{}.", finer_in_words(summary)));
     }
-    let mut front: Vec<(&Choice, &Deviation)> = summary
-        .choices
-        .iter()
-        .filter_map(|choice| Some((choice, choice.error(measure).filter(|error| error.on_front)?)))
-        .collect();
-    let cost = |choice: &Choice| choice.cost.map_or(f64::INFINITY, |cost| cost.seconds_per_time);
-    front.sort_by(|a, b| cost(a.0).total_cmp(&cost(b.0)));
-    if front.is_empty() {
-        text.push_str("No choice has both a cost and an error.\n\n");
-        return;
-    }
-    text.push_str("The Pareto front, from the cheapest on:\n\n");
-    for (choice, error) in &front {
+    let mut known: Vec<(&Choice, &Deviation)> =
+        summary.choices.iter().filter_map(|choice| Some((choice, choice.error(measure)?))).collect();
+    let of_schemes = known.iter().filter_map(|(choice, error)| {
+        let of_scheme = Deviation { error: error.of_scheme?, uncertainty: None, ..(*error).clone() };
+        let [of_scheme, measured] = [&of_scheme, error].map(error_in_words);
+        Some(format!("{}: {of_scheme}, measured {measured}", choice.label))
+    });
+    let of_schemes = list("What theory says of the scheme with its time step, and what was measured:", of_schemes);
+    known.sort_by(|(a, _), (b, _)| a.seconds().total_cmp(&b.seconds()));
+    let front = known.iter().filter(|(_, error)| error.on_front).map(|(choice, error)| {
         let noise = if error.is_within_noise() { " (within its statistical error)" } else { "" };
-        let _ = writeln!(
-            text,
-            "- {}: {} s, off by {}{noise}",
-            choice.label,
-            with_error(cost(choice), None),
-            error_in_words(error)
-        );
+        let (cost, error) = (with_error(choice.seconds(), None), error_in_words(error));
+        format!("{}: {cost} s, off by {error}{noise}", choice.label)
+    });
+    let front = list("The Pareto front, from the cheapest on:", front);
+    if front.is_empty() {
+        paragraphs.push("No choice has both a cost and an error.".to_owned());
+        return paragraphs;
     }
-    text.push('\n');
-    of_schemes(text, summary, measure);
-    for bound in ROUND_ERRORS {
-        let within = |error: &Deviation| {
+    paragraphs.extend(front.into_iter().chain(of_schemes));
+    let cheapest = |bound: f64| {
+        let is_within = |error: &Deviation| {
             error.relative && error.uncertainty.is_some_and(|known| error.size() + 2.0 * known <= bound)
         };
-        let cheapest = summary
-            .choices
-            .iter()
-            .filter(|choice| choice.error(measure).is_some_and(within))
-            .min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        if let Some(choice) = cheapest {
-            let _ = writeln!(text, "The cheapest within {} %: {}.", short(100.0 * bound), choice.label);
-        }
-    }
-    text.push('\n');
-}
-
-/// The errors that schemes have by themselves, where they are known, next to what was measured.
-fn of_schemes(text: &mut String, summary: &TradeoffSummary, measure: &str) {
-    let known = summary.choices.iter().filter_map(|choice| {
-        let error = choice.error(measure)?;
-        Some((choice, error, error.of_scheme?))
-    });
-    let mut known = known.peekable();
-    if known.peek().is_none() {
-        return;
-    }
-    text.push_str("What theory says of the scheme with its time step, and what was measured:\n\n");
-    for (choice, error, of_scheme) in known {
-        let of_scheme = Deviation { error: of_scheme, uncertainty: None, ..error.clone() };
-        let _ =
-            writeln!(text, "- {}: {}, measured {}", choice.label, error_in_words(&of_scheme), error_in_words(error));
-    }
-    text.push('\n');
-}
-
-/// Choices that became unstable.
-fn unstable(text: &mut String, summary: &TradeoffSummary) {
-    let mut ended = summary.choices.iter().filter(|choice| choice.state == ChoiceState::Unstable).peekable();
-    if ended.peek().is_none() {
-        return;
-    }
-    text.push_str("## Unstable\n\n");
-    for choice in ended {
-        let _ = writeln!(text, "- {}: {}", choice.label, choice.failure.as_deref().unwrap_or("it became unstable"));
-    }
-    text.push('\n');
+        let (choice, _) = known.iter().find(|(_, error)| is_within(error))?;
+        Some(format!("The cheapest within {} %: {}.", short(100.0 * bound), choice.label))
+    };
+    let cheapest: Vec<String> = ROUND_ERRORS.into_iter().filter_map(cheapest).collect();
+    paragraphs.extend((!cheapest.is_empty()).then(|| cheapest.join("\n")));
+    paragraphs
 }
 
 #[cfg(test)]

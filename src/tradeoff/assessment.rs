@@ -83,11 +83,10 @@ impl TradeoffSummary {
 
     /// The cheapest choice that meets all targets and that a run of its scene takes.
     pub(super) fn choose(&mut self) {
-        let cost = |choice: &&Choice| choice.cost.map_or(f64::INFINITY, |cost| cost.seconds_per_time);
         let may_be = |choice: &&Choice| {
             choice.verdict == Some(Verdict::Meets) && choice.cost.is_some() && choice.refusal.is_none()
         };
-        let chosen = self.choices.iter().filter(may_be).min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        let chosen = self.choices.iter().filter(may_be).min_by(|a, b| a.seconds().total_cmp(&b.seconds()));
         self.chosen = chosen.map(|choice| choice.name.clone());
     }
 }

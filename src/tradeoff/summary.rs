@@ -79,7 +79,7 @@ impl fmt::Display for Wanted {
 }
 
 /// One choice: a variant, what it costs and what it misses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Choice {
     /// Name of its directory.
     pub name: String,
@@ -132,10 +132,11 @@ pub struct Float64Stretch {
 }
 
 /// How far a choice is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ChoiceState {
     /// Not finished yet.
+    #[default]
     Waiting,
     /// Ran to its end.
     Finished,
@@ -143,33 +144,27 @@ pub enum ChoiceState {
     Unstable,
 }
 
-impl Choice {
-    pub(super) fn new(name: &str, label: &str, settings: &[Setting], time_step: f64) -> Self {
-        Self {
-            name: name.to_owned(),
-            label: label.to_owned(),
-            settings: settings.to_vec(),
-            run_id: None,
-            state: ChoiceState::Waiting,
-            failure: None,
-            refusal: None,
-            time_step,
-            steps: 0,
-            cost: None,
-            float64_distance: None,
-            float64_stretch: None,
-            measured: Vec::new(),
-            unequilibrated: Vec::new(),
-            conserved_exactly: Vec::new(),
-            errors: Vec::new(),
-            verdict: None,
+impl ChoiceState {
+    /// Its word.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Waiting => "waiting",
+            Self::Finished => "finished",
+            Self::Unstable => "unstable",
         }
     }
+}
 
+impl Choice {
     /// The error of a measure.
     #[must_use]
     pub fn error(&self, measure: &str) -> Option<&Deviation> {
         self.errors.iter().find(|found| found.measure == measure)
+    }
+
+    /// Seconds of steps a unit of simulated time; infinite where they were not timed.
+    pub(super) fn seconds(&self) -> f64 {
+        self.cost.map_or(f64::INFINITY, |cost| cost.seconds_per_time)
     }
 
     /// The value of a measure.
@@ -215,32 +210,9 @@ impl TradeoffSummary {
         (&self.arguments.scene, &self.arguments.text, overrides)
     }
 
-    /// What to know before the numbers are trusted, line by line.
-    #[must_use]
-    pub fn notes(&self) -> Vec<String> {
-        advice::notes(self)
-    }
-
-    /// What the mark of errors from few samples means, where there are any.
-    #[must_use]
-    pub fn legend(&self) -> Option<String> {
-        advice::legend(self)
-    }
-
-    /// That the runs are not as long as they should be, and what makes them longer; nothing where they are.
-    #[must_use]
-    pub fn short_of_errors(&self) -> Option<String> {
-        advice::short_of_errors(self)
-    }
-
-    /// What meets the targets, in words; nothing where there are none.
-    #[must_use]
-    pub fn advice(&self) -> String {
-        let mut text = String::new();
-        if !self.arguments.targets.is_empty() {
-            advice::verdict(&mut text, self, ["", "  "]);
-        }
-        text
+    /// Choices that came to their end.
+    pub(super) fn finished(&self) -> impl Iterator<Item = &Choice> {
+        self.choices.iter().filter(|choice| choice.state == ChoiceState::Finished)
     }
 
     /// What a choice changes in the scene, with the numbers of steps that cover the simulated time of the scene where the step differs.
@@ -298,10 +270,14 @@ impl Record for TradeoffSummary {
     fn before(request: &Request) -> Self {
         let variants = request.sweep.variants();
         let choice = |variant: &Variant| Choice {
+            name: variant.name.clone(),
+            label: variant.label.clone(),
+            settings: variant.settings.clone(),
             refusal: variant.refusal.clone(),
-            ..Choice::new(&variant.name, &variant.label, &variant.settings, variant.scene.time.step)
+            time_step: variant.scene.time.step,
+            ..Choice::default()
         };
-        let reference = |name: &str| Choice::new(name, name, &[], 0.0);
+        let reference = |name: &str| Choice { name: name.to_owned(), label: name.to_owned(), ..Choice::default() };
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
             date: jiff::Timestamp::now().strftime("%Y-%m-%d").to_string(),

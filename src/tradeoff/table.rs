@@ -1,25 +1,14 @@
 //! The table of a tradeoff, `tradeoff.csv`: a row for every choice.
 
-use super::summary::{Choice, ChoiceState, TradeoffSummary};
+use super::summary::{Choice, TradeoffSummary};
+use super::target::Verdict;
 use crate::study::table::{line, number, plain};
 
 pub(super) fn text(summary: &TradeoffSummary, keys: &[&str]) -> String {
     let mut header: Vec<String> = ["choice"].into_iter().chain(keys.iter().copied()).map(str::to_owned).collect();
-    header.extend(
-        [
-            "state",
-            "steps",
-            "seconds_per_time",
-            "seconds_per_time_fastest",
-            "seconds_per_time_slowest",
-            "particle_steps_per_second",
-            "bytes_per_particle",
-            "float64_distance",
-            "float64_steps",
-            "float64_distance_after",
-        ]
-        .map(str::to_owned),
-    );
+    let further = "state,steps,seconds_per_time,seconds_per_time_fastest,seconds_per_time_slowest,\
+                   particle_steps_per_second,bytes_per_particle,float64_distance,float64_steps,float64_distance_after";
+    header.extend(further.split(',').map(str::to_owned));
     for measure in &summary.measures {
         let columns = ["", "_standard_error", "_reference", "_error", "_error_uncertainty", "_on_front"];
         header.extend(columns.map(|end| format!("{measure}{end}")));
@@ -47,12 +36,7 @@ fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<String>
     };
     let mut cells = vec![choice.name.clone()];
     cells.extend(keys.iter().map(|key| setting(key).unwrap_or_default()));
-    let state = match choice.state {
-        ChoiceState::Waiting => "waiting",
-        ChoiceState::Finished => "finished",
-        ChoiceState::Unstable => "unstable",
-    };
-    cells.extend([state.to_owned(), choice.steps.to_string()]);
+    cells.extend([choice.state.name().to_owned(), choice.steps.to_string()]);
     let cost = choice.cost.map(|cost| {
         let times = [cost.seconds_per_time, cost.fastest, cost.slowest];
         [times[0], times[1], times[2], cost.particle_steps_per_second, cost.bytes_per_particle]
@@ -72,7 +56,7 @@ fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<String>
         cells.extend(is_known_of_schemes(summary, measure).then(|| number(error.and_then(|error| error.of_scheme))));
     }
     if !summary.arguments.targets.is_empty() {
-        let verdict = choice.verdict.map(super::advice::verdict_word);
+        let verdict = choice.verdict.map(Verdict::name);
         cells.push(verdict.unwrap_or_default().to_owned());
     }
     cells

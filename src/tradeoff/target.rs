@@ -50,6 +50,17 @@ pub enum Verdict {
     Misses,
 }
 
+impl Verdict {
+    /// Its word.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Meets => "meets",
+            Self::Open => "open",
+            Self::Misses => "misses",
+        }
+    }
+}
+
 impl Target {
     /// Reads `measure=1%` or `measure=0.2`.
     ///
