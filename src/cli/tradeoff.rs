@@ -125,19 +125,12 @@ fn request(scene: &str, arguments: &Arguments) -> Result<Request, Failure> {
     }
     let length = Length { error: arguments.error, budget: arguments.budget };
     let VariantArguments { vary, also } = &arguments.variants;
-    let request = Request::load_for(scene, &arguments.study.set, arguments.study.steps, vary, also)?
+    Ok(Request::load_for(scene, &arguments.study.set, arguments.study.steps, vary, also)?
         .with_length(length)
         .with_measures(&arguments.measure)?
         .with_references(references)?
-        .with_targets(targets)?;
-    let request = match &arguments.finer {
-        Some(finer) => request.with_finer(finer)?,
-        None => request,
-    };
-    Ok(match &arguments.still_finer {
-        Some(still_finer) => request.with_still_finer(still_finer)?,
-        None => request,
-    })
+        .with_targets(targets)?
+        .with_finer(arguments.finer.as_deref(), arguments.still_finer.as_deref())?)
 }
 
 /// Refuses a place for the new scene that could not be written to at the end.

@@ -5,7 +5,7 @@ use crate::families::Model;
 use crate::gpu::{AdapterChoice, GpuError};
 use crate::measure::equilibration::transient;
 use crate::run::{self, Interrupt, RunError, Stop, Trial};
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneError};
 use crate::tradeoff::{self, Deviation, Measured, Reference, References, error_in_words};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -43,12 +43,24 @@ pub struct Cell {
 }
 
 impl Cell {
+    /// A scene before it has run.
+    fn before(value: f64) -> Self {
+        Self {
+            value,
+            verdict: Verdict::Right,
+            is_certain: true,
+            steps: 0,
+            time_step: None,
+            errors: Vec::new(),
+            reason: None,
+            unequilibrated: Vec::new(),
+            undefined: Vec::new(),
+        }
+    }
+
     /// A scene that is none.
     pub(super) fn refused(value: f64, reason: String) -> Self {
-        let (verdict, is_certain) = (Verdict::Refused, true);
-        let reason = Some(reason);
-        let (errors, unequilibrated, undefined) = (Vec::new(), Vec::new(), Vec::new());
-        Self { value, verdict, is_certain, steps: 0, time_step: None, errors, reason, unequilibrated, undefined }
+        Self { verdict: Verdict::Refused, reason: Some(reason), ..Self::before(value) }
     }
 
     /// Why it was refused, or became unstable, in a line.
@@ -100,29 +112,19 @@ pub(super) struct Comparison<'a> {
     pub tolerance: f64,
 }
 
-/// Runs a scene; none if it was asked to stop.
-///
-/// # Errors
-/// [`RunError`] for what says nothing about the scene.
-pub(super) fn evaluate(
-    value: f64,
-    scene: &Scene,
-    comparison: &Comparison<'_>,
-    adapter: &AdapterChoice,
-    interrupt: &Interrupt,
-) -> Result<Option<Cell>, RunError> {
-    match run(value, scene, comparison, adapter, interrupt) {
-        Err(error) if is_of_the_scene(&error) => Ok(Some(Cell::refused(value, error.to_string()))),
-        ended => ended,
+/// Whether an error says that there can be no such run here.
+pub(super) fn is_of_the_scene(error: &RunError) -> bool {
+    match error {
+        RunError::Scene(error) => !matches!(error, SceneError::StateChanged { .. }),
+        error => matches!(error, RunError::TooLarge { .. } | RunError::Gpu(GpuError::TooSmall { .. })),
     }
 }
 
-/// Whether an error says that there can be no such run here.
-fn is_of_the_scene(error: &RunError) -> bool {
-    matches!(error, RunError::Scene(_) | RunError::TooLarge { .. } | RunError::Gpu(GpuError::TooSmall { .. }))
-}
-
-fn run(
+/// Runs a scene; none if it was asked to stop.
+///
+/// # Errors
+/// [`RunError`], also for what says something about the scene.
+pub(super) fn evaluate(
     value: f64,
     scene: &Scene,
     comparison: &Comparison<'_>,
@@ -133,28 +135,19 @@ fn run(
     let mut trial = Trial::new(&gpu, scene)?;
     let (equilibration, every) = (scene.time.equilibration, scene.output.energies.every.max(1));
     let averaged = scene.time.steps.saturating_sub(equilibration);
-    let mut cell = Cell {
-        value,
-        verdict: Verdict::Right,
-        is_certain: true,
-        steps: 0,
-        time_step: Some(scene.time.step),
-        errors: Vec::new(),
-        reason: None,
-        unequilibrated: Vec::new(),
-        undefined: Vec::new(),
-    };
+    let mut cell = Cell { time_step: Some(scene.time.step), ..Cell::before(value) };
     for part in PARTS {
         let more = ((part * averaged as f64 / every as f64).ceil() as u64).saturating_mul(every);
         match trial.advance(equilibration.saturating_add(more), interrupt)? {
             Stop::Interrupted => return Ok(None),
             Stop::Unstable(reason) => {
-                cell.errors.clear();
+                let (verdict, steps) = (Verdict::Unstable, trial.step());
                 return Ok(Some(Cell {
-                    verdict: Verdict::Unstable,
+                    verdict,
                     is_certain: true,
                     reason: Some(reason),
-                    steps: trial.step(),
+                    steps,
+                    errors: Vec::new(),
                     ..cell
                 }));
             }

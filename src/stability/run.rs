@@ -1,12 +1,12 @@
 //! A map of stability from its first scene to its page.
 
 use super::bounds::bounds;
-use super::cell::{Cell, Comparison, evaluate};
+use super::cell::{Cell, Comparison, evaluate, is_of_the_scene};
 use super::summary::{MOST_EDGES, StabilitySummary};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::numbers::short;
 use crate::run::{self, RunError};
-use crate::scene::{Output, Scene, SceneError};
+use crate::scene::{Output, Scene};
 use crate::study::{self, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun, at_once};
 use std::fmt;
 use std::time::Instant;
@@ -122,11 +122,10 @@ impl StudyRun<StabilitySummary> {
             tolerance: request.arguments.tolerance,
         };
         let work = |(row, value): &Place, report: &dyn Fn(Result<Option<Cell>, RunError>)| {
-            report(match request.scene(*row, *value) {
-                Ok(scene) => evaluate(*value, &scene, &comparison, adapter, &interrupt),
-                // That says nothing about the scene.
-                Err(error @ SceneError::StateChanged { .. }) => Err(error.into()),
-                Err(error) => Ok(Some(Cell::refused(*value, error.to_string()))),
+            let ended = request.scene(*row, *value).map_err(RunError::from);
+            report(match ended.and_then(|scene| evaluate(*value, &scene, &comparison, adapter, &interrupt)) {
+                Err(error) if is_of_the_scene(&error) => Ok(Some(Cell::refused(*value, error.to_string()))),
+                ended => ended,
             });
         };
         at_once(places, jobs, &interrupt, work, |number, ended| {

@@ -91,7 +91,7 @@ impl Sweep {
         (set, steps): (&[String], Option<u64>),
         vary: &[String],
         also: &[String],
-        mut files: StateFiles,
+        files: StateFiles,
         step: StepCheck,
     ) -> Result<Self, StudyError> {
         let mut mistakes = Vec::new();
@@ -134,8 +134,8 @@ impl Sweep {
             // The reader of scenes says what is wrong in better words.
             return Err(scene::parse(name, text, set).err().map_or_else(unreadable, StudyError::Scene));
         };
-        let variants = expand(name, text, (set, steps), &read, &further, &mut files, step)?;
-        Ok(Self { scene: name.to_owned(), base, set: set.to_vec(), steps, vary: read, also: further, files, variants })
+        let (scene, set, variants) = (name.to_owned(), set.to_vec(), Vec::new());
+        Self { scene, base, set, steps, vary: read, also: further, files, variants }.expand(text, step)
     }
 
     /// The sweep of a summary.
@@ -145,10 +145,10 @@ impl Sweep {
         (set, steps): (Vec<String>, Option<u64>),
         vary: Vec<Variation>,
         also: Vec<Vec<Setting>>,
-        mut files: StateFiles,
+        files: StateFiles,
     ) -> Result<Self, StudyError> {
-        let variants = expand(&scene, &base.to_string(), (&set, steps), &vary, &also, &mut files, StepCheck::Refuse)?;
-        Ok(Self { scene, base, set, steps, vary, also, files, variants })
+        let text = base.to_string();
+        Self { scene, base, set, steps, vary, also, files, variants: Vec::new() }.expand(&text, StepCheck::Refuse)
     }
 
     /// The variants, in order.
@@ -165,17 +165,70 @@ impl Sweep {
 
     /// All keys that distinguish variants, in order.
     pub(crate) fn keys(&self) -> Vec<&str> {
-        keys(&self.vary, &self.also)
+        let varied = self.vary.iter().map(|variation| variation.key.as_str());
+        each_once(varied.chain(self.also.iter().flatten().map(|setting| setting.key.as_str())))
+    }
+
+    /// The same with its variants, of the scene in a text.
+    fn expand(mut self, text: &str, step: StepCheck) -> Result<Self, StudyError> {
+        let counts: Vec<usize> = self.vary.iter().map(|variation| variation.values.len()).collect();
+        let combined = combinations(&counts).into_iter().map(|places| {
+            let setting = |(variation, place): (&Variation, &usize)| Setting {
+                key: variation.key.clone(),
+                value: variation.values[*place].clone(),
+            };
+            (self.vary.iter().zip(&places).map(setting).collect::<Vec<_>>(), places)
+        });
+        let further = self.also.iter().map(|settings| (settings.clone(), Vec::new()));
+        let all: Vec<(Vec<Setting>, Vec<usize>)> = combined.chain(further).collect();
+        let short = ShortKeys::of(&self.keys());
+        let names = naming::distinct(all.iter().map(|(settings, _)| naming::directory(settings, &short)).collect());
+        let mut variants = Vec::new();
+        let mut mistakes: Vec<Mistake> = Vec::new();
+        for ((settings, places), variant) in all.into_iter().zip(names) {
+            let overrides: Vec<String> =
+                self.set.iter().cloned().chain(settings.iter().map(Setting::argument)).collect();
+            let sets_steps = settings.iter().any(|setting| ["time", "time.steps"].contains(&setting.key.as_str()));
+            let steps = self.steps.filter(|_| !sets_steps);
+            let read = |step| scene::parse_with(&self.files, &self.scene, text, &overrides, steps, step);
+            let (found, refusal) = match (read(StepCheck::Refuse), step) {
+                (Err(SceneError::Invalid { problems, .. }), StepCheck::Allow) => {
+                    (read(StepCheck::Allow), problems.first().map(ToString::to_string))
+                }
+                (found, _) => (found, None),
+            };
+            match found {
+                Ok((scene, notices)) => {
+                    self.files.note(&scene);
+                    // Values of one key differ, but a further variant may be one of the combinations.
+                    let twin = variants.iter().find(|known: &&Variant| places.is_empty() && known.scene == scene);
+                    if let Some(twin) = twin {
+                        let message = format!("this is the scene of `{}` again; leave one of them out", twin.name);
+                        mistakes.push(Mistake { variants: vec![variant], message });
+                        continue;
+                    }
+                    let label = short.label(&settings);
+                    variants.push(Variant { name: variant, label, settings, scene, notices, refusal, places });
+                }
+                Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => {
+                    return Err(StudyError::Scene(error));
+                }
+                Err(error) => {
+                    let message = error.to_string();
+                    match mistakes.iter_mut().find(|known| known.message == message) {
+                        Some(known) => known.variants.push(variant),
+                        None => mistakes.push(Mistake { variants: vec![variant], message }),
+                    }
+                }
+            }
+        }
+        self.variants = variants;
+        if mistakes.is_empty() { Ok(self) } else { Err(StudyError::Variants { mistakes }) }
     }
 }
 
 fn unreadable() -> StudyError {
     StudyError::Arguments { mistakes: vec!["the scene is not JSON".to_owned()] }
-}
-
-fn keys<'a>(vary: &'a [Variation], also: &'a [Vec<Setting>]) -> Vec<&'a str> {
-    let varied = vary.iter().map(|variation| variation.key.as_str());
-    each_once(varied.chain(also.iter().flatten().map(|setting| setting.key.as_str())))
 }
 
 /// Every combination of places, the last varying fastest.
@@ -187,68 +240,6 @@ fn combinations(counts: &[usize]) -> Vec<Vec<usize>> {
         };
         combinations.iter().flat_map(longer).collect()
     })
-}
-
-fn expand(
-    name: &str,
-    text: &str,
-    (set, steps): (&[String], Option<u64>),
-    vary: &[Variation],
-    also: &[Vec<Setting>],
-    files: &mut StateFiles,
-    step: StepCheck,
-) -> Result<Vec<Variant>, StudyError> {
-    let counts: Vec<usize> = vary.iter().map(|variation| variation.values.len()).collect();
-    let combined = combinations(&counts).into_iter().map(|places| {
-        let setting = |(variation, place): (&Variation, &usize)| Setting {
-            key: variation.key.clone(),
-            value: variation.values[*place].clone(),
-        };
-        (vary.iter().zip(&places).map(setting).collect::<Vec<_>>(), places)
-    });
-    let further = also.iter().map(|settings| (settings.clone(), Vec::new()));
-    let all: Vec<(Vec<Setting>, Vec<usize>)> = combined.chain(further).collect();
-    let short = ShortKeys::of(&keys(vary, also));
-    let names = naming::distinct(all.iter().map(|(settings, _)| naming::directory(settings, &short)).collect());
-    let mut variants = Vec::new();
-    let mut mistakes: Vec<Mistake> = Vec::new();
-    for ((settings, places), variant) in all.into_iter().zip(names) {
-        let overrides: Vec<String> = set.iter().cloned().chain(settings.iter().map(Setting::argument)).collect();
-        let sets_steps = settings.iter().any(|setting| ["time", "time.steps"].contains(&setting.key.as_str()));
-        let steps = steps.filter(|_| !sets_steps);
-        let read = |step| scene::parse_with(files, name, text, &overrides, steps, step);
-        let (found, refusal) = match (read(StepCheck::Refuse), step) {
-            (Err(SceneError::Invalid { problems, .. }), StepCheck::Allow) => {
-                (read(StepCheck::Allow), problems.first().map(ToString::to_string))
-            }
-            (found, _) => (found, None),
-        };
-        match found {
-            Ok((scene, notices)) => {
-                files.note(&scene);
-                // Values of one key differ, but a further variant may be one of the combinations.
-                let twin = variants.iter().find(|known: &&Variant| places.is_empty() && known.scene == scene);
-                if let Some(twin) = twin {
-                    let message = format!("this is the scene of `{}` again; leave one of them out", twin.name);
-                    mistakes.push(Mistake { variants: vec![variant], message });
-                    continue;
-                }
-                let label = short.label(&settings);
-                variants.push(Variant { name: variant, label, settings, scene, notices, refusal, places });
-            }
-            Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => {
-                return Err(StudyError::Scene(error));
-            }
-            Err(error) => {
-                let message = error.to_string();
-                match mistakes.iter_mut().find(|known| known.message == message) {
-                    Some(known) => known.variants.push(variant),
-                    None => mistakes.push(Mistake { variants: vec![variant], message }),
-                }
-            }
-        }
-    }
-    if mistakes.is_empty() { Ok(variants) } else { Err(StudyError::Variants { mistakes }) }
 }
 
 #[cfg(test)]

@@ -41,10 +41,89 @@ pub(super) struct Timed<'a> {
     pub state: &'a State,
 }
 
-/// An engine of steps without reports, and how many of them fill a turn.
+/// A choice that has its turns.
 struct Runner<'a> {
-    engine: Engine<'a>,
-    steps: u64,
+    choice: &'a Timed<'a>,
+    options: Options,
+    /// An engine of steps without reports, between turns only where all of them fit into memory.
+    engine: Option<Engine<'a>>,
+    /// How many steps fill a turn, once that is known.
+    steps: Option<u64>,
+    /// Seconds of steps a unit of simulated time, turn by turn.
+    times: Vec<f64>,
+    has_ended: bool,
+}
+
+impl<'a> Runner<'a> {
+    /// Times steps, with more room where that is wanted, as a run does.
+    fn take_turn(&mut self, gpu: &'a Gpu) -> Result<(), EngineError> {
+        loop {
+            match self.advance(gpu) {
+                Err(error) if is_a_result(&error) => self.has_ended = true,
+                Err(EngineError::Crowded { .. }) if self.options.has_room_left() => {
+                    self.options = self.options.with_room(self.choice.state.len() as u64);
+                    continue;
+                }
+                ended => ended?,
+            }
+            return Ok(());
+        }
+    }
+
+    fn advance(&mut self, gpu: &'a Gpu) -> Result<(), EngineError> {
+        let mut engine = if let Some(engine) = self.engine.take() {
+            engine
+        } else {
+            let plan = steps_of(self.choice, Hardware::from(gpu), self.options);
+            let mut engine = Engine::new(gpu, plan, self.choice.state)?;
+            // The first steps touch memory for the first time.
+            seconds_of(&mut engine, 4)?;
+            engine
+        };
+        let steps = match self.steps {
+            Some(steps) => steps,
+            None => steps_of_a_turn(&mut engine)?,
+        };
+        self.steps = Some(steps);
+        let seconds = seconds_of(&mut engine, steps)?;
+        self.times.push(seconds / (steps as f64 * self.choice.scene.time.step));
+        self.engine = Some(engine);
+        Ok(())
+    }
+
+    /// The cost, for so many bytes on the device; none where there was no turn.
+    fn cost(mut self, bytes: u64) -> Option<Cost> {
+        self.times.sort_by(f64::total_cmp);
+        let particles = self.choice.state.len() as f64;
+        let median = *self.times.get(self.times.len() / 2)?;
+        Some(Cost {
+            seconds_per_time: median,
+            fastest: self.times[0],
+            slowest: self.times[self.times.len() - 1],
+            particle_steps_per_second: particles / (median * self.choice.scene.time.step),
+            bytes_per_particle: bytes as f64 / particles.max(1.0),
+        })
+    }
+}
+
+/// Seconds that steps take.
+fn seconds_of(engine: &mut Engine<'_>, steps: u64) -> Result<f64, EngineError> {
+    let start = Instant::now();
+    engine.advance(steps, steps)?;
+    engine.finish()?;
+    Ok(start.elapsed().as_secs_f64())
+}
+
+/// How many steps fill a turn.
+fn steps_of_a_turn(engine: &mut Engine<'_>) -> Result<u64, EngineError> {
+    let mut steps = 1;
+    loop {
+        let seconds = seconds_of(engine, steps)?;
+        if seconds >= 0.5 * TURN {
+            return Ok(((steps as f64 * TURN / seconds) as u64).max(1));
+        }
+        steps *= 2;
+    }
 }
 
 /// The cost of every choice; none where its steps end in instability before they are timed.
@@ -65,67 +144,27 @@ pub(super) fn measure(
     let gpu = Gpu::open(adapter, requirements)?;
     let bytes: Vec<u64> = plans(Hardware::from(&gpu)).map(|plan| plan.bytes()).collect();
     let shares = bytes.iter().sum::<u64>() <= SHARED;
-    let mut runners: Vec<Option<Runner<'_>>> = choices.iter().map(|_| None).collect();
-    let mut steps: Vec<Option<u64>> = vec![None; choices.len()];
-    let mut times: Vec<Vec<f64>> = vec![Vec::new(); choices.len()];
-    let mut ended = vec![false; choices.len()];
-    let mut options = vec![Options::default(); choices.len()];
+    let runner = |choice| {
+        let options = Options::default();
+        Runner { choice, options, engine: None, steps: None, times: Vec::new(), has_ended: false }
+    };
+    let mut runners: Vec<Runner<'_>> = choices.iter().map(runner).collect();
     for round in 0..ROUNDS {
-        // There and back, so that no choice is always the first.
-        let order: Vec<usize> =
-            if round % 2 == 0 { (0..choices.len()).collect() } else { (0..choices.len()).rev().collect() };
-        for index in order.into_iter().filter(|index| !ended[*index]).collect::<Vec<_>>() {
-            proceed()?;
-            let choice = &choices[index];
-            let wrong = |source: EngineError| StudyError::of_run(choice.name, source);
-            let mut runner = match runners[index].take() {
-                Some(runner) => runner,
-                None => match open(&gpu, choice, steps[index], &mut options[index]) {
-                    Ok(runner) => runner,
-                    Err(error) if is_a_result(&error) => {
-                        ended[index] = true;
-                        continue;
-                    }
-                    Err(error) => return Err(wrong(error)),
-                },
-            };
-            steps[index] = Some(runner.steps);
-            let start = Instant::now();
-            match runner.engine.advance(runner.steps, runner.steps).and_then(|()| runner.engine.finish()) {
-                Ok(_) => {
-                    let seconds = start.elapsed().as_secs_f64();
-                    times[index].push(seconds / (runner.steps as f64 * choice.scene.time.step));
-                }
-                Err(error) if is_a_result(&error) => {
-                    ended[index] = true;
-                    continue;
-                }
-                // The next turn begins with more room, as a run does.
-                Err(EngineError::Crowded { .. }) if options[index].has_room_left() => {
-                    options[index] = options[index].with_room(choice.state.len() as u64);
-                    continue;
-                }
-                Err(error) => return Err(wrong(error)),
+        for place in 0..runners.len() {
+            // There and back, so that no choice is always the first.
+            let index = if round % 2 == 0 { place } else { runners.len() - 1 - place };
+            let runner = &mut runners[index];
+            if runner.has_ended {
+                continue;
             }
-            if shares {
-                runners[index] = Some(runner);
+            proceed()?;
+            runner.take_turn(&gpu).map_err(|source| StudyError::of_run(runner.choice.name, source))?;
+            if !shares {
+                runner.engine = None;
             }
         }
     }
-    let cost = |index: usize| {
-        let mut sorted = times[index].clone();
-        sorted.sort_by(f64::total_cmp);
-        let particles = choices[index].state.len() as f64;
-        let median = *sorted.get(sorted.len() / 2)?;
-        Some(Cost {
-            seconds_per_time: median,
-            fastest: sorted[0],
-            slowest: sorted[sorted.len() - 1],
-            particle_steps_per_second: particles / (median * choices[index].scene.time.step),
-            bytes_per_particle: bytes[index] as f64 / particles.max(1.0),
-        })
-    };
-    Ok((0..choices.len()).map(cost).collect())
+    Ok(runners.into_iter().zip(bytes).map(|(runner, bytes)| runner.cost(bytes)).collect())
 }
 
 /// Whether an error says something about the choice, not about the machine.
@@ -145,49 +184,4 @@ pub(super) fn is_unstable(error: &RunError) -> bool {
 fn steps_of(choice: &Timed<'_>, hardware: Hardware, options: Options) -> Plan {
     let scene = choice.scene;
     run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, hardware, options).without_reports()
-}
-
-/// Makes an engine for a turn, and finds how many steps fill one where that is not known.
-fn open<'a>(
-    gpu: &'a Gpu,
-    choice: &Timed<'_>,
-    steps: Option<u64>,
-    options: &mut Options,
-) -> Result<Runner<'a>, EngineError> {
-    loop {
-        match try_to_open(gpu, choice, steps, *options) {
-            // As a run does.
-            Err(EngineError::Crowded { .. }) if options.has_room_left() => {
-                *options = options.with_room(choice.state.len() as u64);
-            }
-            opened => return opened,
-        }
-    }
-}
-
-fn try_to_open<'a>(
-    gpu: &'a Gpu,
-    choice: &Timed<'_>,
-    steps: Option<u64>,
-    options: Options,
-) -> Result<Runner<'a>, EngineError> {
-    let mut engine = Engine::new(gpu, steps_of(choice, Hardware::from(gpu), options), choice.state)?;
-    // The first steps touch memory for the first time.
-    engine.advance(4, 4)?;
-    engine.finish()?;
-    if let Some(steps) = steps {
-        return Ok(Runner { engine, steps });
-    }
-    let mut steps = 1;
-    loop {
-        let start = Instant::now();
-        engine.advance(steps, steps)?;
-        engine.finish()?;
-        let seconds = start.elapsed().as_secs_f64();
-        if seconds >= 0.5 * TURN {
-            let fit = steps as f64 * TURN / seconds;
-            return Ok(Runner { engine, steps: (fit as u64).max(1) });
-        }
-        steps *= 2;
-    }
 }

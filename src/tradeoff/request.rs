@@ -197,29 +197,17 @@ impl Request {
         Ok(self)
     }
 
-    /// The same, whose references are those of a run with these settings, `key=value,key=value,…`, instead of half the smallest time
-    /// step.
+    /// The same, whose references are those of a run with the settings `finer`, `key=value,key=value,…`, instead of half the smallest time
+    /// step. A run with the settings `still_finer` beside those says how far that one is off in them: what they change is added to the
+    /// uncertainty of its references.
     ///
     /// # Errors
     /// [`StudyError::Arguments`] if they are not settings, [`StudyError::Variants`] if they make no scene.
-    pub fn with_finer(mut self, argument: &str) -> Result<Self, StudyError> {
-        check_finer("--finer", argument)?;
-        self.arguments.finer = Some(argument.to_owned());
-        self.with_files_of_finer()
-    }
-
-    /// The same, where a run with these settings beside those of the finer one says how far that one is off in them: what they change is
-    /// added to the uncertainty of its references.
-    ///
-    /// # Errors
-    /// Those of [`Request::with_finer`].
-    pub fn with_still_finer(mut self, argument: &str) -> Result<Self, StudyError> {
-        check_finer("--still-finer", argument)?;
-        self.arguments.still_finer = Some(argument.to_owned());
-        self.with_files_of_finer()
-    }
-
-    fn with_files_of_finer(mut self) -> Result<Self, StudyError> {
+    pub fn with_finer(mut self, finer: Option<&str>, still_finer: Option<&str>) -> Result<Self, StudyError> {
+        for (option, argument) in [("--finer", finer), ("--still-finer", still_finer)] {
+            argument.map_or(Ok(()), |argument| check_finer(option, argument))?;
+        }
+        [self.arguments.finer, self.arguments.still_finer] = [finer, still_finer].map(|asked| asked.map(str::to_owned));
         for (_, scene) in self.finer_scenes()? {
             self.arguments.state_files.note(&scene);
         }
@@ -403,19 +391,20 @@ mod tests {
             request.finer_scenes().unwrap().into_iter().map(|(_, scene)| scene.time.step).collect()
         };
         assert_eq!(steps(&request), [0.01, 0.02]);
-        let asked = request.clone().with_finer("time.step=0.005,integrator.type=groot-warren").unwrap();
+        let finer = Some("time.step=0.005,integrator.type=groot-warren");
+        let asked = request.clone().with_finer(finer, None).unwrap();
         assert_eq!(steps(&asked), [0.005, 0.01]);
-        assert!(request.clone().with_finer("integrator.type=none").is_err());
+        assert!(request.clone().with_finer(Some("integrator.type=none"), None).is_err());
         // The still finer run has the settings of the finer one, its own, and the step of either.
-        let still = asked.clone().with_still_finer("integrator.lambda=0.65").unwrap();
+        let still = request.clone().with_finer(finer, Some("integrator.lambda=0.65")).unwrap();
         assert_eq!(steps(&still), [0.005, 0.01, 0.005]);
         let scenes = still.finer_scenes().unwrap();
         assert_eq!(scenes.iter().map(|(name, _)| *name).collect::<Vec<_>>(), still.finer_names());
         let same_but_for = |scene: &Scene| Scene { integrator: scenes[0].1.integrator.clone(), ..scene.clone() };
         assert_ne!(scenes[2].1, scenes[0].1);
         assert_eq!(same_but_for(&scenes[2].1), scenes[0].1);
-        assert_eq!(steps(&asked.clone().with_still_finer("time.step=0.0025").unwrap()), [0.005, 0.01, 0.0025]);
-        let text = asked.with_still_finer("time.steps=7").unwrap_err().to_string();
+        assert_eq!(steps(&request.clone().with_finer(finer, Some("time.step=0.0025")).unwrap()), [0.005, 0.01, 0.0025]);
+        let text = request.with_finer(finer, Some("time.steps=7")).unwrap_err().to_string();
         assert!(text.contains("`--still-finer time.steps=7`: `time.steps` follows from the choices"), "{text}");
     }
 }
