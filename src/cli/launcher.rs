@@ -156,22 +156,21 @@ pub fn shard() -> Result<Shard, Failure> {
     shard_of(&environment).map_err(|problem| Failure::usage(format!("`--shard auto`: {problem}")))
 }
 
+/// The number in the first of the variables that the launcher of this copy has for it.
+fn number_of_machine(variables: impl Fn(&Launcher) -> &[&str]) -> Option<usize> {
+    let (launcher, ..) = launcher(&environment)?;
+    let found = variables(launcher).iter().find_map(|name| number(&environment, name));
+    found.and_then(|number| usize::try_from(number).ok())
+}
+
 /// The number of this copy among those on its machine, from zero, where a launcher says it.
 pub fn local_rank() -> Option<usize> {
-    let (launcher, ..) = launcher(&environment)?;
-    launcher.local.iter().find_map(|name| number(&environment, name)).and_then(|rank| usize::try_from(rank).ok())
+    number_of_machine(|launcher| launcher.local)
 }
 
 /// The number of copies on this machine, where a launcher says it; else one.
 pub fn local_copies() -> usize {
-    let found = launcher(&environment).and_then(|(launcher, ..)| {
-        launcher
-            .on_machine
-            .iter()
-            .find_map(|name| number(&environment, name))
-            .and_then(|count| usize::try_from(count).ok())
-    });
-    found.unwrap_or(1).max(1)
+    number_of_machine(|launcher| launcher.on_machine).unwrap_or(1).max(1)
 }
 
 /// Whether a launcher started this copy and others.

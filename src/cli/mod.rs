@@ -89,39 +89,33 @@ impl Command {
             Self::Check(_) | Self::Scenes(_) | Self::Schema(_) | Self::Adapters(_) => Ok(()),
         }
     }
+    fn execute(&self) -> Result<(), Failure> {
+        self.check_alone()?;
+        if !matches!(self, Self::Scenes(_) | Self::Schema(_)) {
+            prepare_environment_among(launcher::local_copies());
+        }
+        match self {
+            Self::Run(arguments) => {
+                processes::share(&arguments.choice(), &|processes| run::execute(arguments, processes))
+            }
+            Self::Check(arguments) => check::execute(arguments),
+            Self::Resume(arguments) => {
+                processes::share(&arguments.choice(), &|processes| resume::execute(arguments, processes))
+            }
+            Self::Sweep(arguments) => sweep::execute(arguments),
+            Self::Tradeoff(arguments) => tradeoff::execute(arguments),
+            Self::Stability(arguments) => stability::execute(arguments),
+            Self::Plot(arguments) => plot::execute(arguments),
+            Self::Scenes(arguments) => scenes::execute(arguments),
+            Self::Schema(arguments) => schema::execute(arguments),
+            Self::Adapters(arguments) => adapters::execute(arguments),
+        }
+    }
 }
 
 /// Reads the command line, executes the command and turns a failure into a message and an exit code.
 pub fn main() -> ExitCode {
-    let command = Arguments::parse().command;
-    if let Err(failure) = command.check_alone() {
-        line(&format!("{}{failure}", failure.prefix()));
-        return ExitCode::from(failure.exit_code());
-    }
-    if !matches!(command, Command::Scenes(_) | Command::Schema(_)) {
-        prepare_environment_among(launcher::local_copies());
-    }
-    let result = match command {
-        Command::Run(arguments) => {
-            processes::share(&arguments.choice(), &|processes| run::execute(&arguments, processes))
-        }
-        Command::Check(arguments) => check::execute(&arguments),
-        Command::Resume(arguments) => {
-            processes::share(&arguments.choice(), &|processes| resume::execute(&arguments, processes))
-        }
-        Command::Sweep(arguments) => sweep::execute(&arguments),
-        Command::Tradeoff(arguments) => tradeoff::execute(&arguments),
-        Command::Stability(arguments) => stability::execute(&arguments),
-        Command::Plot(arguments) => plot::execute(&arguments),
-        Command::Scenes(arguments) => scenes::execute(&arguments),
-        Command::Schema(arguments) => schema::execute(&arguments),
-        Command::Adapters(arguments) => adapters::execute(&arguments),
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            line(&format!("{}{failure}", failure.prefix()));
-            ExitCode::from(failure.exit_code())
-        }
-    }
+    let Err(failure) = Arguments::parse().command.execute() else { return ExitCode::SUCCESS };
+    line(&format!("{}{failure}", failure.prefix()));
+    ExitCode::from(failure.exit_code())
 }

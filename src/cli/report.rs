@@ -1,30 +1,34 @@
 //! What a run prints for its user: a line at the start, progress, a table at the end.
 
-use std::io::IsTerminal as _;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use indicatif::ProgressBar;
 use mesoscope::families::{Model, PictureKind};
-use mesoscope::gpu::AdapterChoice;
 use mesoscope::numbers::{grouped, prefixed};
 use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
 use mesoscope::scene::Scene;
 
+use super::progress::Bar;
 use super::table::{aligned, dimensions};
-use super::{Failure, SceneArguments, line, print, progress};
+use super::{AdapterArgument, Failure, RanksArgument, SceneArguments, line, print};
 
-/// Executes a run and reports on it, with what is to be warned of before, unless it is to be quiet.
+/// Executes a run on its ranks and reports on it, with warnings of what they cost before, unless it is to be quiet.
 pub fn execute(
     simulation: Simulation,
     processes: Option<&dyn Processes>,
-    choice: &AdapterChoice,
+    ranks: &RanksArgument,
+    adapter: &AdapterArgument,
     directory: &str,
-    (quiet, warning): (bool, Option<String>),
+    quiet: bool,
 ) -> Result<(), Failure> {
+    let copies = processes.map(Processes::count);
+    let division = ranks.division((simulation.scene(), simulation.model()), adapter, copies)?;
+    let warning = RanksArgument::warning(division, adapter, copies);
+    let simulation = simulation.on_ranks(division).mixed(ranks.mixed);
+    let choice = &adapter.choice_of_copy();
     // Other processes wait for word of this one; a run that goes on has its checkpoint.
     let begun = Arc::new(AtomicBool::new(processes.is_some() || simulation.first_step() > 0));
     let simulation = simulation.until(&super::interruption::interrupt(&begun));
@@ -53,7 +57,7 @@ pub fn execute(
         note_begin(&event);
         reporter.show(event);
     });
-    reporter.clear();
+    reporter.bar.clear();
     let outcome = result?;
     known.append(&mut reporter.told);
     for warning in outcome.summary.warnings.iter().filter(|warning| !known.contains(warning)) {
@@ -82,8 +86,7 @@ struct Reporter {
     particles: u64,
     /// What they are, and what acts on them, where a file or molecules say it.
     composition: Vec<Vec<String>>,
-    bar: Option<ProgressBar>,
-    terminal: bool,
+    bar: Bar,
     /// Tenths of the run already reported on lines of their own, and when the last was.
     reported: u64,
     reported_at: Instant,
@@ -103,26 +106,11 @@ impl Reporter {
                 rows.map(|(name, text)| vec![name.to_owned(), text]).collect()
             },
             scene: simulation.scene().clone(),
-            bar: None,
-            terminal: std::io::stderr().is_terminal(),
+            bar: Bar::default(),
             reported: 0,
             reported_at: Instant::now(),
             first_step: 0,
             told: Vec::new(),
-        }
-    }
-
-    /// Prints a line above the bar.
-    fn say(&self, text: &str) {
-        match &self.bar {
-            Some(bar) => bar.suspend(|| line(text)),
-            None => line(text),
-        }
-    }
-
-    fn clear(&mut self) {
-        if let Some(bar) = self.bar.take() {
-            bar.finish_and_clear();
         }
     }
 
@@ -142,30 +130,23 @@ impl Reporter {
                     aligned(&self.composition, "  ")
                 ));
                 self.first_step = first_step;
-                if self.terminal {
-                    let bar = progress::bar(last_step, "step {pos}/{len} {wide_bar} {percent:>3}%  {msg}");
-                    self.bar = Some(bar.with_position(first_step));
-                }
+                self.bar.begin(first_step, last_step, "step {pos}/{len} {wide_bar} {percent:>3}%  {msg}");
             }
             Event::Advanced(progress) => self.advanced(&progress),
             Event::Repeating { from, reason, with } => {
-                self.say(&format!("note: {reason}; continuing from step {} with {with}", grouped(from)));
+                self.bar.say(&format!("note: {reason}; continuing from step {} with {with}", grouped(from)));
             }
             Event::Warned { warning } => {
-                self.say(&format!("warning: {warning}"));
+                self.bar.say(&format!("warning: {warning}"));
                 self.told.push(warning.to_owned());
             }
-            Event::Finishing => {
-                if let Some(bar) = &self.bar {
-                    bar.set_message("writing results");
-                }
-            }
+            Event::Finishing => self.bar.announce("writing results"),
             _ => {}
         }
     }
 
     fn advanced(&mut self, progress: &Progress) {
-        if let Some(bar) = &self.bar {
+        if let Some(bar) = &self.bar.0 {
             bar.set_position(progress.step);
             bar.set_message(describe(progress, self.flows));
             return;
@@ -205,31 +186,29 @@ pub fn duration(seconds: u64) -> String {
     }
 }
 
+/// The column of the part of the pressure that is not of friction and noise.
+const CONSERVATIVE_PRESSURE: &str = "pressure_conservative";
+
 fn results(outcome: &Outcome, directory: &str) -> String {
     let summary = &outcome.summary;
     let mut rows = Vec::new();
     let model = Model::new(&summary.scene);
     let flows = model.picture() == PictureKind::Fields;
     // What flows has no temperature to speak of.
-    let mut columns = if flows {
-        vec![
-            ("kinetic_energy", "kinetic energy"),
-            ("potential_energy", "potential energy"),
-            ("total_energy", "total energy"),
-        ]
+    let columns: &[&str] = if flows {
+        &["kinetic_energy", "potential_energy", "total_energy"]
     } else {
-        vec![
-            ("temperature", "temperature"),
-            ("internal_temperature", "internal temperature"),
-            ("configurational_temperature", "configurational temperature"),
-            ("pressure_conservative", "pressure, conservative part"),
-            ("pressure", "pressure"),
-        ]
+        let temperatures = ["temperature", "internal_temperature", "configurational_temperature"];
+        &[&temperatures[..], &[CONSERVATIVE_PRESSURE, "pressure"]].concat()
     };
-    // Friction and noise have no part in the pressure where nothing flows, and widen its error.
-    columns.retain(|(column, _)| *column != "pressure_conservative" || !model.is_driven());
-    for (column, label) in columns {
-        if let Some(value) = summary.means.get(column).and_then(run::printed_mean) {
+    for column in columns {
+        let is_conservative_part = *column == CONSERVATIVE_PRESSURE;
+        // Friction and noise have no part in the pressure where nothing flows, and widen its error.
+        if is_conservative_part && model.is_driven() {
+            continue;
+        }
+        let label = if is_conservative_part { "pressure, conservative part" } else { &column.replace('_', " ") };
+        if let Some(value) = summary.means.get(*column).and_then(run::printed_mean) {
             let spoilt = summary.unequilibrated.as_ref().is_some_and(|found| found.includes(column));
             rows.push(vec![label.to_owned(), marked(value, spoilt)]);
         }

@@ -67,11 +67,7 @@ pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Resu
             format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` continues to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
-    let (adapter, copies) = (&arguments.adapter, processes.map(Processes::count));
-    let division = arguments.ranks.division((simulation.scene(), simulation.model()), adapter, copies)?;
-    let warning = RanksArgument::warning(division, adapter, copies);
-    let simulation = simulation.on_ranks(division).mixed(arguments.ranks.mixed);
-    report::execute(simulation, processes, &arguments.choice(), &shown, (arguments.quiet, warning))
+    report::execute(simulation, processes, &arguments.ranks, &arguments.adapter, &shown, arguments.quiet)
 }
 
 impl Arguments {

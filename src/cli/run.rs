@@ -43,10 +43,7 @@ pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Resu
     let directory = arguments.out.clone().unwrap_or_else(|| report::default_directory(&arguments.scene).into());
     let shown = printable::path(&directory);
     let simulation = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
-    let division = arguments.ranks.division((simulation.scene(), simulation.model()), adapter, copies)?;
-    let warning = RanksArgument::warning(division, adapter, copies);
-    let simulation = simulation.on_ranks(division).mixed(arguments.ranks.mixed);
-    report::execute(simulation, processes, &arguments.choice(), &shown, (arguments.how.quiet, warning))
+    report::execute(simulation, processes, &arguments.ranks, adapter, &shown, arguments.how.quiet)
 }
 
 impl Arguments {

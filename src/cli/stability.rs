@@ -59,7 +59,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     study.note(run.request().notices());
     let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
-    let outcome = study.execute(run, &title, |runs| format!("{runs} runs, then the edges"), StabilityRun::execute)?;
+    let outcome = study.execute(
+        &study.how.adapter.choice(),
+        run,
+        &title,
+        |runs| format!("{runs} runs, then the edges"),
+        StabilityRun::execute,
+    )?;
     if study.how.quiet { Ok(()) } else { print(&results(&outcome, &directory)) }
 }
 

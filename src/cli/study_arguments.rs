@@ -106,19 +106,8 @@ impl StudyArguments {
         }
     }
 
-    /// Executes a study and shows how far it is, unless it is to be quiet; `runs` says what its runs are, given their number.
+    /// Executes a study on an adapter and shows how far it is, unless it is to be quiet; `runs` says what its runs are, given their number.
     pub fn execute<R: Record, O>(
-        &self,
-        study: StudyRun<R>,
-        title: &str,
-        runs: impl Fn(usize) -> String,
-        execute: impl FnOnce(StudyRun<R>, &AdapterChoice, &mut Observer<'_, R>) -> Result<O, StudyError>,
-    ) -> Result<O, Failure> {
-        self.execute_on(&self.how.adapter.choice(), study, title, runs, execute)
-    }
-
-    /// The same on an adapter that is not the one of the arguments.
-    pub fn execute_on<R: Record, O>(
         &self,
         adapter: &AdapterChoice,
         study: StudyRun<R>,
@@ -135,19 +124,13 @@ impl StudyArguments {
             reporter.clear();
             executed
         };
-        executed.map_err(|error| match error {
+        executed.map_err(|error| match (&error, Kind::of(&directory)) {
             // What is in the way may be of another kind, or no study.
-            StudyError::Output(OutputError::ResultExists { .. }) => match Kind::of(&directory) {
-                Some(kind) => {
-                    let resuming = kind.resuming(&directory);
-                    Failure::input_output(format!(
-                        "{error}\nhint: {resuming} goes on with an interrupted {}",
-                        kind.noun
-                    ))
-                }
-                None => error.into(),
-            },
-            error => error.into(),
+            (StudyError::Output(OutputError::ResultExists { .. }), Some(kind)) => {
+                let (noun, resuming) = (kind.noun, kind.resuming(&directory));
+                Failure::input_output(format!("{error}\nhint: {resuming} goes on with an interrupted {noun}"))
+            }
+            _ => error.into(),
         })
     }
 }

@@ -1,17 +1,16 @@
 //! How far many runs are: a bar on a terminal, and a line for every run.
 
 use std::fmt::Display;
-use std::io::IsTerminal as _;
 use std::time::Duration;
 
-use indicatif::ProgressBar;
 use mesoscope::numbers::prefixed;
 use mesoscope::printable;
 use mesoscope::run::Progress;
 use mesoscope::study::{Kind, StudyEvent};
 
+use super::print;
+use super::progress::Bar;
 use super::report::duration;
-use super::{line, print, progress};
 
 /// Parts of a run that a bar can show.
 const PARTS: f64 = 1000.0;
@@ -20,7 +19,7 @@ const PARTS: f64 = 1000.0;
 pub struct Reporter {
     title: String,
     kind: &'static Kind,
-    bar: Option<ProgressBar>,
+    bar: Bar,
     /// Runs under way, with their first steps.
     under_way: Vec<(String, u64, Option<Progress>)>,
     runs: usize,
@@ -30,13 +29,11 @@ pub struct Reporter {
 impl Reporter {
     pub fn new(title: &str, kind: &'static Kind) -> Self {
         let title = printable::name(title).into_owned();
-        Self { title, kind, bar: None, under_way: Vec::new(), runs: 0, ended: 0 }
+        Self { title, kind, bar: Bar::default(), under_way: Vec::new(), runs: 0, ended: 0 }
     }
 
     pub fn clear(&mut self) {
-        if let Some(bar) = self.bar.take() {
-            bar.finish_and_clear();
-        }
+        self.bar.clear();
     }
 
     pub fn show<E: Display, P: Display>(&mut self, event: &StudyEvent<'_, E, P>, in_words: &dyn Fn(usize) -> String) {
@@ -53,9 +50,7 @@ impl Reporter {
                     time.unwrap_or_default()
                 ));
                 self.runs = runs;
-                if std::io::stderr().is_terminal() {
-                    self.bar = Some(progress::bar(0, "{wide_bar} {percent:>3}%  {msg}"));
-                }
+                self.bar.begin(0, 0, "{wide_bar} {percent:>3}%  {msg}");
             }
             StudyEvent::Begun { run, first_step } => self.under_way.push((run.to_owned(), first_step, None)),
             StudyEvent::Advanced { run, progress } => {
@@ -67,33 +62,22 @@ impl Reporter {
             StudyEvent::Ended { run, ended } => {
                 self.under_way.retain(|(name, ..)| name != run);
                 self.ended += 1;
-                self.say(&format!("{} of {}  {run}  {ended}", self.ended, self.runs));
+                self.bar.say(&format!("{} of {}  {run}  {ended}", self.ended, self.runs));
                 self.advanced();
             }
             StudyEvent::Phase { phase, runs } => {
                 self.runs += runs;
-                self.say(&phase.to_string());
+                self.bar.say(&phase.to_string());
                 self.advanced();
             }
-            StudyEvent::Finishing => {
-                if let Some(bar) = &self.bar {
-                    bar.set_message("drawing");
-                }
-            }
+            StudyEvent::Finishing => self.bar.announce("drawing"),
             _ => {}
-        }
-    }
-
-    fn say(&self, text: &str) {
-        match &self.bar {
-            Some(bar) => bar.suspend(|| line(text)),
-            None => line(text),
         }
     }
 
     /// The bar counts runs, those under way by the part of their steps that is done.
     fn advanced(&self) {
-        let Some(bar) = &self.bar else { return };
+        let Some(bar) = &self.bar.0 else { return };
         let progresses = || self.under_way.iter().filter_map(|(_, first, progress)| Some((*first, (*progress)?)));
         let parts = progresses().map(|(first, progress)| {
             let all = progress.last_step.saturating_sub(first).max(1);

@@ -102,8 +102,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let title = sweep.variants().first().map_or("", |variant| &variant.scene.title);
     let in_words = |waiting| in_words(&sweep, shard, variants.len(), waiting);
     let outcome = match shard {
-        None => study.execute(run, title, in_words, SweepRun::execute)?,
-        Some(shard) => study.execute_on(&arguments.adapter(), run, title, in_words, |run, adapter, observer| {
+        None => study.execute(&study.how.adapter.choice(), run, title, in_words, SweepRun::execute)?,
+        Some(shard) => study.execute(&arguments.adapter(), run, title, in_words, |run, adapter, observer| {
             run.execute_shard(shard, adapter, observer)
         })?,
     };

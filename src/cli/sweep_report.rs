@@ -72,14 +72,15 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     header.extend(columns.iter().map(|name| name.replace('_', " ").to_uppercase()));
     header.push("TIME".to_owned());
     let mut rows = vec![header];
-    let shown = |means: &Map<String, Value>, name: &str, spoilt| {
-        means.get(name).and_then(printed_mean).map_or_else(String::new, |mean| marked(mean, spoilt))
+    let shown = |means: &Map<String, Value>, is_spoilt: &dyn Fn(&str) -> bool| -> Vec<String> {
+        let cell = |name: &&str| Some(marked(means.get(*name).and_then(printed_mean)?, is_spoilt(name)));
+        columns.iter().map(|name| cell(name).unwrap_or_default()).collect()
     };
     for variant in variants {
         let mut row = vec![variant.name.clone()];
         if variant.state == VariantState::Finished {
-            let spoilt = |name: &str| variant.unequilibrated.as_ref().is_some_and(|found| found.includes(name));
-            row.extend(columns.iter().map(|name| shown(&variant.means, name, spoilt(name))));
+            let is_spoilt = |name: &str| variant.unequilibrated.as_ref().is_some_and(|found| found.includes(name));
+            row.extend(shown(&variant.means, &is_spoilt));
             row.push(format!("{:.2} s", variant.wall_seconds));
         } else {
             row.push(variant.state.name().to_owned());
@@ -88,16 +89,11 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     }
     let averages = &outcome.summary.averages;
     if let Some(average) = averages.first() {
-        rows.push(Vec::new());
-        let mut header = vec![format!("MEAN OF {} SEEDS", average.seeds)];
-        header.extend(columns.iter().map(|_| String::new()));
-        rows.push(header);
-        for average in averages {
-            let mut row = vec![average.label.clone()];
-            let spoilt = |name: &str| average.unequilibrated.iter().any(|known| known == name);
-            row.extend(columns.iter().map(|name| shown(&average.means, name, spoilt(name))));
-            rows.push(row);
-        }
+        rows.extend([Vec::new(), vec![format!("MEAN OF {} SEEDS", average.seeds)]]);
+        rows.extend(averages.iter().map(|average| {
+            let is_spoilt = |name: &str| average.unequilibrated.iter().any(|known| known == name);
+            [vec![average.label.clone()], shown(&average.means, &is_spoilt)].concat()
+        }));
     }
     let mut note = String::new();
     if rows.iter().flatten().any(|cell| cell.trim_end_matches(" †").ends_with('*')) {

@@ -59,10 +59,6 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
         let bound = |row: &Row| row.bounds.iter().find(|bound| bound.law == *law).map(|bound| bound.at);
         panel.series.push(line(&format!("law: {law}"), &bound, number));
     }
-    let number_of = |verdict| Verdict::ALL.iter().position(|known| *known == verdict).unwrap_or_default();
-    let edge = |name: &str, place: &dyn Fn(&Row) -> Option<f64>, verdict: Verdict| {
-        Series { name: name.to_owned(), ..line(name, place, 0) }.with_ink(SeriesInk::Numbered(number_of(verdict)))
-    };
     let last_right = |row: &Row| row.right().filter(|(_, _, others)| *others).map(|(_, last, _)| last);
     let first_unstable = |row: &Row| row.unstable_from().map(|(_, first)| first);
     for (name, place, verdict) in [
@@ -72,10 +68,10 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
         let is_there = verdict != Verdict::Right || !summary.compares_nothing();
         // A single row has its edges where its verdicts change.
         if is_there && summary.rows.iter().filter_map(place).count() > 1 {
-            panel.series.push(edge(name, place, verdict));
+            panel.series.push(line(name, place, 0).with_ink(SeriesInk::Numbered(verdict as usize)));
         }
     }
-    for (number, verdict) in Verdict::ALL.into_iter().enumerate() {
+    for verdict in Verdict::ALL {
         let of_row = |(row, found): (usize, &Row)| -> Vec<[f64; 2]> {
             let own = found.cells.iter().filter(|cell| cell.verdict == verdict);
             own.map(|cell| [cell.value, height(row)]).collect()
@@ -88,7 +84,7 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
             Verdict::Right if !summary.compares_nothing() => format!("right within {percent}"),
             other => other.name_in(summary).to_owned(),
         };
-        panel.series.push(Series::markers(&name, points).with_ink(SeriesInk::Numbered(number)));
+        panel.series.push(Series::markers(&name, points).with_ink(SeriesInk::Numbered(verdict as usize)));
     }
     panel
 }

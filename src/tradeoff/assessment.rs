@@ -67,10 +67,7 @@ impl TradeoffSummary {
         for choice in &mut summary.choices {
             let verdict = |target: &Target| {
                 let reference = summary.references.iter().find(|known| known.measure == target.measure)?;
-                Some(
-                    target
-                        .verdict(choice.errors.iter().find(|error| error.measure == target.measure)?, reference.value),
-                )
+                Some(target.verdict(choice.error(&target.measure)?, reference.value))
             };
             choice.verdict = match choice.state {
                 _ if targets.is_empty() => None,

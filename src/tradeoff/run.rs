@@ -5,7 +5,7 @@ use super::length::{self, Extension, Worst};
 use super::measures::{self, Measured};
 use super::stretch::Stretch;
 use super::summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary, Wanted};
-use super::target::Verdict;
+use super::target::{Target, Verdict};
 use super::{advice, fields, files};
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::numbers::with_error;
@@ -362,25 +362,17 @@ impl StudyRun<TradeoffSummary> {
             return found;
         }
         // A target that may or may not be met asks for more samples.
-        let is_open = summary.choices.iter().filter(|choice| choice.verdict == Some(Verdict::Open)).any(|choice| {
-            self.request.arguments.targets.iter().any(|target| {
-                let (Some(error), Some(reference)) =
-                    (choice.error(&target.measure), summary.reference(&target.measure))
-                else {
-                    return false;
-                };
-                let fluctuates = choice.value(&target.measure).is_some_and(|measured| measured.fluctuates);
-                let is_known = error.uncertainty.is_some() && fluctuates;
-                // More samples make no part of nothing.
-                is_known
-                    && !target.is_part_of_nothing(reference)
-                    && target.verdict(error, reference.value) == Verdict::Open
-            })
-        });
-        if asked.budget.is_none() && summary.extensions >= MOST_FOR_A_VERDICT {
-            return found;
-        }
-        if !is_open {
+        let is_open = |choice: &Choice, target: &Target| {
+            let (error, reference) = (choice.error(&target.measure)?, summary.reference(&target.measure)?);
+            let is_known = error.uncertainty.is_some() && choice.value(&target.measure)?.fluctuates;
+            // More samples make no part of nothing.
+            let has_parts = !target.is_part_of_nothing(reference);
+            Some(is_known && has_parts && target.verdict(error, reference.value) == Verdict::Open)
+        };
+        let targets = &self.request.arguments.targets;
+        let mut open = summary.choices.iter().filter(|choice| choice.verdict == Some(Verdict::Open));
+        let is_any_open = open.any(|choice| targets.iter().any(|target| is_open(choice, target) == Some(true)));
+        if !is_any_open || asked.budget.is_none() && summary.extensions >= MOST_FOR_A_VERDICT {
             return found;
         }
         // Whatever the errors are, so many more samples make them smaller.
