@@ -9,7 +9,6 @@ use mesoscope::numbers::{grouped, prefixed};
 use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
-use mesoscope::scene::Scene;
 
 use super::progress::Bar;
 use super::table::{aligned, dimensions};
@@ -80,12 +79,12 @@ pub fn stem(scene: &str) -> &str {
 const BETWEEN_LINES: Duration = Duration::from_secs(1);
 
 struct Reporter {
-    scene: Scene,
     /// Whether its pictures are fields: what flows has no temperature to speak of.
     flows: bool,
-    particles: u64,
+    /// Its title and its particles.
+    headline: String,
     /// What they are, and what acts on them, where a file or molecules say it.
-    composition: Vec<Vec<String>>,
+    composition: String,
     bar: Bar,
     /// Tenths of the run already reported on lines of their own, and when the last was.
     reported: u64,
@@ -97,15 +96,15 @@ struct Reporter {
 
 impl Reporter {
     fn new(simulation: &Simulation) -> Self {
-        let model = simulation.model();
+        let (model, scene) = (simulation.model(), simulation.scene());
+        let particles = model.particle_count();
+        let noun = if particles == 1 { "particle" } else { "particles" };
+        let (title, dimensions) = (printable::name(&scene.title), dimensions(scene.space.lengths.len()));
+        let composition = model.composition(scene).into_iter().map(|(name, text)| vec![name.to_owned(), text]);
         Self {
             flows: model.picture() == PictureKind::Fields,
-            particles: model.particle_count(),
-            composition: {
-                let rows = model.composition(simulation.scene()).into_iter();
-                rows.map(|(name, text)| vec![name.to_owned(), text]).collect()
-            },
-            scene: simulation.scene().clone(),
+            headline: format!("{title}: {} {noun} in {dimensions}", grouped(particles)),
+            composition: aligned(&composition.collect::<Vec<_>>(), "  "),
             bar: Bar::default(),
             reported: 0,
             reported_at: Instant::now(),
@@ -117,18 +116,10 @@ impl Reporter {
     fn show(&mut self, event: Event<'_>) {
         match event {
             Event::Started { adapter, first_step, last_step } => {
-                let particles = self.particles;
-                let noun = if particles == 1 { "particle" } else { "particles" };
-                let dimensions = dimensions(self.scene.space.lengths.len());
                 let begin = if first_step > 0 { format!(", from step {}", grouped(first_step)) } else { String::new() };
-                let title = printable::name(&self.scene.title);
+                let (headline, composition) = (&self.headline, &self.composition);
                 // A closed standard output will be noticed when the results are printed.
-                let _ = print(&format!(
-                    "{title}: {} {noun} in {dimensions}{begin}, on {}\n{}",
-                    grouped(particles),
-                    adapter.in_words(),
-                    aligned(&self.composition, "  ")
-                ));
+                let _ = print(&format!("{headline}{begin}, on {}\n{composition}", adapter.in_words()));
                 self.first_step = first_step;
                 self.bar.begin(first_step, last_step, "step {pos}/{len} {wide_bar} {percent:>3}%  {msg}");
             }

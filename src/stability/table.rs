@@ -2,40 +2,29 @@
 
 use super::cell::Cell;
 use super::summary::{Row, StabilitySummary};
-use crate::study::table::{line, number, plain};
+use crate::study::table::{number, plain, rows};
 
 pub(super) fn text(summary: &StabilitySummary) -> String {
-    let key = summary.rows.first().and_then(|row| row.setting.as_ref()).map(|setting| setting.key.clone());
-    let mut header: Vec<String> = key.into_iter().chain([summary.key.clone()]).collect();
-    header.extend(["verdict", "certain", "steps", "time_step"].map(str::to_owned));
-    for measure in &summary.measures {
-        header.extend(["_error", "_error_uncertainty"].map(|end| format!("{measure}{end}")));
-    }
-    header.push("reason".to_owned());
-    let mut text = line(&header);
-    for row in &summary.rows {
-        for cell in &row.cells {
-            text.push_str(&line(&cells(summary, row, cell)));
-        }
-    }
-    text
+    rows(summary.rows.iter().flat_map(|row| row.cells.iter().map(|cell| columns(summary, row, cell))))
 }
 
-fn cells(summary: &StabilitySummary, row: &Row, cell: &Cell) -> Vec<String> {
-    let mut cells: Vec<String> = row.setting.iter().map(|setting| plain(&setting.value)).collect();
-    cells.extend([
-        number(Some(cell.value)),
-        cell.verdict.name().to_owned(),
-        cell.is_certain.to_string(),
-        cell.steps.to_string(),
-    ]);
-    cells.push(number(cell.time_step));
-    for measure in &summary.measures {
+/// Names of columns and cells.
+fn columns(summary: &StabilitySummary, row: &Row, cell: &Cell) -> Vec<(String, String)> {
+    let setting = row.setting.iter().map(|setting| (setting.key.clone(), plain(&setting.value)));
+    let of_run = [
+        (summary.key.as_str(), number(Some(cell.value))),
+        ("verdict", cell.verdict.name().to_owned()),
+        ("certain", cell.is_certain.to_string()),
+        ("steps", cell.steps.to_string()),
+        ("time_step", number(cell.time_step)),
+    ];
+    let errors = summary.measures.iter().flat_map(|measure| {
         let error = cell.error(measure);
-        cells.push(number(error.map(|error| error.error)));
-        cells.push(number(error.and_then(|error| error.uncertainty)));
-    }
-    let reason = cell.reason.clone().or_else(|| cell.lacks());
-    cells.push(reason.unwrap_or_default().replace('\n', "; "));
-    cells
+        let uncertainty = error.and_then(|error| error.uncertainty);
+        [("_error", error.map(|error| error.error)), ("_error_uncertainty", uncertainty)]
+            .map(|(end, value)| (format!("{measure}{end}"), number(value)))
+    });
+    let reason = cell.reason.clone().or_else(|| cell.lacks()).unwrap_or_default().replace('\n', "; ");
+    let of_run = of_run.map(|(name, cell)| (name.to_owned(), cell));
+    setting.chain(of_run).chain(errors).chain([("reason".to_owned(), reason)]).collect()
 }

@@ -10,6 +10,19 @@ pub(crate) fn line(cells: &[String]) -> String {
     format!("{}\n", cells.join(","))
 }
 
+/// Rows of names and cells, under the names of the first.
+pub(crate) fn rows(rows: impl IntoIterator<Item = Vec<(String, String)>>) -> String {
+    let mut text = String::new();
+    for row in rows {
+        let (names, cells): (Vec<String>, Vec<String>) = row.into_iter().unzip();
+        if text.is_empty() {
+            text = line(&names);
+        }
+        text.push_str(&line(&cells));
+    }
+    text
+}
+
 /// A number; nothing where there is none or it is not finite.
 pub(crate) fn number(value: Option<f64>) -> String {
     let mut digits = Vec::new();

@@ -31,19 +31,6 @@ pub fn plot(quantity: &str) -> String {
     SWEEP.plot(quantity)
 }
 
-/// Whether a sweep may have written a file of this name.
-///
-/// ```
-/// use mesoscope::sweep::files;
-///
-/// assert!(files::is_of_a_sweep(&files::plot("temperature")));
-/// assert!(!files::is_of_a_sweep("energies.csv"));
-/// ```
-#[must_use]
-pub fn is_of_a_sweep(name: &str) -> bool {
-    SWEEP.has_file(name)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -51,12 +38,12 @@ mod tests {
     #[test]
     fn only_the_files_of_a_sweep_are_recognised() {
         for name in [TABLE, AVERAGES, SUMMARY, "sweep-total_energy.png", "sweep-x.png"] {
-            assert!(is_of_a_sweep(name), "{name}");
+            assert!(SWEEP.has_file(name), "{name}");
         }
         for name in
             ["sweep", "sweep-.png", "sweep-x.jpg", "sweep.json.bak", "sweep.json.tmp", "energies.csv", "friction=1"]
         {
-            assert!(!is_of_a_sweep(name), "{name}");
+            assert!(!SWEEP.has_file(name), "{name}");
         }
     }
 }

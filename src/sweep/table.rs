@@ -3,87 +3,68 @@
 use super::averages::{SEED, SeedAverage};
 use super::observables::{Observable, observable, observables};
 use super::summary::SweepSummary;
-use crate::study::table::{line, number, plain};
+use super::variant::VariantSummary;
+use crate::study::table::{number, plain, rows};
 use crate::study::{Setting, by_key};
 
 /// The table of variants; `keys` are those that distinguish them.
 pub(super) fn text(summary: &SweepSummary, keys: &[&str]) -> String {
-    let rows: Vec<Row> = summary
-        .variants
-        .iter()
-        .map(|variant| {
-            let mut cells = vec![variant.name.clone()];
-            cells.extend(values(&variant.settings, keys));
-            cells.push(variant.state.name().to_owned());
-            let ended = variant.steps > 0 || !variant.means.is_empty();
-            for value in [
-                variant.steps as f64,
-                variant.particles as f64,
-                variant.wall_seconds,
-                variant.particle_steps_per_second,
-            ] {
-                cells.push(number(ended.then_some(value)));
-            }
-            (cells, observables(variant))
-        })
-        .collect();
-    let after = ["state", "steps", "particles", "wall_seconds", "particle_steps_per_second"];
-    let header = ["variant"].into_iter().chain(keys.iter().copied()).chain(after).map(str::to_owned).collect();
-    table(header, &rows)
+    let row = |variant: &VariantSummary| {
+        let has_ended = variant.steps > 0 || !variant.means.is_empty();
+        let of_run = [
+            ("steps", variant.steps as f64),
+            ("particles", variant.particles as f64),
+            ("wall_seconds", variant.wall_seconds),
+            ("particle_steps_per_second", variant.particle_steps_per_second),
+        ];
+        let mut cells = vec![("variant".to_owned(), variant.name.clone())];
+        cells.extend(values(&variant.settings, keys));
+        cells.push(("state".to_owned(), variant.state.name().to_owned()));
+        cells.extend(of_run.map(|(name, value)| (name.to_owned(), number(has_ended.then_some(value)))));
+        (cells, observables(variant))
+    };
+    table(summary.variants.iter().map(row).collect())
 }
 
 /// The table of averages over the seed; none where there are none.
 pub(super) fn averages_text(summary: &SweepSummary, keys: &[&str]) -> Option<String> {
-    if summary.averages.is_empty() {
-        return None;
-    }
     let keys: Vec<&str> = keys.iter().copied().filter(|key| *key != SEED).collect();
     let row = |average: &SeedAverage| {
         let mut cells = values(&average.settings, &keys);
-        cells.push(average.seeds.to_string());
+        cells.push(("seeds".to_owned(), average.seeds.to_string()));
         let means = average.means.iter().filter_map(|(name, mean)| observable(name.clone(), mean));
         (cells, means.collect())
     };
-    let rows: Vec<Row> = summary.averages.iter().map(row).collect();
-    Some(table(keys.iter().copied().chain(["seeds"]).map(str::to_owned).collect(), &rows))
+    (!summary.averages.is_empty()).then(|| table(summary.averages.iter().map(row).collect()))
 }
 
-/// Cells in front, and what was measured.
-type Row = (Vec<String>, Vec<Observable>);
+/// Names of columns and cells in front, and what was measured.
+type Row = (Vec<(String, String)>, Vec<Observable>);
 
 /// The values of keys in the settings of a variant; nothing where they are not set.
-fn values(settings: &[Setting], keys: &[&str]) -> Vec<String> {
+fn values(settings: &[Setting], keys: &[&str]) -> Vec<(String, String)> {
     let value = |key: &&str| settings.iter().find(|setting| setting.key == *key).map(|setting| plain(&setting.value));
-    keys.iter().map(|key| value(key).unwrap_or_default()).collect()
+    keys.iter().map(|key| ((*key).to_owned(), value(key).unwrap_or_default())).collect()
 }
 
-/// Lines of cells in front, under their header, and of all observables with their errors.
-fn table(mut header: Vec<String>, rows: &[Row]) -> String {
+/// Lines of cells in front and of all observables with their errors.
+fn table(table: Vec<Row>) -> String {
     // A column of errors is there if any row has one.
-    let found = rows.iter().flat_map(|(_, observables)| observables);
-    let columns = by_key(found.map(|observable| (observable.name.as_str(), observable.error.is_some())));
-    let columns: Vec<(&str, bool)> = columns.into_iter().map(|(name, errors)| (name, errors.contains(&true))).collect();
-    for (name, has_error) in &columns {
-        // Set and measured may have the same name: `temperature`.
-        let mean = if header.iter().any(|known| known == name) { "_mean" } else { "" };
-        header.push(format!("{name}{mean}"));
-        if *has_error {
-            header.push(format!("{name}_error"));
-        }
-    }
-    let mut lines = vec![line(&header)];
-    for (cells, observables) in rows {
-        let mut cells = cells.clone();
-        for (name, has_error) in &columns {
+    let found = table.iter().flat_map(|(_, observables)| observables);
+    let columns = by_key(found.map(|observable| (observable.name.clone(), observable.error.is_some())));
+    let row = |(mut cells, observables): Row| {
+        for (name, errors) in &columns {
             let found = observables.iter().find(|known| known.name == *name);
-            cells.push(number(found.map(|found| found.value)));
-            if *has_error {
-                cells.push(number(found.and_then(|found| found.error)));
+            // Set and measured may have the same name: `temperature`.
+            let mean = if cells.iter().any(|(known, _)| known == name) { "_mean" } else { "" };
+            cells.push((format!("{name}{mean}"), number(found.map(|found| found.value))));
+            if errors.contains(&true) {
+                cells.push((format!("{name}_error"), number(found.and_then(|found| found.error))));
             }
         }
-        lines.push(line(&cells));
-    }
-    lines.concat()
+        cells
+    };
+    rows(table.into_iter().map(row))
 }
 
 #[cfg(test)]

@@ -19,17 +19,15 @@ pub fn plot(measure: &str) -> String {
     TRADEOFF.plot(measure)
 }
 
-/// Whether a tradeoff may have written a file of this name.
-///
-/// ```
-/// use mesoscope::tradeoff::files;
-///
-/// for name in [files::TABLE, files::SUMMARY, files::PAGE, &files::plot("pressure")] {
-///     assert!(files::is_of_a_tradeoff(name));
-/// }
-/// assert!(!files::is_of_a_tradeoff("energies.csv"));
-/// ```
-#[must_use]
-pub fn is_of_a_tradeoff(name: &str) -> bool {
-    TRADEOFF.has_file(name)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_files_of_a_tradeoff_are_recognised() {
+        for name in [TABLE, SUMMARY, PAGE, &plot("pressure")] {
+            assert!(TRADEOFF.has_file(name), "{name}");
+        }
+        assert!(!TRADEOFF.has_file("energies.csv"));
+    }
 }
