@@ -114,13 +114,9 @@ fn request(scene: &str, arguments: &Arguments) -> Result<Request, Failure> {
         mistakes.extend(wrong);
         References::default()
     });
-    let mut targets = Vec::new();
-    for argument in &arguments.target {
-        match Target::parse(argument) {
-            Ok(target) => targets.push(target),
-            Err(message) => mistakes.push(format!("`--target {argument}`: {message}")),
-        }
-    }
+    let mut note = |argument: &String, message| mistakes.push(format!("`--target {argument}`: {message}"));
+    let target = |argument: &String| Target::parse(argument).map_err(|message| note(argument, message)).ok();
+    let targets: Vec<Target> = arguments.target.iter().filter_map(target).collect();
     if !mistakes.is_empty() {
         return Err(StudyError::Arguments { mistakes }.into());
     }

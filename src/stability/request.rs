@@ -84,8 +84,7 @@ impl Arguments {
             let wrong: Vec<String> = range.values.iter().filter_map(|value| mistake(&range.key, value)).collect();
             if wrong.len() < range.values.len() { wrong } else { Vec::new() }
         };
-        let mistakes: Vec<String> = ranges.iter().flat_map(of_range).collect();
-        if mistakes.is_empty() { Ok(()) } else { Err(StudyError::Arguments { mistakes }) }
+        StudyError::refuse(ranges.iter().flat_map(of_range).collect())
     }
 
     fn scene_and_notices(&self, set: &[String]) -> Result<(Scene, Vec<Warning>), SceneError> {
@@ -162,9 +161,7 @@ impl Request {
             let step = base.time.step;
             ranges.extend(Range::parse(&format!("{STEP}={}..{}/{points}", low * step, high * step)));
         }
-        if !mistakes.is_empty() {
-            return Err(StudyError::Arguments { mistakes });
-        }
+        StudyError::refuse(mistakes)?;
         arguments.check_values(&ranges)?;
         let place = ranges.iter().position(|range| range.key == STEP).unwrap_or(ranges.len().saturating_sub(1));
         let along = ranges.remove(place);
@@ -235,9 +232,7 @@ impl Request {
                 mistakes.push(format!("no law says what `{measure}` should be; add `--reference {measure}=VALUE`"));
             }
         }
-        if !mistakes.is_empty() {
-            return Err(StudyError::Arguments { mistakes });
-        }
+        StudyError::refuse(mistakes)?;
         self.arguments.measures = measures.to_vec();
         self.arguments.references = references;
         Ok(self)

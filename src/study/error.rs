@@ -135,6 +135,11 @@ impl StudyError {
         Self::Arguments { mistakes: vec![mistake.into()] }
     }
 
+    /// Refuses what is asked for if there are mistakes in it.
+    pub(crate) fn refuse(mistakes: Vec<String>) -> Result<(), Self> {
+        if mistakes.is_empty() { Ok(()) } else { Err(Self::Arguments { mistakes }) }
+    }
+
     /// The failure of a run of this name.
     pub(crate) fn of_run(name: &str, source: impl Into<RunError>) -> Self {
         Self::Run { name: name.to_owned(), source: Box::new(source.into()) }

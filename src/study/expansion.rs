@@ -95,20 +95,14 @@ impl Sweep {
         step: StepCheck,
     ) -> Result<Self, StudyError> {
         let mut mistakes = Vec::new();
-        let mut read = Vec::new();
-        for argument in vary {
-            match Variation::parse(argument) {
-                Ok(variation) => read.push(variation),
-                Err(message) => mistakes.push(format!("`--vary {argument}`: {message}")),
-            }
-        }
-        let mut further = Vec::new();
-        for argument in also {
-            match settings(argument) {
-                Ok(settings) => further.push(settings),
-                Err(message) => mistakes.push(format!("`--also {argument}`: {message}")),
-            }
-        }
+        let mut note = |option: &str, argument: &String, message: String| {
+            mistakes.push(format!("`{option} {argument}`: {message}"));
+        };
+        let variation =
+            |argument: &String| Variation::parse(argument).map_err(|message| note("--vary", argument, message)).ok();
+        let read: Vec<Variation> = vary.iter().filter_map(variation).collect();
+        let variant = |argument: &String| settings(argument).map_err(|message| note("--also", argument, message)).ok();
+        let further: Vec<Vec<Setting>> = also.iter().filter_map(variant).collect();
         for (index, variation) in read.iter().enumerate() {
             let inside = |outer: &str, inner: &str| inner.strip_prefix(outer).is_some_and(|rest| rest.starts_with('.'));
             for earlier in &read[..index] {
@@ -127,12 +121,12 @@ impl Sweep {
         if count.is_none_or(|count| count > MOST_VARIANTS) {
             mistakes.push(format!("there are more than {MOST_VARIANTS} combinations of values to vary"));
         }
-        if !mistakes.is_empty() {
-            return Err(StudyError::Arguments { mistakes });
-        }
+        StudyError::refuse(mistakes)?;
         let Ok(base) = serde_json::from_str(text.trim_start_matches('\u{feff}')) else {
             // The reader of scenes says what is wrong in better words.
-            return Err(scene::parse(name, text, set).err().map_or_else(unreadable, StudyError::Scene));
+            return Err(scene::parse(name, text, set)
+                .err()
+                .map_or_else(|| StudyError::mistake("the scene is not JSON"), StudyError::Scene));
         };
         let (scene, set, variants) = (name.to_owned(), set.to_vec(), Vec::new());
         Self { scene, base, set, steps, vary: read, also: further, files, variants }.expand(text, step)
@@ -225,10 +219,6 @@ impl Sweep {
         self.variants = variants;
         if mistakes.is_empty() { Ok(self) } else { Err(StudyError::Variants { mistakes }) }
     }
-}
-
-fn unreadable() -> StudyError {
-    StudyError::Arguments { mistakes: vec!["the scene is not JSON".to_owned()] }
 }
 
 /// Every combination of places, the last varying fastest.

@@ -76,9 +76,14 @@ impl SweepSummary {
         // Where no scene has a file, only one that was not read from its own summary knows where files would be.
         let have_none = self.state_files.is_empty() && other.state_files.is_empty();
         let same_files = have_none || self.state_files == other.state_files;
+        asked(self) == asked(other) && same_files && self.has_runs_of(other)
+    }
+
+    /// Whether it has the runs of another one, which this version of the program made.
+    fn has_runs_of(&self, other: &Self) -> bool {
         let same_names = self.variants.iter().map(|v| &v.name).eq(other.variants.iter().map(|v| &v.name));
         let same_ids = !self.is_of_this_version() || self.ids().eq(other.ids());
-        asked(self) == asked(other) && same_files && same_names && same_ids && self.sweep_id == Id::of_sweep(self.ids())
+        same_names && same_ids && self.sweep_id == Id::of_sweep(self.ids())
     }
 
     fn ids(&self) -> impl Iterator<Item = Id> {
@@ -119,10 +124,7 @@ impl Record for SweepSummary {
     }
 
     fn misfits(&self, sweep: &Sweep) -> Vec<&'static str> {
-        let expected = Self::before(sweep);
-        let same_names = self.variants.iter().map(|v| &v.name).eq(expected.variants.iter().map(|v| &v.name));
-        let same_ids = !self.is_of_this_version() || self.ids().eq(expected.ids());
-        let fits = same_names && same_ids && self.sweep_id == Id::of_sweep(self.ids());
+        let fits = self.has_runs_of(&Self::before(sweep));
         if fits { Vec::new() } else { vec!["describes other runs than those whose ids are in it"] }
     }
 

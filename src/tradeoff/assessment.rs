@@ -31,10 +31,7 @@ impl TradeoffSummary {
                 summary.choices.iter().filter(is_finished).all(|choice| choice.value(measure).is_none())
             };
             let mistake = |measure| format!("no run measured `{measure}`");
-            let mistakes: Vec<String> = summary.measures.iter().filter(lacks).map(mistake).collect();
-            if !mistakes.is_empty() {
-                return Err(StudyError::Arguments { mistakes });
-            }
+            StudyError::refuse(summary.measures.iter().filter(lacks).map(mistake).collect())?;
         }
         let finer: Vec<&[Measured]> = summary.finer.iter().map(|run| run.measured.as_slice()).collect();
         let reference = |measure: &String| {

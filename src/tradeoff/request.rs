@@ -124,11 +124,8 @@ impl Request {
                 "`{key}` cannot be varied: all choices cover the same simulated time; --steps, --error and --budget say how much"
             )
         };
-        let mistakes: Vec<String> =
-            LENGTHS.into_iter().filter(|key| keys.iter().any(|known| known == key)).map(mistake).collect();
-        if !mistakes.is_empty() {
-            return Err(StudyError::Arguments { mistakes });
-        }
+        let lengths = LENGTHS.into_iter().filter(|key| keys.iter().any(|known| known == key));
+        StudyError::refuse(lengths.map(mistake).collect())?;
         let files = arguments.state_files.clone();
         let sweep = Sweep::of_text(scene, text, (set, *steps), vary, also, files, StepCheck::Allow)?;
         if sweep.variants().iter().any(|variant| [FINER, COARSER, STILL_FINER].contains(&variant.name.as_str())) {
@@ -179,10 +176,7 @@ impl Request {
     pub fn with_targets(mut self, targets: Vec<Target>) -> Result<Self, StudyError> {
         self.check_names("--target", targets.iter().map(|target| target.measure.as_str()))?;
         let of_nothing = |target: &Target| target.part_of_nothing(&self.known(&target.measure)?);
-        let of_nothing: Vec<String> = targets.iter().filter_map(of_nothing).collect();
-        if !of_nothing.is_empty() {
-            return Err(StudyError::Arguments { mistakes: of_nothing });
-        }
+        StudyError::refuse(targets.iter().filter_map(of_nothing).collect())?;
         self.arguments.targets = targets;
         Ok(self)
     }
@@ -303,16 +297,13 @@ impl Request {
             .iter()
             .flat_map(|asked| asked.found.iter().map(move |number| format!("{}.{number}", asked.id.name())));
         let accepted: Vec<String> = columns.into_iter().chain(found).chain(distances).collect();
-        let mut mistakes = Vec::new();
-        for name in wanted.filter(|name| !accepted.iter().any(|known| known == name)) {
+        let mistake = |name| {
             let near = nearest(name, accepted.iter().map(String::as_str));
-            let near = did_you_mean(near.as_deref());
-            mistakes.push(format!(
-                "`{option} {name}`: no run of this scene measures that{near}; accepted: {}",
-                accepted.join(", ")
-            ));
-        }
-        if mistakes.is_empty() { Ok(()) } else { Err(StudyError::Arguments { mistakes }) }
+            let (near, accepted) = (did_you_mean(near.as_deref()), accepted.join(", "));
+            format!("`{option} {name}`: no run of this scene measures that{near}; accepted: {accepted}")
+        };
+        let unknown = wanted.filter(|name| !accepted.iter().any(|known| known == name));
+        StudyError::refuse(unknown.map(mistake).collect())
     }
 }
 

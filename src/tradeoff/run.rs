@@ -268,7 +268,7 @@ impl StudyRun<TradeoffSummary> {
                 *self.entry(index) = self.summary.choices[twin].clone();
             }
         }
-        self.compare_fields(runs)
+        self.compare_fields()
     }
 
     /// Notes what a run measured, or that it became unstable.
@@ -303,45 +303,33 @@ impl StudyRun<TradeoffSummary> {
 
     /// Adds the distances of fields and curves from those of the finer run; how far the run with twice its step is from it, and one that is
     /// finer still, says how certain they are.
-    fn compare_fields(&mut self, runs: &[(String, Scene)]) -> Result<(), StudyError> {
-        let place = |name: &str| RunDirectory::open(self.directory().join(name));
+    fn compare_fields(&mut self) -> Result<(), StudyError> {
+        let directory = self.directory().to_path_buf();
+        let place = |run: &Choice| RunDirectory::open(directory.join(&run.name));
+        let TradeoffSummary { choices, finer, .. } = &mut self.summary;
         // All of these may be runs of choices.
-        let Some((reference, others)) = self.summary.finer.split_first() else { return Ok(()) };
-        let is_finished = |run: &Choice| run.state == ChoiceState::Finished;
-        if !is_finished(reference) {
+        let Some((reference, others)) = finer.split_first() else { return Ok(()) };
+        if reference.state != ChoiceState::Finished {
             return Ok(());
         }
-        let finer = place(&reference.name)?;
+        let finer = place(reference)?;
         // Fields at another time differ for that alone: rows of tables end at different times where steps do not fit.
-        let is_at_once = |run: &Choice| {
-            let times = [run, reference].map(|run| run.steps as f64 * run.time_step);
-            (times[0] - times[1]).abs() < 1e-6 * reference.time_step
+        let is_comparable = |run: &Choice| {
+            let [time, other] = [run, reference].map(|run| run.steps as f64 * run.time_step);
+            run.state == ChoiceState::Finished && (time - other).abs() < 1e-6 * reference.time_step
         };
-        let limits = others
-            .iter()
-            .filter(|run| is_finished(run) && is_at_once(run))
-            .map(|run| fields::distances(&place(&run.name)?, &finer))
-            .collect::<Result<Vec<_>, _>>()?;
+        let limits = others.iter().filter(|run| is_comparable(run)).map(|run| fields::distances(&place(run)?, &finer));
+        let limits = limits.collect::<Result<Vec<_>, _>>()?;
         let limit = |measure: &str| {
             let of_run = |found: &Vec<Measured>| Some(found.iter().find(|limit| limit.measure == measure)?.value);
             let squares: Option<Vec<f64>> = limits.iter().map(of_run).map(|value| Some(value?.powi(2))).collect();
             squares.filter(|squares| squares.len() == others.len()).map(|squares| squares.iter().sum::<f64>().sqrt())
         };
-        let mut found = Vec::new();
-        for (index, (name, _)) in runs.iter().enumerate().take(self.summary.choices.len()) {
-            let choice = &self.summary.choices[index];
-            if is_finished(choice) && is_at_once(choice) {
-                let mut distances = fields::distances(&place(name)?, &finer)?;
-                for distance in &mut distances {
-                    distance.standard_error = limit(&distance.measure);
-                }
-                found.push((index, distances));
-            }
-        }
-        for (index, distances) in found {
-            let measured = &mut self.summary.choices[index].measured;
-            measured.retain(|known| !known.measure.ends_with(fields::DISTANCE));
-            measured.extend(distances);
+        for choice in choices.iter_mut().filter(|choice| is_comparable(choice)) {
+            let distances = fields::distances(&place(choice)?, &finer)?;
+            choice.measured.retain(|known| !known.measure.ends_with(fields::DISTANCE));
+            let limited = |distance: Measured| Measured { standard_error: limit(&distance.measure), ..distance };
+            choice.measured.extend(distances.into_iter().map(limited));
         }
         Ok(())
     }
