@@ -2,8 +2,8 @@
 //!
 //! What [sweeps](crate::sweep), [tradeoffs](crate::tradeoff) and [maps of stability](crate::stability) have in common: the scenes that follow
 //! from keys and their values ([`Sweep`]), and a study under way ([`StudyRun`]): its directory with its lock, its summary ([`Record`]),
-//! runs at once, what interrupts it and goes on with it, and what an observer learns of it ([`StudyEvent`]). What a kind of study makes of its
-//! runs is its own.
+//! runs at once, what interrupts it and goes on with it, what an observer learns of it ([`StudyEvent`]), and its tables, page and pictures,
+//! which are written, drawn and [drawn again](redraw) here. What a kind of study makes of its runs is its own.
 
 mod concurrency;
 mod directory;
