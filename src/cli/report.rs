@@ -12,7 +12,7 @@ use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
 
 use super::progress::Bar;
 use super::table::{aligned, dimensions};
-use super::{AdapterArgument, Failure, RanksArgument, SceneArguments, line, print};
+use super::{AdapterArgument, Failure, RanksArgument, line, print};
 
 /// Executes a run on its ranks and reports on it, with warnings of what they cost before, unless it is to be quiet.
 pub fn execute(
@@ -63,11 +63,6 @@ pub fn execute(
         line(&format!("warning: {warning}"));
     }
     print(&results(&outcome, directory))
-}
-
-/// The directory of a run whose user names none.
-pub fn default_directory(arguments: &SceneArguments) -> String {
-    stem(&arguments.scene).to_owned()
 }
 
 /// The name of a scene or of its file, without directories and extension.

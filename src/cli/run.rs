@@ -40,7 +40,7 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
     let (adapter, copies) = (&arguments.how.adapter, processes.map(Processes::count));
     let (scene, notices) = arguments.ranks.load(&arguments.scene, adapter, copies)?;
-    let directory = arguments.out.clone().unwrap_or_else(|| report::default_directory(&arguments.scene).into());
+    let directory = arguments.out.clone().unwrap_or_else(|| report::stem(&arguments.scene.scene).into());
     let shown = printable::path(&directory);
     let simulation = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
     report::execute(simulation, processes, &arguments.ranks, adapter, &shown, arguments.how.quiet)

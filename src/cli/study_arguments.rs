@@ -121,7 +121,7 @@ impl StudyArguments {
         } else {
             let mut reporter = Reporter::new(title, R::KIND);
             let executed = execute(study, adapter, &mut |event| reporter.show(&event, &runs));
-            reporter.clear();
+            reporter.bar.clear();
             executed
         };
         executed.map_err(|error| match (&error, Kind::of(&directory)) {

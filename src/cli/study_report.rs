@@ -19,7 +19,7 @@ const PARTS: f64 = 1000.0;
 pub struct Reporter {
     title: String,
     kind: &'static Kind,
-    bar: Bar,
+    pub bar: Bar,
     /// Runs under way, with their first steps.
     under_way: Vec<(String, u64, Option<Progress>)>,
     runs: usize,
@@ -30,10 +30,6 @@ impl Reporter {
     pub fn new(title: &str, kind: &'static Kind) -> Self {
         let title = printable::name(title).into_owned();
         Self { title, kind, bar: Bar::default(), under_way: Vec::new(), runs: 0, ended: 0 }
-    }
-
-    pub fn clear(&mut self) {
-        self.bar.clear();
     }
 
     pub fn show<E: Display, P: Display>(&mut self, event: &StudyEvent<'_, E, P>, in_words: &dyn Fn(usize) -> String) {

@@ -57,9 +57,13 @@ pub(super) fn bounds(request: &Request, row: usize) -> Result<Bounds, SceneError
             None if shares.iter().all(|limits| share(limits, law) == 0.0) => None,
             None => outside(&along.values, along.spacing, &is_within)?,
         };
-        let Some([low, high]) = ends else { continue };
+        let Some([mut low, mut high]) = ends else { continue };
         let at_low = is_within(low)?.unwrap_or(true);
-        let at = crossing_between(low, high, along.spacing, &|value| Ok(is_within(value)?.unwrap_or(true) == at_low))?;
+        for _ in 0..ROUNDS {
+            let middle = along.spacing.middle(low, high);
+            if is_within(middle)?.unwrap_or(true) == at_low { low = middle } else { high = middle }
+        }
+        let at = along.spacing.middle(low, high);
         let bound = Bound { law: law.to_owned(), is_of_stability: beyond == Some(Beyond::Unstable), at };
         if inside.is_some() { found.within.push(bound) } else { found.outside.push(bound) }
     }
@@ -108,19 +112,6 @@ fn limits(request: &Request, row: usize, value: f64) -> Result<Option<Vec<famili
         Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => Err(error),
         Err(_) => Ok(None),
     }
-}
-
-fn crossing_between(
-    mut low: f64,
-    mut high: f64,
-    spacing: Spacing,
-    is_before: &dyn Fn(f64) -> Result<bool, SceneError>,
-) -> Result<f64, SceneError> {
-    for _ in 0..ROUNDS {
-        let middle = spacing.middle(low, high);
-        if is_before(middle)? { low = middle } else { high = middle }
-    }
-    Ok(spacing.middle(low, high))
 }
 
 #[cfg(test)]
