@@ -148,18 +148,15 @@ fn check_place(path: &Path, request: &Request) -> Result<(), Failure> {
 
 /// Writes the scene of the choice that meets the targets.
 fn write(summary: &TradeoffSummary, path: &Path) -> Result<(), Failure> {
+    let shown = printable::path(path);
     let Some(scene) = summary.chosen_scene()? else {
-        return Err(Failure::usage(format!(
-            "no choice is known to meet the targets, so `{}` was not written",
-            printable::path(path)
-        )));
+        return Err(Failure::usage(format!("no choice is known to meet the targets, so `{shown}` was not written")));
     };
-    let wrong =
-        |error: std::io::Error| Failure::input_output(format!("cannot write `{}`: {error}", printable::path(path)));
+    let wrong = |error: std::io::Error| Failure::input_output(format!("cannot write `{shown}`: {error}"));
     // Never over a file that came to be there in the meantime.
     let mut file = fs::File::create_new(path).map_err(wrong)?;
     std::io::Write::write_all(&mut file, scene.as_bytes()).map_err(wrong)?;
-    print(&format!("wrote {}\n", printable::path(path)))
+    print(&format!("wrote {shown}\n"))
 }
 
 /// The table at the end, what to choose, and the files written.

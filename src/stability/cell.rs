@@ -1,12 +1,13 @@
 //! One scene of a map: run until it is plain what becomes of it.
 
+use super::request::Arguments;
 use super::verdict::{Verdict, verdict};
 use crate::families::Model;
 use crate::gpu::{AdapterChoice, GpuError};
 use crate::measure::equilibration::transient;
 use crate::run::{self, Interrupt, RunError, Stop, Trial};
 use crate::scene::{Scene, SceneError};
-use crate::tradeoff::{self, Deviation, Measured, Reference, References, error_in_words};
+use crate::tradeoff::{self, Deviation, Measured, References, error_in_words};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -105,13 +106,6 @@ impl fmt::Display for Cell {
     }
 }
 
-/// What is compared with what.
-pub(super) struct Comparison<'a> {
-    pub measures: &'a [String],
-    pub references: &'a References,
-    pub tolerance: f64,
-}
-
 /// Whether an error says that there can be no such run here.
 pub(super) fn is_of_the_scene(error: &RunError) -> bool {
     match error {
@@ -120,14 +114,15 @@ pub(super) fn is_of_the_scene(error: &RunError) -> bool {
     }
 }
 
-/// Runs a scene; none if it was asked to stop.
+/// Runs a scene and compares measures with what they should be; none if it was asked to stop.
 ///
 /// # Errors
 /// [`RunError`], also for what says something about the scene.
 pub(super) fn evaluate(
     value: f64,
     scene: &Scene,
-    comparison: &Comparison<'_>,
+    measures: &[String],
+    arguments: &Arguments,
     adapter: &AdapterChoice,
     interrupt: &Interrupt,
 ) -> Result<Option<Cell>, RunError> {
@@ -154,9 +149,9 @@ pub(super) fn evaluate(
             Stop::Reached => {}
         }
         cell.steps = trial.step();
-        let (errors, lost) = compare(&trial, scene, comparison);
+        let (errors, lost) = compare(&trial, scene, measures, &arguments.references);
         cell.errors = errors;
-        (cell.verdict, cell.is_certain) = verdict(&cell.errors, comparison.tolerance);
+        (cell.verdict, cell.is_certain) = verdict(&cell.errors, arguments.tolerance);
         if Model::new(scene).particle_count() < FEW {
             cell.undefined = lost;
         } else if !lost.is_empty() {
@@ -167,8 +162,8 @@ pub(super) fn evaluate(
         cell.unequilibrated = unequilibrated(&trial, &cell.errors);
         cell.is_certain &= cell.unequilibrated.is_empty();
         // Of what no law applies to here, as of a temperature without friction, nothing is known.
-        cell.is_certain &= cell.reason.is_some() || cell.is_compared(comparison.measures);
-        if cell.is_certain && !comparison.measures.is_empty() {
+        cell.is_certain &= cell.reason.is_some() || cell.is_compared(measures);
+        if cell.is_certain && !measures.is_empty() {
             break;
         }
     }
@@ -181,11 +176,12 @@ fn listed(measures: &[String]) -> String {
 }
 
 /// How far measures are off, and which are not numbers.
-fn compare(trial: &Trial<'_>, scene: &Scene, comparison: &Comparison<'_>) -> (Vec<Deviation>, Vec<String>) {
+fn compare(trial: &Trial<'_>, scene: &Scene, measures: &[String], given: &References) -> (Vec<Deviation>, Vec<String>) {
     let (means, further) = (trial.means(), tradeoff::of_table(&trial.table(), scene));
     let (mut errors, mut lost) = (Vec::new(), Vec::new());
-    for measure in comparison.measures {
-        let Some(reference) = reference(measure, scene, comparison.references) else { continue };
+    for measure in measures {
+        let reference = given.find(measure).cloned().or_else(|| tradeoff::predicted(measure, scene));
+        let Some(reference) = reference else { continue };
         let mean = || {
             let estimate = means.iter().find(|(name, _)| name == measure).and_then(|(_, estimate)| *estimate);
             estimate.map(|found| Measured {
@@ -210,8 +206,4 @@ fn unequilibrated(trial: &Trial<'_>, errors: &[Deviation]) -> Vec<String> {
     let settled = trial.settled();
     let begins = |error: &&Deviation| settled.column(&error.measure).is_some_and(|rows| transient(&rows).is_some());
     errors.iter().filter(begins).map(|error| error.measure.clone()).collect()
-}
-
-fn reference(measure: &str, scene: &Scene, given: &References) -> Option<Reference> {
-    given.find(measure).cloned().or_else(|| tradeoff::predicted(measure, scene))
 }

@@ -1,7 +1,7 @@
 //! A map of stability from its first scene to its page.
 
 use super::bounds::bounds;
-use super::cell::{Cell, Comparison, evaluate, is_of_the_scene};
+use super::cell::{Cell, evaluate, is_of_the_scene};
 use super::summary::{MOST_EDGES, StabilitySummary};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::numbers::short;
@@ -116,14 +116,10 @@ impl StudyRun<StabilitySummary> {
         let (start, before) = (Instant::now(), self.summary.spent);
         let (request, interrupt, measures) =
             (self.request.clone(), self.interrupt().clone(), self.summary.measures.clone());
-        let comparison = Comparison {
-            measures: &measures,
-            references: &request.arguments.references,
-            tolerance: request.arguments.tolerance,
-        };
         let work = |(row, value): &Place, report: &dyn Fn(Result<Option<Cell>, RunError>)| {
+            let arguments = &request.arguments;
             let ended = request.scene(*row, *value).map_err(RunError::from);
-            report(match ended.and_then(|scene| evaluate(*value, &scene, &comparison, adapter, &interrupt)) {
+            report(match ended.and_then(|scene| evaluate(*value, &scene, &measures, arguments, adapter, &interrupt)) {
                 Err(error) if is_of_the_scene(&error) => Ok(Some(Cell::refused(*value, error.to_string()))),
                 ended => ended,
             });

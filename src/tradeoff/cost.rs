@@ -38,7 +38,7 @@ pub struct Cost {
 pub(super) struct Timed<'a> {
     pub name: &'a str,
     pub scene: &'a Scene,
-    pub state: &'a State,
+    pub state: State,
 }
 
 /// A choice that has its turns.
@@ -75,7 +75,7 @@ impl<'a> Runner<'a> {
             engine
         } else {
             let plan = steps_of(self.choice, Hardware::from(gpu), self.options);
-            let mut engine = Engine::new(gpu, plan, self.choice.state)?;
+            let mut engine = Engine::new(gpu, plan, &self.choice.state)?;
             // The first steps touch memory for the first time.
             seconds_of(&mut engine, 4)?;
             engine

@@ -372,27 +372,21 @@ impl StudyRun<TradeoffSummary> {
 
     /// Times the steps of all choices that came to their end, in turns.
     fn time(&mut self, runs: &[(String, Scene)], adapter: &AdapterChoice) -> Result<(), StudyError> {
-        let finished: Vec<usize> = (0..self.summary.choices.len())
-            .filter(|index| self.summary.choices[*index].state == ChoiceState::Finished)
-            .collect();
-        let mut states = Vec::new();
-        for index in &finished {
-            let name = &runs[*index].0;
-            let path = self.directory().join(name).join(run_files::CHECKPOINT);
-            states.push(checkpoint::load(&path).map_err(|error| StudyError::of_run(name, error))?.state);
+        let (mut finished, mut timed) = (Vec::new(), Vec::new());
+        for (index, ((name, scene), choice)) in runs.iter().zip(&self.summary.choices).enumerate() {
+            if choice.state == ChoiceState::Finished {
+                let path = self.directory().join(name).join(run_files::CHECKPOINT);
+                let state = checkpoint::load(&path).map_err(|error| StudyError::of_run(name, error))?.state;
+                finished.push(index);
+                timed.push(Timed { name, scene, state });
+            }
         }
-        let timed: Vec<Timed<'_>> = finished
-            .iter()
-            .zip(&states)
-            .map(|(index, state)| Timed { name: &runs[*index].0, scene: &runs[*index].1, state })
-            .collect();
         let costs = cost::measure(&timed, adapter, &|| self.proceed())?;
-        for ((index, cost), state) in finished.into_iter().zip(costs).zip(&states) {
+        for ((index, cost), Timed { name, scene, state }) in finished.into_iter().zip(costs).zip(timed) {
             self.proceed()?;
             let choice = &mut self.summary.choices[index];
             choice.cost = cost;
             if state.len() <= MOST_COMPARED && choice.float64_distance.is_none() {
-                let (name, scene) = &runs[index];
                 let gpu = run::adapter_for(scene, adapter).map_err(|error| StudyError::of_run(name, error))?;
                 let steps = (MOST_COMPARED / state.len().max(1)).clamp(1, MOST_STEPS_COMPARED) as u64;
                 let found = self_test::distances_from_reference(&gpu, scene, steps).ok();
