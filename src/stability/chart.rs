@@ -82,7 +82,8 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
         }
         let name = match verdict {
             Verdict::Right if !summary.compares_nothing() => format!("right within {percent}"),
-            other => other.name_in(summary).to_owned(),
+            Verdict::Right => summary.right_in_a_word().to_owned(),
+            other => other.name().to_owned(),
         };
         panel.series.push(Series::markers(&name, points).with_ink(SeriesInk::Numbered(verdict as usize)));
     }

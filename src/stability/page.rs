@@ -149,7 +149,7 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
         let (date, version) = (&summary.date, &summary.mesoscope_version);
         format!(" {date}, {} ({}), version {version}.", adapter.name, adapter.driver)
     });
-    let right = Verdict::Right.name_in(summary);
+    let right = summary.right_in_a_word();
     let header = ["row".to_owned(), format!("{right}: {key} up to"), "unstable from".to_owned(), "laws".to_owned()];
     let findings: Vec<String> = summary.findings().iter().map(|finding| format!("- {finding}")).collect();
     let mut paragraphs = vec![
@@ -175,7 +175,7 @@ impl StabilitySummary {
     /// What the best of runs are called: right, or only run to the end where nothing is compared.
     #[must_use]
     pub fn right_in_a_word(&self) -> &'static str {
-        Verdict::Right.name_in(self)
+        if self.compares_nothing() { "ran to its end" } else { Verdict::Right.name() }
     }
 
     /// What the mark of errors from few samples means, where there are any.

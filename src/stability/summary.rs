@@ -174,13 +174,12 @@ impl Record for StabilitySummary {
         Request::new(self.arguments.clone())
     }
 
-    fn misfits(&self, request: &Request) -> Vec<&'static str> {
-        let misfits = [
+    fn checks(&self, request: &Request) -> Vec<(bool, &'static str)> {
+        vec![
             (!self.is_of_this_version() || self.stability_id == request.id(), ASKS_ELSE),
             (self.rows.len() == request.row_count(), "has other rows than those that it asks for"),
             (self.measures == request.measures(), "compares other measures than those that it asks for"),
-        ];
-        misfits.into_iter().filter(|(fits, _)| !fits).map(|(_, reason)| reason).collect()
+        ]
     }
 
     fn version(&self) -> &str {

@@ -1,6 +1,5 @@
 //! What became of a scene.
 
-use super::summary::StabilitySummary;
 use crate::tradeoff::Deviation;
 use serde::{Deserialize, Serialize};
 
@@ -24,11 +23,6 @@ pub enum Verdict {
 impl Verdict {
     /// All of them.
     pub(super) const ALL: [Self; 4] = [Self::Right, Self::Biased, Self::Unstable, Self::Refused];
-
-    /// What it is called in a map that compares nothing, where nobody knows what is right, or else.
-    pub(super) fn name_in(self, summary: &StabilitySummary) -> &'static str {
-        if self == Self::Right && summary.compares_nothing() { "ran to its end" } else { self.name() }
-    }
 
     /// Its word.
     #[must_use]

@@ -2,6 +2,7 @@
 
 use super::error::StudyError;
 use super::kind::Kind;
+use super::lists::each_once;
 use super::shard_places;
 use super::version::Version;
 use crate::output::{Id, OutputError, RunDirectory, own_file, write_atomically};
@@ -43,8 +44,8 @@ pub trait Record: Debug + Clone + Serialize + DeserializeOwned {
     /// [`StudyError`] if it is not one that the program accepts.
     fn request(&self) -> Result<Self::Request, StudyError>;
 
-    /// What of it does not fit that request, each to be read after "it".
-    fn misfits(&self, request: &Self::Request) -> Vec<&'static str>;
+    /// Whether parts of it fit that request, each with what to say after "it" where it does not.
+    fn checks(&self, request: &Self::Request) -> Vec<(bool, &'static str)>;
 
     /// The version of the program that wrote it.
     fn version(&self) -> &str;
@@ -174,10 +175,8 @@ pub(super) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunD
         Err(_) if !is_as_asked => return Err(StudyError::Changed { kind, path, reasons: vec![ASKS_ELSE] }),
         request => request?,
     };
-    let mut reasons = record.misfits(&request);
-    if !is_as_asked && !reasons.contains(&ASKS_ELSE) {
-        reasons.push(ASKS_ELSE);
-    }
+    let checks = record.checks(&request).into_iter().chain([(is_as_asked, ASKS_ELSE)]);
+    let reasons = each_once(checks.filter(|(fits, _)| !fits).map(|(_, reason)| reason));
     if !reasons.is_empty() {
         return Err(StudyError::Changed { kind, path, reasons });
     }

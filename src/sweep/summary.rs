@@ -123,9 +123,8 @@ impl Record for SweepSummary {
         Sweep::again(scene, base, (set, self.steps), self.vary.clone(), self.also.clone(), files)
     }
 
-    fn misfits(&self, sweep: &Sweep) -> Vec<&'static str> {
-        let fits = self.has_runs_of(&Self::before(sweep));
-        if fits { Vec::new() } else { vec!["describes other runs than those whose ids are in it"] }
+    fn checks(&self, sweep: &Sweep) -> Vec<(bool, &'static str)> {
+        vec![(self.has_runs_of(&Self::before(sweep)), "describes other runs than those whose ids are in it")]
     }
 
     fn version(&self) -> &str {

@@ -303,7 +303,7 @@ impl Record for TradeoffSummary {
         Request::new(self.arguments.clone())
     }
 
-    fn misfits(&self, request: &Request) -> Vec<&'static str> {
+    fn checks(&self, request: &Request) -> Vec<(bool, &'static str)> {
         let Arguments { measures, references, targets, .. } = &request.arguments;
         let mut asked = measures
             .iter()
@@ -315,12 +315,11 @@ impl Record for TradeoffSummary {
         let same_runs = names.eq(request.sweep.variants().iter().map(|variant| variant.name.as_str()))
             && self.finer.len() == request.finer_names().len();
         let same_measures = self.measures.is_empty() || asked.all(|name| self.measures.iter().any(|own| own == name));
-        let misfits = [
+        vec![
             (same_id, ASKS_ELSE),
             (same_runs, "has other runs than those that it asks for"),
             (same_measures, "lacks measures that it asks for"),
-        ];
-        misfits.into_iter().filter(|(fits, _)| !fits).map(|(_, reason)| reason).collect()
+        ]
     }
 
     fn version(&self) -> &str {
