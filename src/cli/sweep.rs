@@ -1,6 +1,5 @@
 //! `mesoscope sweep`: runs of one scene that differ in a few values.
 
-use mesoscope::gpu::AdapterChoice;
 use mesoscope::printable;
 use mesoscope::run::RunError;
 use mesoscope::sweep::{Look, Shard, Sweep, SweepOutcome, SweepRun, Variant};
@@ -68,11 +67,6 @@ impl Arguments {
     pub fn is_shard(&self) -> bool {
         self.shard.is_some()
     }
-
-    /// The adapter of a shard: copies on one machine take different ones, where there are several.
-    fn adapter(&self) -> AdapterChoice {
-        self.study.how.adapter.choice_of_copy()
-    }
 }
 
 /// Runs the variants.
@@ -101,9 +95,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let title = sweep.variants().first().map_or("", |variant| &variant.scene.title);
     let in_words = |waiting| in_words(&sweep, shard, variants.len(), waiting);
+    let adapter = &study.how.adapter;
     let outcome = match shard {
-        None => study.execute(&study.how.adapter.choice(), run, title, in_words, SweepRun::execute)?,
-        Some(shard) => study.execute(&arguments.adapter(), run, title, in_words, |run, adapter, observer| {
+        None => study.execute(&adapter.choice(), run, title, in_words, SweepRun::execute)?,
+        // Copies on one machine take different adapters, where there are several.
+        Some(shard) => study.execute(&adapter.choice_of_copy(), run, title, in_words, |run, adapter, observer| {
             run.execute_shard(shard, adapter, observer)
         })?,
     };
