@@ -34,8 +34,3 @@ fn conservative_kick(slot: u32, all: Steps) -> Steps {
     forces[slot] = vec4<i32>(0);
     return kick;
 }
-
-// Slot couplings/forces: adds the conservative impulse of half a step for a report. Variants plane, volume; the plan follows
-// the box.
-// Default: off, no coupling has friction, or no force of this scene is conservative.
-fn add_force(slot: u32, force: Steps) {}

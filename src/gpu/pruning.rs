@@ -230,6 +230,6 @@ mod tests {
             of("sums[0] = count(); loop { switch u32(1u) { default: { if (SHARE > 0.1) { break; } } } }"),
             ["LAW", "SHARE"]
         );
-        assert_eq!(of("if (sums[0] == LAW) { counts[0] = u32(SHARE); }"), [""; 0]);
+        assert_eq!(of("if (f32(sums[0]) == SHARE) { counts[0] = u32(SHARE); }"), ["LAW"]);
     }
 }

@@ -9,7 +9,7 @@ use mesoscope::plan::{Hardware, Options, Storage, Traversal};
 use mesoscope::run;
 use mesoscope::run::Simulation;
 use mesoscope::scene::Scene;
-use mesoscope::shaders::Array;
+use mesoscope::shaders::{Array, Constant};
 use mesoscope::state::State;
 
 use crate::support::{adapter, cells, engine, fluid, gpu, start, water};
@@ -162,10 +162,10 @@ fn only_what_asks_for_images_pays_for_them() {
             let split = with.has_buffer(Array::ReportedMomenta);
             let same = |index: &usize| with.kernels[*index] == without.kernels[*index];
             let others: Vec<usize> = (0..without.kernels.len()).filter(|index| !same(index)).collect();
-            assert!(
-                if split { others.len() == 1 && with.report.contains(&others[0]) } else { others.is_empty() },
-                "{name}"
-            );
+            assert!(others.is_empty(), "{name}");
+            let constants = with.constants.iter().filter(|own| !without.constants.contains(own));
+            let constants: Vec<Constant> = constants.map(|(constant, _)| *constant).collect();
+            assert_eq!(constants, if split { vec![Constant::KeepsMomenta] } else { vec![] }, "{name}");
             let extra = with.kernels.len() - without.kernels.len();
             assert!((1..=2).contains(&extra) && !without.paths.are_followed(), "{name}: {extra}");
             assert_eq!(with.bytes() - without.bytes(), if split { 48 } else { 32 } * with.particles, "{name}");

@@ -13,9 +13,11 @@ use mesoscope::families::shallow_water::WaterLayout;
 use mesoscope::gpu::{Binding, GpuError, LinkedShader, validate};
 use mesoscope::plan::{Division, Domain, Hardware, Kernel, Options, Part, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
-use mesoscope::scene::Scene;
+use mesoscope::scene::{self, Scene};
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
+
+use serde_json::{Value, json};
 
 use crate::canonical::hash_of_kernel;
 use crate::support::{COTTER_REICH, INTEGRATORS, MIXTURE, MIXTURE_FORCE, SPLITTING, STAGED, cells, fluid, water};
@@ -73,6 +75,7 @@ pub fn plans() -> &'static [(String, Plan)] {
     static PLANS: OnceLock<Vec<(String, Plan)>> = OnceLock::new();
     PLANS.get_or_init(|| {
         let kinds = [
+            structure_plans,
             fluid_plans,
             long_range_plans,
             shared_plans,
@@ -101,50 +104,173 @@ pub fn plans() -> &'static [(String, Plan)] {
     })
 }
 
-/// One scene a combination of what pairs may have, with every way to visit them and to scan.
-fn fluid_plans() -> Vec<(String, Plan)> {
-    let mut choices: Vec<Vec<Vec<&str>>> = vec![INTEGRATORS.iter().map(|integrator| vec![*integrator]).collect()];
-    choices.push(vec![vec![], vec!["space.box=[9,7]"]]);
-    choices.push(vec![
-        vec![],
-        vec![
-            r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
-            r#"interactions.0.pairs=[{"between":["A","B"],"repulsion":1.0}]"#,
-        ],
-    ]);
-    choices.push(vec![vec![], vec!["interactions.0.weight_exponent=0.5"]]);
-    choices.push(vec![vec![], vec!["interactions.0.repulsion=0", "interactions.0.pairs=[]"]]);
-    choices.push(vec![
-        vec![],
-        vec![r#"noise={"distribution":"gaussian"}"#],
-        vec![r#"noise={"generator":"threefry2x32-20"}"#],
-        vec![r#"noise={"generator":"threefry2x32-20","distribution":"gaussian"}"#],
-        vec!["temperature=0"],
-        vec!["interactions.0.friction=0"],
-        vec!["interactions=[]"],
-    ]);
-    choices.push(vec![vec![], [SAMPLERS, &[VISCOSITY]].concat()]);
-    let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
-    for choice in choices {
-        combinations = combinations
-            .iter()
-            .flat_map(|combination| choice.iter().map(|more| [combination.as_slice(), more.as_slice()].concat()))
-            .collect();
-    }
-    let mut plans = Vec::new();
-    for changes in combinations {
-        let free = changes.contains(&"interactions=[]");
-        // Without an interaction there is nothing inside it to change.
-        let changes: Vec<&str> =
-            changes.into_iter().filter(|change| !free || !change.starts_with("interactions.")).collect();
-        let scene = fluid(&changes);
-        for traversal in [Traversal::Rows, Traversal::Clusters] {
-            for many_level_scan in [false, true] {
-                let options = Options { traversal: Some(traversal), many_level_scan, ..Options::default() };
-                let name = format!("{} {traversal:?} many_level_scan={many_level_scan}", changes.join(" "));
-                plans.extend(plans_of(&name, &scene, options));
+/// Every structure that a scene of particles may have: spaces, species, integrators, pairs, what acts beside them and what
+/// is measured, in every combination that scenes accept, with every way to visit pairs. Laws that are branches on
+/// constants make no other kernels.
+fn structure_plans() -> Vec<(String, Plan)> {
+    let spaces = [
+        json!({"box": [900]}),
+        json!({"box": [900], "walls": {"x": {}}}),
+        json!({"box": [9, 7]}),
+        json!({"box": [9, 7], "walls": {"y": {}}}),
+        json!({"box": [9, 7], "shear": {"rate": 0.2, "gradient": "y"}}),
+        json!({"box": [9, 7, 8]}),
+        json!({"box": [9, 7, 8], "walls": {"z": {}}}),
+        json!({"box": [9, 7, 8], "shear": {"rate": 0.2, "gradient": "y"}}),
+    ];
+    let pairs = [
+        json!([]),
+        json!([{"type": "dpd", "repulsion": 25}]),
+        json!([{"type": "dpd", "repulsion": 25, "friction": 4.5}]),
+        json!([{"type": "dpd", "repulsion": 25, "friction": 4.5, "bath": {"type": "memory", "rate": 3}}]),
+        json!([{"type": "dpd", "repulsion": -40, "friction": 4.5, "many_body": {"repulsion": 25}}]),
+    ];
+    let mut scenes = Vec::new();
+    for space in &spaces {
+        let mut second = vec![None, Some(json!({"species": "B", "count": 50, "mass": 2.5}))];
+        // A layer of frozen particles.
+        second.extend(space["walls"].as_object().and_then(|walls| walls.keys().next()).map(|axis| {
+            let placement = json!({"type": "behind-walls", "axis": axis, "thickness": 1});
+            Some(json!({"species": "B", "number_density": 3, "placement": placement}))
+        }));
+        for (second, pairs) in second.iter().flat_map(|second| pairs.iter().map(move |pairs| (second, pairs))) {
+            for integrator in [COTTER_REICH, STAGED] {
+                let mut groups = vec![json!({"species": "A", "count": 200, "chain": {"beads": 4}})];
+                groups.extend(second.clone());
+                let mut scene = json!({
+                    "title": "structure", "seed": 1, "space": space, "time": {"step": 0.01, "steps": 1000},
+                    "temperature": 1, "particles": groups, "interactions": pairs, "output": {"energies": {"every": 1}},
+                });
+                scene["integrator"] = serde_json::from_str(integrator.split_once('=').unwrap().1).unwrap();
+                scenes.extend(scenes_beside(&scene));
             }
         }
+    }
+    assert!(scenes.len() > 1000, "only {} scenes are accepted", scenes.len());
+    let listed = Options { listed: true, ..Options::default() };
+    let options = [Traversal::Rows, Traversal::Clusters]
+        .map(|traversal| Options { traversal: Some(traversal), ..Options::default() });
+    let mut plans = Vec::new();
+    for scene in scenes {
+        for options in options.into_iter().chain([listed]) {
+            plans.extend(plans_of(&format!("{} {options:?}", serde_json::to_string(&scene).unwrap()), &scene, options));
+        }
+    }
+    plans
+}
+
+/// A scene with what may act beside its pairs, as far as it accepts that, without analyses and with all that it accepts.
+fn scenes_beside(pairs: &Value) -> Vec<Scene> {
+    if accepted(pairs).is_none() {
+        return Vec::new();
+    }
+    let dimension = pairs["space"]["box"].as_array().unwrap().len();
+    let last = ["x", "y", "z"][dimension - 1];
+    let force = json!({"type": "body-force", "force": vec![0.4; dimension]});
+    let harmonic = json!({"type": "harmonic", "stiffness": 9, "length": 0.5});
+    let memory = json!({"type": "memory", "rate": 3});
+    let angles = json!({"type": "angles", "stiffness": 3});
+    let tether = json!({"type": "tether", "stiffness": 4});
+    let bonds = |more: Value| {
+        let mut bonds = json!({"type": "bonds"});
+        bonds.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        bonds
+    };
+    let white = json!({"type": "langevin", "friction": 1});
+    let slow = json!({"type": "langevin", "friction": 1, "bath": memory});
+    let noise = json!({"type": "coloured-noise", "strength": 1, "time": 0.1});
+    let springs = bonds(json!({"potential": harmonic}));
+    let excluding = bonds(json!({"potential": harmonic, "exclude_repulsion": true}));
+    let rubbing = bonds(json!({"friction": 2}));
+    let remembering = bonds(json!({"friction": 2, "bath": memory}));
+    let beside = [
+        vec![],
+        vec![&excluding, &angles, &tether, &force],
+        vec![&springs, &angles, &white, &force],
+        vec![&rubbing],
+        vec![&rubbing, &white, &force],
+        vec![&remembering, &angles],
+        vec![&remembering, &angles, &white],
+        vec![&remembering, &slow, &noise, &tether],
+    ];
+    let analyses = [
+        json!({
+            "radial_distribution": {"every": 2, "range": 1.1}, "diffusion": {"every": 2, "window": 4},
+            "viscosity": {"every": 2, "window": 4}, "trajectory": {"every": 5}, "chain_sizes": {"every": 2},
+            "autocorrelations": [
+                {"quantity": "velocity", "every": 2, "window": 4}, {"quantity": "force", "every": 2, "window": 4},
+            ],
+            "histograms": [{"quantity": "velocity", "every": 2}], "profiles": {"axis": last, "every": 2},
+        }),
+        json!({
+            "stress": {"every": 2}, "profiles": {"axis": last, "every": 2, "quantities": ["density", "stress"]},
+            "autocorrelations": [
+                {"quantity": "velocity", "every": 2, "window": 4, "frame": "centre-of-mass"},
+                {"quantity": "force", "every": 2, "window": 4},
+            ],
+            "histograms": [
+                {"quantity": "velocity", "every": 2, "frame": "centre-of-mass"}, {"quantity": "acceleration", "every": 2},
+            ],
+        }),
+    ];
+    let mut scenes = Vec::new();
+    for interactions in beside {
+        let mut scene = pairs.clone();
+        for interaction in interactions {
+            let before = scene["interactions"].clone();
+            scene["interactions"].as_array_mut().unwrap().push(interaction.clone());
+            if accepted(&scene).is_none() {
+                scene["interactions"] = before;
+            }
+        }
+        scenes.extend(accepted(&scene));
+        for analyses in &analyses {
+            let mut scene = scene.clone();
+            for (name, analysis) in analyses.as_object().unwrap() {
+                let before = scene["output"].clone();
+                scene["output"][name] = analysis.clone();
+                if accepted(&scene).is_none() {
+                    scene["output"] = before;
+                }
+            }
+            scenes.extend(accepted(&scene));
+        }
+    }
+    scenes
+}
+
+fn accepted(scene: &Value) -> Option<Scene> {
+    scene::parse("structure", &scene.to_string(), &[]).ok()
+}
+
+/// Pairs with every law, in turns, with every way to scan.
+fn fluid_plans() -> Vec<(String, Plan)> {
+    let laws: [&[&str]; 9] = [
+        &["interactions.0.weight_exponent=0.5"],
+        &["interactions.0.repulsion=0", "interactions.0.pairs=[]"],
+        &[r#"noise={"distribution":"gaussian"}"#],
+        &[r#"noise={"generator":"threefry2x32-20"}"#],
+        &[r#"noise={"generator":"threefry2x32-20","distribution":"gaussian"}"#],
+        &["temperature=0"],
+        &["interactions.0.friction=0"],
+        &["interactions=[]"],
+        &[VISCOSITY],
+    ];
+    let mixture = [
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+        r#"interactions.0.pairs=[{"between":["A","B"],"repulsion":1.0}]"#,
+    ];
+    let mut plans = Vec::new();
+    let grounds = INTEGRATORS
+        .iter()
+        .flat_map(|integrator| ["time.steps=1000", "space.box=[9,7]"].map(|space| [*integrator, space]));
+    let all = grounds.flat_map(|ground| laws.map(|law| (ground, law)));
+    for (number, (ground, law)) in all.enumerate() {
+        let mixture: &[&str] = if number % 2 == 0 && law != ["interactions=[]"] { &mixture } else { &[] };
+        let changes = [&ground[..], mixture, law, SAMPLERS].concat();
+        let traversal = Some([Traversal::Rows, Traversal::Clusters][number / 2 % 2]);
+        let options = Options { traversal, many_level_scan: number % 3 == 0, ..Options::default() };
+        plans.extend(plans_of(&format!("{} {options:?}", changes.join(" ")), &fluid(&changes), options));
     }
     plans
 }

@@ -6,6 +6,9 @@ use crate::families::particles::plan::bonded::{self, Bonded, Observed};
 use crate::families::particles::plan::{own, shear, stress};
 use crate::shaders::{Array, Choices, Constant, Entry, couplings};
 
+/// Conservative impulses are gathered beside those of all forces.
+const APART: f64 = 2.0;
+
 /// Kernels of couplings.
 #[derive(Debug, Default)]
 pub(super) struct GatheringKernels {
@@ -48,16 +51,8 @@ impl Builder<'_> {
         match (self.gathers_friction(), self.model.has_potential()) {
             (true, false) => 0.0,
             (false, _) => 1.0,
-            (true, true) => 2.0,
+            (true, true) => APART,
         }
-    }
-
-    /// Gathers conservative forces at a report beside all others, if both are there.
-    pub(super) fn conservative_forces(&self) -> Option<couplings::Forces> {
-        (self.gathers_friction() && self.model.has_potential()).then_some(match self.model.units.dimension {
-            3 => couplings::Forces::Volume,
-            _ => couplings::Forces::Plane,
-        })
     }
 
     /// Adds impulses to particles in any order.
@@ -98,8 +93,7 @@ impl Builder<'_> {
                 self.plan.kernels[kernel].constants.push(shear::moment(1));
             }
         } else {
-            let gathered = kicks.with_any(self.conservative_forces());
-            kernels.report.push(self.report_of(whole, bonded, &bonded.observed, &gathered, rows));
+            kernels.report.push(self.report_of(whole, bonded, &bonded.observed, &kicks, rows));
         }
         if stress::is_needed(self.measured) {
             let (name, choices) = &bonded.stress;
@@ -159,7 +153,7 @@ impl Builder<'_> {
         if self.gathers() {
             self.plan.add_buffer(Array::Kicks, 16 * places);
         }
-        if self.conservative_forces().is_some() {
+        if self.conservative_gathered() == APART {
             self.plan.add_buffer(Array::Forces, 16 * places);
         }
     }

@@ -24,7 +24,7 @@ impl Builder<'_> {
         let observed = law.clone().with_if(memory, baths::PairReport::Observed);
         let gathered = law.and(&self.kicks());
         kernels.kicks.push(self.kernel("pairs", Entry::VisitListedPairs, gathered.clone(), self.particles));
-        let seen = gathered.and(&observed).with(couplings::PairReport::Observed).with_any(self.conservative_forces());
+        let seen = gathered.and(&observed).with(couplings::PairReport::Observed);
         let report = self.kernel("report_pairs", Entry::VisitListedPairs, seen, self.particles);
         let once = self.scales().once(&[Constant::PairEnergy, Constant::PairVirial, Constant::Laplacian]);
         self.leaves_rows(report, rows);

@@ -19,7 +19,7 @@ impl Builder<'_> {
         let pass = Choices::new().with(pairs::Pass::PullTethers).and(&self.kicks());
         kernels.kicks.push(self.traversal("tethers", Traversal::Alone, Masks::Unkept, &pass));
         // Half a drift later the report of a split step needs the impulses there.
-        let seen = pass.with(bonds::TetherReport::Observed).with_any(self.conservative_forces());
+        let seen = pass.with(bonds::TetherReport::Observed);
         let report = self.traversal("report_tethers", Traversal::Alone, Masks::Unkept, &seen);
         self.leaves_rows(report, rows);
         let reports = if self.splits() { &mut kernels.configuration } else { &mut kernels.report };
