@@ -1,5 +1,6 @@
 //! Kernels, stage by stage, and buffers.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use mesoscope::gpu::{self, GpuError};
@@ -24,6 +25,8 @@ pub fn kernels(text: &mut String, plan: &Plan) -> Result<(), Failure> {
         ("Every step with a measurement: finish it", &plan.finish_report),
     ];
     let shared = Shared::of(plan)?;
+    text.push_str("\nShared by all kernels\n");
+    wrapped(text, "laws", shared.laws.iter().filter_map(|name| constant(&plan.constants, *name)));
     if !shared.choices.is_empty() {
         text.push_str("\nShared by all kernels that see particles\n");
     }
@@ -70,36 +73,40 @@ fn constant(constants: &[(Constant, f64)], name: Constant) -> Option<String> {
     Some(format!("{} = {}", name.name(), six_digits(*value)))
 }
 
-/// What all kernels that see particles have in common, so that it need not be said of each.
+/// The choices and constants of all kernels that see particles, and the constants on which branches of any kernel
+/// depend, so that they need not be listed with each.
 struct Shared {
     choices: Vec<Choice>,
     constants: Vec<Constant>,
+    laws: BTreeSet<Constant>,
 }
 
 impl Shared {
     fn of(plan: &Plan) -> Result<Self, Failure> {
-        let mut shared: Option<Self> = None;
+        let mut laws = BTreeSet::new();
+        let mut shared: Option<(Vec<Choice>, Vec<Constant>)> = None;
         for kernel in &plan.kernels {
+            let whole = gpu::link(kernel.name, kernel.entry, &kernel.choices)?;
+            laws.extend(whole.switches.iter().copied());
             let choices = kernel_choices(kernel)?;
             // The others do not see particles.
             if !space::MassOfParticle::ALL.iter().any(|variant| choices.contains(&(*variant).into())) {
                 continue;
             }
-            let constants = gpu::link(kernel.name, kernel.entry, &kernel.choices)?.constants;
+            let all: Vec<(Constant, f64)> = kernel.constants_in(plan).collect();
+            let constants = whole.specialized(&all).constants;
             // A constant that a kernel sets for itself is not shared.
             let own = |name: &Constant| kernel.constants.iter().any(|(known, _)| known == name);
             match &mut shared {
-                None => {
-                    let constants = constants.into_iter().filter(|name| !own(name)).collect();
-                    shared = Some(Self { choices, constants });
-                }
-                Some(shared) => {
-                    shared.choices.retain(|choice| choices.contains(choice));
-                    shared.constants.retain(|name| constants.contains(name) && !own(name));
+                None => shared = Some((choices, constants.into_iter().filter(|name| !own(name)).collect())),
+                Some((shared_choices, shared_constants)) => {
+                    shared_choices.retain(|choice| choices.contains(choice));
+                    shared_constants.retain(|name| constants.contains(name) && !own(name));
                 }
             }
         }
-        Ok(shared.unwrap_or(Self { choices: Vec::new(), constants: Vec::new() }))
+        let (choices, constants) = shared.unwrap_or_default();
+        Ok(Self { choices, constants, laws })
     }
 
     /// Whether a kernel with these choices is one of those.
@@ -136,15 +143,18 @@ fn section(
             continue;
         }
         described.push(index);
-        let linked = gpu::link(kernel.name, kernel.entry, &kernel.choices)?;
+        let constants: Vec<(Constant, f64)> = kernel.constants_in(plan).collect();
+        let whole = gpu::link(kernel.name, kernel.entry, &kernel.choices)?;
+        let used = whole.specialized(&constants);
         let choices = kernel_choices(kernel)?;
         wrapped(text, "kernel", std::iter::once(kernel.entry.name().to_owned()));
         let own = |choice: &&Choice| !shared.among(&choices) || !shared.choices.contains(choice);
         wrapped(text, "choices", choices.iter().filter(own).map(|choice| choice.path().to_owned()));
-        let constants: Vec<(Constant, f64)> = kernel.constants_in(plan).collect();
-        let own = linked.constants.iter().filter(|name| !shared.among(&choices) || !shared.constants.contains(*name));
+        let own = used.constants.iter().filter(|name| !shared.among(&choices) || !shared.constants.contains(*name));
         wrapped(text, "constants", own.filter_map(|name| constant(&constants, *name)));
-        let arrays = linked.bindings.iter().map(|binding| kernel.array_of(binding.array).name().to_owned());
+        let laws = whole.switches.iter().filter(|name| kernel.constants.iter().any(|(own, _)| own == *name));
+        wrapped(text, "laws", laws.filter_map(|name| constant(&constants, *name)));
+        let arrays = used.bindings.iter().map(|binding| kernel.array_of(binding.array).name().to_owned());
         wrapped(text, "buffers", arrays);
     }
     Ok(())
