@@ -936,23 +936,22 @@ fn coupled_plans() -> Vec<(String, Plan)> {
             plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
         }
     }
-    for interactions in &interactions {
+    for (number, interactions) in interactions.iter().enumerate() {
         for particles in particles {
             for space in ["space.box=[9,7]", "space.box=[9,7,8]"] {
-                for generator in ["pcg4d", "threefry2x32-20"] {
-                    let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
-                    for integrator in ["cotter-reich", "groot-warren"] {
-                        let white = !interactions.contains("langevin") && !interactions.contains("memory");
-                        if integrator == "groot-warren" && !white {
-                            continue;
-                        }
-                        let lambda = if integrator == "groot-warren" { r#","lambda":0.65"# } else { "" };
-                        let integrator = format!(r#"integrator={{"type":"{integrator}"{lambda}}}"#);
-                        let changes = [interactions.as_str(), particles, space, &generator, &integrator];
-                        let options =
-                            Options { listed: true, many_level_scan: generator.contains("pcg"), ..Options::default() };
-                        plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
+                let generator = ["pcg4d", "threefry2x32-20"][number % 2];
+                let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
+                for integrator in ["cotter-reich", "groot-warren"] {
+                    let white = !interactions.contains("langevin") && !interactions.contains("memory");
+                    if integrator == "groot-warren" && !white {
+                        continue;
                     }
+                    let lambda = if integrator == "groot-warren" { r#","lambda":0.65"# } else { "" };
+                    let integrator = format!(r#"integrator={{"type":"{integrator}"{lambda}}}"#);
+                    let changes = [interactions.as_str(), particles, space, &generator, &integrator];
+                    let options =
+                        Options { listed: true, many_level_scan: generator.contains("pcg"), ..Options::default() };
+                    plans.extend(plans_of(&changes.join(" "), &fluid(&changes), options));
                 }
             }
         }
@@ -978,7 +977,8 @@ fn relaxed_plans() -> Vec<(String, Plan)> {
         (r#""bath":{"type":"white","temperature":0}"#, r#"noise={"generator":"pcg4d"}"#),
     ];
     let mut plans = Vec::new();
-    for (pair, particles) in pairs.iter().flat_map(|pair| particles.map(|particles| (pair, particles))) {
+    let all = pairs.iter().flat_map(|pair| particles.map(|particles| (pair, particles)));
+    for (number, (pair, particles)) in all.enumerate() {
         for (space, more) in [
             ("space.box=[9,7]", ""),
             ("space.box=[9,7]", bonds),
@@ -988,19 +988,18 @@ fn relaxed_plans() -> Vec<(String, Plan)> {
         ] {
             // What is tied to places has no stress to measure.
             let samplers = if more == tether { &SAMPLERS[..6] } else { SAMPLERS };
-            for (bath, noise) in baths {
-                let interactions = if more == rubbing {
-                    format!(r#"interactions=[{{"type":"bonds","friction":1,{bath}}}{pair}]"#)
-                } else {
-                    format!(r#"interactions=[{{"type":"langevin","friction":1,{bath}}}{pair}{more}]"#)
-                };
-                for (samplers, integrator) in [(&[][..], SPLITTING), (samplers, SPLITTING), (samplers, STAGED)] {
-                    let changes = [&[interactions.as_str(), particles, space, noise, integrator], samplers].concat();
-                    for traversal in [Traversal::Rows, Traversal::Clusters] {
-                        let options = Options { traversal: Some(traversal), ..Options::default() };
-                        let name = format!("{} {traversal:?}", changes.join(" "));
-                        plans.extend(plans_of(&name, &fluid(&changes), options));
-                    }
+            let (bath, noise) = baths[number % 3];
+            let interactions = if more == rubbing {
+                format!(r#"interactions=[{{"type":"bonds","friction":1,{bath}}}{pair}]"#)
+            } else {
+                format!(r#"interactions=[{{"type":"langevin","friction":1,{bath}}}{pair}{more}]"#)
+            };
+            for (samplers, integrator) in [(&[][..], SPLITTING), (samplers, SPLITTING), (samplers, STAGED)] {
+                let changes = [&[interactions.as_str(), particles, space, noise, integrator], samplers].concat();
+                for traversal in [Traversal::Rows, Traversal::Clusters] {
+                    let options = Options { traversal: Some(traversal), ..Options::default() };
+                    let name = format!("{} {traversal:?}", changes.join(" "));
+                    plans.extend(plans_of(&name, &fluid(&changes), options));
                 }
             }
         }
@@ -1074,17 +1073,16 @@ fn bond_plans() -> Vec<(String, Plan)> {
             plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
         }
     }
-    for bonds in &bonds {
+    for (number, bonds) in bonds.iter().enumerate() {
         for other in others {
             for particles in groups {
                 for space in ["space.box=[90]", "space.box=[19,17]", "space.box=[9,10,11]"] {
-                    for generator in ["pcg4d", "threefry2x32-20"] {
-                        let interactions = format!("interactions=[{bonds}{other}]");
-                        let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
-                        let output = r#"output={"chain_sizes":{"every":1},"trajectory":{"every":1},"radial_distribution":{"every":9,"range":1.1}}"#;
-                        let changes = [particles, &interactions, space, &generator, integrator, output];
-                        plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
-                    }
+                    let generator = ["pcg4d", "threefry2x32-20"][number % 2];
+                    let interactions = format!("interactions=[{bonds}{other}]");
+                    let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
+                    let output = r#"output={"chain_sizes":{"every":1},"trajectory":{"every":1},"radial_distribution":{"every":9,"range":1.1}}"#;
+                    let changes = [particles, &interactions, space, &generator, integrator, output];
+                    plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
                 }
             }
         }
@@ -1123,7 +1121,7 @@ fn voronoi_plans() -> Vec<(String, Plan)> {
         &[&["integrator.type=splitting"], &["integrator.type=euler"]],
         &[&[], &["interactions.0.energy={}"], &[r#"interactions.0.energy={"conductivity":0}"#]],
         &[&[], &["interactions.0.viscosity=0"]],
-        &[&[], &["temperature=0"], &[r#"noise={"generator":"threefry2x32-20"}"#]],
+        &[&[], &["temperature=0"]],
         &[&[], VORONOI_SAMPLERS],
     ];
     let mut combinations: Vec<Vec<&str>> = vec![Vec::new()];
@@ -1167,11 +1165,6 @@ fn water_plans() -> Vec<(String, Plan)> {
             &[],
             &[r#"interactions.0.bath={"type":"memory","epsilon":1}"#],
             &[r#"interactions.0.bath={"type":"white"}"#, "temperature=0.01"],
-            &[
-                r#"interactions.0.bath={"type":"white"}"#,
-                "temperature=0.01",
-                r#"noise={"generator":"threefry2x32-20"}"#,
-            ],
         ],
         &[
             &[],
