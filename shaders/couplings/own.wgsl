@@ -5,7 +5,7 @@ struct OwnImpulses {
     opening: Steps, // beyond it, of the half step that begins here
 }
 
-// What acts on a particle by itself: baths on coordinates and a random force. `advance_own` takes them to this step;
+// Forces on a particle by itself: baths on coordinates and a random force. `advance_own` takes them to this step;
 // `observe_own` finds their impulses for a report, and leaves them as they are; `observe_own_products` gets the momentum
 // that follows. In a first pass of a split step `leave_opening` leaves the impulses of the half step that begins here,
 // and those of both, in `kicks`, `finish_own` ends the pass, and a report observes what the pass has made of the baths

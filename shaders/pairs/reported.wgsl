@@ -1,4 +1,4 @@
-// What a report keeps of each particle by id for analyses.
+// Forces and momenta that a report keeps by id for analyses.
 //
 // The impulses on it, in integer momentum units.
 override KEEPS_FORCES: u32;      // 1 where an analysis needs forces
@@ -14,7 +14,7 @@ fn store_force(id: u32) {
 }
 
 // The momentum of a split step's report, right after the relaxation, where the temperature is measured.
-override KEEPS_MOMENTA: u32;         // 1 where an analysis needs velocities, 2 where it needs those relative to the flow
+override KEEPS_MOMENTA: u32;     // 1 where an analysis needs velocities, 2 where those relative to the flow
 var<private> reported_flow: f32; // along x, in the linear profile where the particle is
 
 fn store_momentum(id: u32, momentum: vec4<i32>) {

@@ -46,7 +46,7 @@ impl<'a> SpeciesNames<'a> {
         if self.known.contains(name) {
             return true;
         }
-        // What is nearest takes time.
+        // The search for the nearest name takes time.
         if problems.is_full() {
             problems.add("", "", "");
             return false;

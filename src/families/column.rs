@@ -17,7 +17,7 @@ enum Value {
     Number(fn(&Observables, f64) -> f64),
     /// A component of a vector.
     Component(fn(&Observables) -> [f64; 3], usize),
-    /// A component of the momentum that a wall has taken up.
+    /// A component of the momentum absorbed by a wall.
     OnWall(usize, usize),
 }
 
@@ -93,14 +93,14 @@ pub(crate) fn motion(dimension: usize) -> Vec<Column> {
     [momentum, components(CENTRE_OF_MASS, dimension, Observables::centre_of_mass_velocity)].concat()
 }
 
-/// Momentum and work that body forces have put in.
+/// Impulse and work of body forces.
 pub(crate) fn put_in(dimension: usize) -> Vec<Column> {
     const MOMENTUM: [&str; 3] = ["body_force_momentum_x", "body_force_momentum_y", "body_force_momentum_z"];
     let momentum = components(MOMENTUM, dimension, |row| row.put_in.momentum);
     [momentum, vec![column("body_force_work", |row, _| row.put_in.work)]].concat()
 }
 
-/// Momentum that each wall has taken up: by the axis that it crosses, lower before upper.
+/// Momentum absorbed by each wall: by the axis that it crosses, lower before upper.
 const MOMENTUM_OF_WALLS: [[&str; 3]; 6] = [
     ["wall_x_lower_momentum_x", "wall_x_lower_momentum_y", "wall_x_lower_momentum_z"],
     ["wall_x_upper_momentum_x", "wall_x_upper_momentum_y", "wall_x_upper_momentum_z"],
@@ -116,7 +116,7 @@ pub(crate) const SHEAR_MOMENTUM: Column = column("shear_momentum", |row, _| row.
 /// Work that moving walls have done on the particles.
 pub(crate) const WALL_WORK: Column = column("wall_work", |row, _| row.on_walls.work);
 
-/// Momentum that the walls across some axes have taken up.
+/// Momentum absorbed by the walls across some axes.
 pub(crate) fn on_walls(axes: impl Iterator<Item = usize>, dimension: usize) -> impl Iterator<Item = Column> {
     axes.flat_map(|axis| [2 * axis, 2 * axis + 1]).flat_map(move |wall| {
         let names = MOMENTUM_OF_WALLS[wall].into_iter().take(dimension).enumerate();

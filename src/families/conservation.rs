@@ -1,23 +1,23 @@
-//! What models conserve exactly.
+//! Quantities that models conserve exactly.
 
 use crate::plan::Sums;
 use crate::shaders::Sum;
 use crate::state::State;
 
-/// What some models keep to the last bit: sums of integers, which every report has.
+/// A quantity that some models keep to the last bit: a sum of integers, which every report has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum KeptQuantity {
-    /// Of what exchanges it, or might.
+    /// Mass of particles or cells, which may exchange it.
     Mass,
-    /// On the nodes of a mesh.
+    /// Mass on the nodes of a mesh.
     MeshMass,
-    /// Of all particles, with or less what they exchange with something else.
+    /// Momentum of all particles, including or excluding what they exchange with something else.
     Momentum {
-        /// Momentum that walls have taken up counts.
+        /// Momentum absorbed by walls is included.
         walls: bool,
-        /// Momentum that boundaries which shear have taken from those that crossed them counts.
+        /// Momentum lost by particles that cross sheared boundaries is included.
         shear: bool,
-        /// Momentum that body forces have put in does not count.
+        /// The impulse of body forces is excluded.
         body_forces: bool,
     },
     /// Kinetic and internal energy together.
@@ -28,7 +28,7 @@ impl KeptQuantity {
     /// The momentum of all particles.
     pub const MOMENTUM: Self = Self::Momentum { walls: false, shear: false, body_forces: false };
 
-    /// Whether it is kept only if both ends of a pair are computed alike, as by ranks that round alike.
+    /// True if it is kept only if both ends of a pair are computed alike, as by ranks that round alike.
     #[must_use]
     pub fn is_exchanged(self) -> bool {
         !matches!(self, Self::Mass | Self::MeshMass)
@@ -41,17 +41,13 @@ impl KeptQuantity {
             Self::Mass => "mass".to_owned(),
             Self::MeshMass => "mass on the mesh".to_owned(),
             Self::Momentum { walls, shear, body_forces } => {
-                let taken_up = match (walls, shear) {
+                let included = match (walls, shear) {
                     (false, false) => "",
-                    (true, _) => " with what walls have taken up",
-                    (_, true) => " with what boundaries that shear have taken from those that crossed them",
+                    (true, _) => ", including that absorbed by walls",
+                    (_, true) => ", including that lost at sheared boundaries",
                 };
-                let put_in = match (body_forces, walls || shear) {
-                    (false, _) => "",
-                    (true, false) => " less what body forces have put in",
-                    (true, true) => ", less what body forces have put in",
-                };
-                format!("total momentum{taken_up}{put_in}")
+                let excluded = if body_forces { ", excluding the impulse of body forces" } else { "" };
+                format!("total momentum{included}{excluded}")
             }
             Self::Energy => "total energy".to_owned(),
         }
@@ -61,7 +57,7 @@ impl KeptQuantity {
 /// One of the integer sums that a model keeps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KeptSum {
-    /// What it is of.
+    /// The quantity.
     pub quantity: KeptQuantity,
     /// The direction of a component: ` along x`.
     pub direction: &'static str,
@@ -69,17 +65,17 @@ pub struct KeptSum {
     pub place: usize,
     /// Value of one unit.
     pub unit: f64,
-    /// The place of the sum of what is put in from outside, which does not count.
+    /// The place of the sum of the impulse of body forces, which is excluded.
     pub put_in: Option<usize>,
-    /// The place of the sum of what the first wall has taken up, which counts too, and the number of walls, whose sums follow each other at
-    /// every third place.
+    /// The place of the sum of the momentum absorbed by the first wall, which is included, and the number of walls, whose
+    /// sums follow each other at every third place.
     pub walls: Option<(usize, usize)>,
     /// In a state.
     pub total: i64,
 }
 
 impl KeptSum {
-    /// What is kept, among the sums of a report.
+    /// The kept sum, from the sums of a report.
     #[must_use]
     pub fn of(&self, sums: &[i64]) -> Option<i64> {
         let found = sums.get(self.place)?;

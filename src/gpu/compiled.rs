@@ -2,44 +2,13 @@
 //! again.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
-use std::hash::Hash;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use super::device::Gpu;
 use super::error::GpuError;
-use super::shader::{Binding, LinkedShader, validate};
-use crate::shaders::{Choices, Constant, Entry, linked_text};
-
-/// As many as some ten engines have. When that is exceeded all are dropped; engines in use keep theirs.
-const MOST_KEPT: usize = 256;
-
-/// Values by their keys.
-struct Kept<K, V>(Mutex<HashMap<K, V>>);
-
-impl<K: Eq + Hash, V: Clone> Kept<K, V> {
-    /// The stored value, or the result of `make`, which is stored unless it is an error. Two threads that ask for the same value at
-    /// once both make it.
-    fn get_or_make(&self, key: K, make: impl FnOnce() -> Result<V, GpuError>) -> Result<V, GpuError> {
-        if let Some(kept) = self.0.lock().ok().and_then(|kept| kept.get(&key).cloned()) {
-            return Ok(kept);
-        }
-        let made = make()?;
-        if let Ok(mut kept) = self.0.lock() {
-            if kept.len() >= MOST_KEPT {
-                kept.clear();
-            }
-            kept.insert(key, made.clone());
-        }
-        Ok(made)
-    }
-}
-
-impl<K, V> Default for Kept<K, V> {
-    fn default() -> Self {
-        Self(Mutex::default())
-    }
-}
+use super::kept::Kept;
+use super::shader::{Binding, LinkedShader, link_once};
+use crate::shaders::{Choices, Constant, Entry};
 
 /// The text of a kernel, and the bits of the constants that it uses.
 type Ingredients = (String, Vec<(Constant, u64)>);
@@ -50,13 +19,12 @@ pub type Rewriting = Arc<dyn Fn(&mut naga::Module, wgpu::Features) + Send + Sync
 /// What a device has compiled.
 pub(super) struct Compiled {
     rewriting: Option<Rewriting>,
-    linked: Kept<String, Arc<LinkedShader>>,
     pipelines: Kept<Ingredients, (wgpu::ComputePipeline, Arc<[Binding]>)>,
 }
 
 impl Compiled {
     pub(super) fn new(rewriting: Option<Rewriting>) -> Self {
-        Self { rewriting, linked: Kept::default(), pipelines: Kept::default() }
+        Self { rewriting, pipelines: Kept::default() }
     }
 
     pub(super) fn rewriting(&self) -> Option<Rewriting> {
@@ -76,10 +44,7 @@ impl Gpu {
         choices: &Choices,
         constants: impl Iterator<Item = (Constant, f64)>,
     ) -> Result<(wgpu::ComputePipeline, Arc<[Binding]>), GpuError> {
-        let linked = linked_text(entry, choices).map_err(|unlinked| GpuError::unlinked(name, unlinked))?;
-        let text = linked.text.clone();
-        let make = || Ok(Arc::new(validate(name, entry.name(), &linked)?));
-        let linked = self.compiled.linked.get_or_make(text.clone(), make)?;
+        let (text, linked) = link_once(name, entry, choices)?;
         let used = constants.filter(|(constant, _)| linked.constants.contains(constant));
         let constants: Vec<(Constant, f64)> = used.collect();
         let bits = constants.iter().map(|(constant, value)| (*constant, value.to_bits())).collect();
@@ -112,23 +77,5 @@ impl Gpu {
             })?;
             Ok((pipeline, bindings.into()))
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_are_made_once_and_errors_each_time() {
-        let kept = Kept::<usize, usize>::default();
-        let failure = || Err(GpuError::NoSuchAdapter { wanted: String::new(), available: String::new() });
-        assert!(kept.get_or_make(3, failure).is_err());
-        assert_eq!(kept.get_or_make(3, || Ok(9)).ok(), Some(9));
-        assert_eq!(kept.get_or_make(3, failure).ok(), Some(9));
-        for key in 0..3 * MOST_KEPT {
-            assert_eq!(kept.get_or_make(key, || Ok(key * key)).ok(), Some(key * key));
-            assert!(kept.0.lock().is_ok_and(|kept| kept.len() <= MOST_KEPT));
-        }
     }
 }

@@ -5,6 +5,7 @@ mod compiled;
 mod device;
 mod environment;
 mod error;
+mod kept;
 mod pruning;
 mod shader;
 
@@ -14,4 +15,4 @@ pub(crate) use device::compute_pass;
 pub use device::{Gpu, Requirements};
 pub use environment::{prepare_environment, prepare_environment_among};
 pub use error::GpuError;
-pub use shader::{Binding, LinkedShader, link, storage_buffers, validate};
+pub use shader::{Binding, LinkedShader, Switched, link, storage_buffers, validate};

@@ -1,9 +1,10 @@
 //! Kernels linked, parsed and validated; errors name the file and the line.
 
 use std::collections::BTreeMap;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use super::GpuError;
+use super::kept::Kept;
 use super::pruning::{prune, switches};
 use crate::shaders::{Array, Choices, Constant, Entry, LinkedText, linked_text};
 
@@ -37,14 +38,19 @@ impl LinkedShader {
     /// The kernel of a pipeline with these constants: branches on them are taken, and what only others use is gone.
     ///
     /// ```
-    /// use mesoscope::gpu::link;
-    /// use mesoscope::shaders::{Choices, Constant, Entry, mesh, water};
+    /// use mesoscope::gpu::validate;
+    /// use mesoscope::shaders::{Constant, Library};
     ///
-    /// let choices = Choices::new().with(mesh::Spline::Linear).with(water::Particles::InPlace);
-    /// let shader = link("bin_water", Entry::BinWater, &choices)?;
-    /// let constants: Vec<_> = shader.constants.iter().map(|constant| (*constant, 1.0)).collect();
-    /// let specialized = shader.specialized(&constants);
-    /// assert!(specialized.bindings.len() <= shader.bindings.len());
+    /// let library = Library::new(&[(
+    ///     "core/count",
+    ///     "override HELD: u32;
+    ///     var<storage, read_write> counts: array<u32>;
+    ///     @compute @workgroup_size(1)
+    ///     fn count() { if (HELD == 1u) { counts[0] = 1u; } }",
+    /// )])?;
+    /// let shader = validate("count", "count", &library.link("count", &[])?)?;
+    /// assert_eq!(shader.specialized(&[(Constant::Held, 1.0)]).bindings.len(), 1);
+    /// assert_eq!(shader.specialized(&[(Constant::Held, 0.0)]).bindings.len(), 0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
@@ -61,14 +67,20 @@ impl LinkedShader {
         let constants = constants_of(&module);
         Self { module, bindings, constants, switches: Vec::new(), layout: self.layout.clone() }
     }
+
+    /// Bits of the values of its switches, in their order; nothing where a default holds. Equal ones leave the same kernel.
+    #[must_use]
+    pub fn switched(&self, constants: &[(Constant, f64)]) -> Switched {
+        switched(&self.switches, constants)
+    }
 }
 
-/// Bits of values of constants; nothing where a default holds.
-type Values = Vec<Option<u64>>;
+/// Bits of the values of switches.
+pub type Switched = Vec<Option<u64>>;
 
-fn values(of: &[Constant], constants: &[(Constant, f64)]) -> Values {
-    let given = |one: &Constant| constants.iter().find(|(constant, _)| constant == one);
-    of.iter().map(|one| given(one).map(|(_, value)| value.to_bits())).collect()
+fn switched(switches: &[Constant], constants: &[(Constant, f64)]) -> Switched {
+    let given = |switch: &Constant| constants.iter().find(|(constant, _)| constant == switch);
+    switches.iter().map(|switch| given(switch).map(|(_, value)| value.to_bits())).collect()
 }
 
 /// The constants that a module uses.
@@ -85,8 +97,20 @@ pub fn link(name: &str, entry: Entry, choices: &Choices) -> Result<LinkedShader,
     validate(name, entry.name(), &linked)
 }
 
-/// The number of buffers that a kernel binds, if all arrays of which its choices say nothing are in buffers; none of a
-/// kernel that does not link.
+/// The text of a kernel, and the kernel, parsed and validated once for all plans and devices of the process.
+///
+/// # Errors
+/// As [`link`].
+pub(super) fn link_once(name: &str, entry: Entry, choices: &Choices) -> Result<(String, Arc<LinkedShader>), GpuError> {
+    static LINKED: LazyLock<Kept<String, Arc<LinkedShader>>> = LazyLock::new(Kept::default);
+    let linked = linked_text(entry, choices).map_err(|unlinked| GpuError::unlinked(name, unlinked))?;
+    let text = linked.text.clone();
+    let shader = LINKED.get_or_make(text.clone(), || Ok(Arc::new(validate(name, entry.name(), &linked)?)))?;
+    Ok((text, shader))
+}
+
+/// The number of buffers that a kernel binds with these constants, if all arrays of which its choices say nothing are in
+/// buffers; none of a kernel that does not link.
 ///
 /// ```
 /// use mesoscope::gpu::storage_buffers;
@@ -99,21 +123,21 @@ pub fn link(name: &str, entry: Entry, choices: &Choices) -> Result<LinkedShader,
 pub fn storage_buffers(entry: Entry, choices: &Choices, constants: &[(Constant, f64)]) -> usize {
     type Kernel = (Entry, Choices);
     static SWITCHES: Mutex<BTreeMap<Kernel, Vec<Constant>>> = Mutex::new(BTreeMap::new());
-    static COUNTS: Mutex<BTreeMap<(Kernel, Values), usize>> = Mutex::new(BTreeMap::new());
+    static COUNTS: Mutex<BTreeMap<(Kernel, Switched), usize>> = Mutex::new(BTreeMap::new());
     let kernel = (entry, choices.clone());
     let switches = SWITCHES.lock().unwrap_or_else(PoisonError::into_inner).get(&kernel).cloned();
     if let Some(switches) = switches {
-        let key = (kernel.clone(), values(&switches, constants));
+        let key = (kernel.clone(), switched(&switches, constants));
         if let Some(count) = COUNTS.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
             return *count;
         }
     }
-    let Ok(shader) = link(entry.name(), entry, choices) else { return 0 };
+    let Ok((_, shader)) = link_once(entry.name(), entry, choices) else { return 0 };
     let bindings = shader.specialized(constants).bindings;
     let count = bindings.iter().filter(|binding| !binding.texture).count();
-    let key = (kernel.clone(), values(&shader.switches, constants));
+    let key = (kernel.clone(), shader.switched(constants));
     COUNTS.lock().unwrap_or_else(PoisonError::into_inner).insert(key, count);
-    SWITCHES.lock().unwrap_or_else(PoisonError::into_inner).insert(kernel, shader.switches);
+    SWITCHES.lock().unwrap_or_else(PoisonError::into_inner).insert(kernel, shader.switches.clone());
     count
 }
 

@@ -102,7 +102,7 @@ impl Kernel {
     }
 }
 
-/// A constant of a law that is there or not: compilers leave out what is not.
+/// A constant of a law that is there or not: what is not is taken out of kernels.
 pub(crate) fn switch(constant: Constant, on: bool) -> (Constant, f64) {
     (constant, if on { 1.0 } else { 0.0 })
 }

@@ -39,7 +39,7 @@ pub use table::{Table, Words};
 pub use texture::Texture;
 
 use crate::gpu::storage_buffers;
-use crate::shaders::{Array, Constant, linked_text};
+use crate::shaders::{Array, Constant, declared_buffers};
 use crate::state::Units;
 
 /// Words of a particle that passes from rank to rank: `shaders/space/particle`.
@@ -183,9 +183,7 @@ impl Plan {
     /// Counts the storage buffers that kernels bind.
     pub(crate) fn count_storage_buffers(&mut self) {
         let most = self.kernels.iter().fold(self.storage_buffers, |most, kernel| {
-            // Branches that are not taken bind something in the text, which is quick to look through.
-            let text = linked_text(kernel.entry, &kernel.choices).map_or(String::new(), |linked| linked.text);
-            if text.matches("var<storage").count() as u32 <= most {
+            if declared_buffers(kernel.entry, &kernel.choices) as u32 <= most {
                 return most;
             }
             let constants: Vec<_> = kernel.constants_in(self).collect();

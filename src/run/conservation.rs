@@ -99,11 +99,12 @@ mod tests {
             (conserved(&model, &[], false), not_conserved(&model, &[]))
         };
         let (kept, lost) = told(r#"{"z": {}}"#, "");
-        assert_eq!(kept, ["mass", "total momentum with what walls have taken up, to the last bit"]);
+        assert_eq!(kept, ["mass", "total momentum, including that absorbed by walls, to the last bit"]);
         assert!(lost[0].contains(INTEGRATED) && lost[1].starts_with("total momentum: walls take it up"), "{lost:?}");
         let force = r#", {"type": "body-force", "force": [1, 0, 0]}"#;
         let (kept, lost) = told(r#"{"z": {"upper_velocity": [1, 0, 0]}}"#, force);
-        let both = "total momentum with what walls have taken up, less what body forces have put in, to the last bit";
+        let both =
+            "total momentum, including that absorbed by walls, excluding the impulse of body forces, to the last bit";
         assert_eq!(kept, ["mass", both]);
         assert!(lost[0].contains("`body_force_work`") && lost[0].contains("`wall_work`"), "{lost:?}");
     }
@@ -122,8 +123,7 @@ mod tests {
             (conserved(&model, &[], false), not_conserved(&model, &[]))
         };
         let (kept, lost) = told(0.5);
-        let with_boundaries =
-            "total momentum with what boundaries that shear have taken from those that crossed them, to the last bit";
+        let with_boundaries = "total momentum, including that lost at sheared boundaries, to the last bit";
         assert_eq!(kept, ["mass", with_boundaries]);
         assert_eq!(lost.len(), 2, "{lost:?}");
         assert!(lost[0].starts_with("total energy: put in by shear") && lost[0].contains("the heat bath"), "{lost:?}");
@@ -140,7 +140,7 @@ mod tests {
         let model = model("", interactions);
         assert_eq!(
             conserved(&model, &[], false),
-            ["mass", "total momentum less what body forces have put in, to the last bit"]
+            ["mass", "total momentum, excluding the impulse of body forces, to the last bit"]
         );
         let lost = not_conserved(&model, &[]);
         assert!(lost[0].contains("`body_force_work`") && lost[0].contains("exchanged with the heat bath"), "{lost:?}");

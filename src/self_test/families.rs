@@ -306,9 +306,9 @@ fn constants(model: &Model, state: &State) -> Vec<(&'static str, [i64; 3])> {
     if model.exchanges_momentum() {
         let name = match (model.conserves_momentum(), model.particles().walls.is_empty()) {
             (true, _) => "momentum",
-            (false, true) if model.particles().shear.is_some() => "momentum with what boundaries took",
-            (false, true) => "momentum less what body forces put in",
-            (false, false) => "momentum with what walls took up",
+            (false, true) if model.particles().shear.is_some() => "momentum, including that lost at sheared boundaries",
+            (false, true) => "momentum, excluding the impulse of body forces",
+            (false, false) => "momentum, including that absorbed by walls",
         };
         sums.push((name, state.exchanged_momentum()));
     }
@@ -428,9 +428,9 @@ mod tests {
             let names: Vec<&str> = constants(&model, &start).iter().map(|(name, _)| *name).collect();
             let expected: &[&str] = match case.name {
                 "coloured noise, Langevin bath and tethers" => &[],
-                "pairs and a body force" => &["momentum less what body forces put in"],
-                "pairs between walls" | "pairs beside frozen layers" => &["momentum with what walls took up"],
-                "pairs in shear" => &["momentum with what boundaries took"],
+                "pairs and a body force" => &["momentum, excluding the impulse of body forces"],
+                "pairs between walls" | "pairs beside frozen layers" => &["momentum, including that absorbed by walls"],
+                "pairs in shear" => &["momentum, including that lost at sheared boundaries"],
                 "Voronoi cells" => &["momentum", "mass"],
                 "Voronoi cells with energy" => &["momentum", "mass", "energy"],
                 name if name.starts_with("shallow water") => &["mass"],

@@ -27,7 +27,8 @@ mod choices;
 mod linker;
 mod words;
 
-use std::sync::OnceLock;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 pub use choices::{Choice, Choices};
 pub use generated::*;
@@ -56,4 +57,25 @@ pub fn library() -> Result<&'static Library, Unlinked> {
 /// [`Unlinked`] if a name cannot be resolved with these choices.
 pub fn linked_text(entry: Entry, choices: &Choices) -> Result<LinkedText, Unlinked> {
     library()?.link(entry.name(), &choices.with_arrays_in_buffers().paths().collect::<Vec<_>>())
+}
+
+/// The number of buffers that the text of a kernel declares, if all arrays of which its choices say nothing are in
+/// buffers; none of a kernel that does not link. A pipeline binds fewer of them where branches are not taken.
+///
+/// ```
+/// use mesoscope::shaders::{Choices, Entry, declared_buffers, mesh, water};
+///
+/// let choices = Choices::new().with(mesh::Spline::Linear).with(water::Particles::InPlace);
+/// assert!(declared_buffers(Entry::BinWater, &choices) > 1);
+/// ```
+#[must_use]
+pub fn declared_buffers(entry: Entry, choices: &Choices) -> usize {
+    static KNOWN: Mutex<BTreeMap<(Entry, Choices), usize>> = Mutex::new(BTreeMap::new());
+    let kernel = (entry, choices.clone());
+    if let Some(count) = KNOWN.lock().unwrap_or_else(PoisonError::into_inner).get(&kernel) {
+        return *count;
+    }
+    let count = linked_text(entry, choices).map_or(0, |linked| linked.text.matches("var<storage").count());
+    KNOWN.lock().unwrap_or_else(PoisonError::into_inner).insert(kernel, count);
+    count
 }

@@ -39,9 +39,9 @@ fn check_the_page(said: &str) {
     }
     assert!(of("contraction").contains("mirrored expressions"), "{said}");
     assert!(of("pairs, splitting").contains("total momentum constant to the last bit"), "{said}");
-    assert!(of("pairs and a body force").contains("momentum less what body forces put in"), "{said}");
-    assert!(of("pairs between walls").contains("momentum with what walls took up"), "{said}");
-    assert!(of("pairs beside frozen layers").contains("momentum with what walls took up"), "{said}");
+    assert!(of("pairs and a body force").contains("momentum, excluding the impulse of body forces"), "{said}");
+    assert!(of("pairs between walls").contains("momentum, including that absorbed by walls"), "{said}");
+    assert!(of("pairs beside frozen layers").contains("momentum, including that absorbed by walls"), "{said}");
     assert!(of("pairs in shear").contains("momentum with what boundaries took"), "{said}");
     assert!(
         of("Voronoi cells with energy").contains("total momentum, mass, energy constant to the last bit"),

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use mesoscope::families::Model;
-use mesoscope::gpu::LinkedShader;
+use mesoscope::gpu::{LinkedShader, Switched};
 use mesoscope::plan::{Hardware, Options, Traversal};
 use mesoscope::run;
 use mesoscope::scene;
@@ -15,7 +15,7 @@ use rand::{RngExt, SeedableRng};
 use serde_json::{Value, json};
 
 use crate::canonical::hash_of_kernel;
-use crate::variants::{Specialized, hashes, report, switched, validated};
+use crate::variants::{Specialized, hashes, report, validated};
 
 /// Draws of one scene.
 struct Draws(StdRng);
@@ -188,7 +188,7 @@ fn complaints(accepted: usize, seed: u64) -> BTreeMap<String, String> {
     let known = hashes();
     let (mut found, mut unlisted) = (0, BTreeMap::new());
     let mut seen: HashMap<String, LinkedShader> = HashMap::new();
-    let mut specialized: HashMap<(String, Vec<Option<u64>>), Specialized> = HashMap::new();
+    let mut specialized: HashMap<(String, Switched), Specialized> = HashMap::new();
     let mut complaints = BTreeMap::new();
     while found < accepted {
         let text = random_scene(&mut draws).to_string();
@@ -213,7 +213,7 @@ fn complaints(accepted: usize, seed: u64) -> BTreeMap<String, String> {
                 unlisted.entry(complaint).or_insert(text.clone());
             }
             let constants: Vec<_> = kernel.constants_in(&plan).collect();
-            let key = (linked.text.clone(), switched(shader, &constants));
+            let key = (linked.text.clone(), shader.switched(&constants));
             let used = specialized.entry(key).or_insert_with(|| Specialized::new(shader, &constants));
             let given: BTreeSet<&str> = constants.iter().map(|(constant, _)| constant.name()).collect();
             let missing = (shader.module.overrides.iter())

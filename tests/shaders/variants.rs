@@ -10,7 +10,7 @@ use std::thread;
 use mesoscope::engine::Control;
 use mesoscope::families::Model;
 use mesoscope::families::shallow_water::WaterLayout;
-use mesoscope::gpu::{Binding, GpuError, LinkedShader, validate};
+use mesoscope::gpu::{Binding, GpuError, LinkedShader, Switched, validate};
 use mesoscope::plan::{Division, Domain, Hardware, Kernel, Options, Part, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
 use mesoscope::scene::{self, Scene};
@@ -125,7 +125,7 @@ fn structure_plans() -> Vec<(String, Plan)> {
         json!([{"type": "dpd", "repulsion": 25, "friction": 4.5, "bath": {"type": "memory", "rate": 3}}]),
         json!([{"type": "dpd", "repulsion": -40, "friction": 4.5, "many_body": {"repulsion": 25}}]),
     ];
-    let mut scenes = Vec::new();
+    let mut grounds = Vec::new();
     for space in &spaces {
         let mut second = vec![None, Some(json!({"species": "B", "count": 50, "mass": 2.5}))];
         // A layer of frozen particles.
@@ -142,17 +142,23 @@ fn structure_plans() -> Vec<(String, Plan)> {
                     "temperature": 1, "particles": groups, "interactions": pairs, "output": {"energies": {"every": 1}},
                 });
                 scene["integrator"] = serde_json::from_str(integrator.split_once('=').unwrap().1).unwrap();
-                scenes.extend(scenes_beside(&scene));
+                grounds.extend(accepted(&scene).map(|_| scene));
             }
         }
     }
-    assert!(scenes.len() > 1000, "only {} scenes are accepted", scenes.len());
+    let plans: Vec<(String, Plan)> = in_shares(&grounds, plans_beside).into_iter().flatten().collect();
+    assert!(plans.len() > 10_000, "only {} plans", plans.len());
+    plans
+}
+
+/// Plans of a scene with what may act beside its pairs, for every way to visit them.
+fn plans_beside(pairs: &Value) -> Vec<(String, Plan)> {
     let listed = Options { listed: true, ..Options::default() };
-    let options = [Traversal::Rows, Traversal::Clusters]
+    let [rows, clusters] = [Traversal::Rows, Traversal::Clusters]
         .map(|traversal| Options { traversal: Some(traversal), ..Options::default() });
     let mut plans = Vec::new();
-    for scene in scenes {
-        for options in options.into_iter().chain([listed]) {
+    for scene in scenes_beside(pairs) {
+        for options in [rows, clusters, listed] {
             plans.extend(plans_of(&format!("{} {options:?}", serde_json::to_string(&scene).unwrap()), &scene, options));
         }
     }
@@ -161,9 +167,6 @@ fn structure_plans() -> Vec<(String, Plan)> {
 
 /// A scene with what may act beside its pairs, as far as it accepts that, without analyses and with all that it accepts.
 fn scenes_beside(pairs: &Value) -> Vec<Scene> {
-    if accepted(pairs).is_none() {
-        return Vec::new();
-    }
     let dimension = pairs["space"]["box"].as_array().unwrap().len();
     let last = ["x", "y", "z"][dimension - 1];
     let force = json!({"type": "body-force", "force": vec![0.4; dimension]});
@@ -236,6 +239,9 @@ fn scenes_beside(pairs: &Value) -> Vec<Scene> {
             scenes.extend(accepted(&scene));
         }
     }
+    // Where little is accepted beside the pairs, several are the same scene.
+    let mut seen = BTreeSet::new();
+    scenes.retain(|scene| seen.insert(serde_json::to_string(scene).unwrap()));
     scenes
 }
 
@@ -1287,23 +1293,17 @@ impl Specialized {
 }
 
 pub fn specialized(kernel: &Kernel, plan: &Plan) -> &'static Specialized {
-    type Key = (usize, Vec<Option<u64>>);
+    type Key = (usize, Switched);
     static KNOWN: OnceLock<Mutex<HashMap<Key, &'static Specialized>>> = OnceLock::new();
     let known = KNOWN.get_or_init(Mutex::default);
     let shader = shader(kernel);
     let constants: Vec<_> = kernel.constants_in(plan).collect();
-    let key = (std::ptr::from_ref(shader).addr(), switched(shader, &constants));
+    let key = (std::ptr::from_ref(shader).addr(), shader.switched(&constants));
     if let Some(specialized) = known.lock().unwrap().get(&key) {
         return specialized;
     }
     let specialized = Box::leak(Box::new(Specialized::new(shader, &constants)));
     known.lock().unwrap().entry(key).or_insert(specialized)
-}
-
-/// Bits of the constants on which branches of a kernel depend.
-pub fn switched(shader: &LinkedShader, constants: &[(Constant, f64)]) -> Vec<Option<u64>> {
-    let given = |switch: &Constant| constants.iter().find(|(constant, _)| constant == switch);
-    shader.switches.iter().map(|switch| given(switch).map(|(_, value)| value.to_bits())).collect()
 }
 
 /// A text that is no part of the list, parsed and validated.

@@ -3,12 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Mutex;
 
-use mesoscope::gpu::{LinkedShader, validate};
+use mesoscope::gpu::{LinkedShader, Switched, validate};
 use mesoscope::plan::{Contents, Kernel, Plan};
 use mesoscope::shaders::{Choices, Entry, LinkedText, library, linked_text};
 
 use crate::canonical::hash_of_kernel;
-use crate::variants::switched;
 
 /// What is known of a kernel once it is linked.
 pub struct Linked {
@@ -19,7 +18,7 @@ pub struct Linked {
 
 /// A kernel, linked and specialized once for all plans that have it.
 pub fn linked(kernel: &Kernel, plan: &Plan) -> &'static Linked {
-    type Known = BTreeMap<(&'static str, Vec<Option<u64>>), &'static Linked>;
+    type Known = BTreeMap<(&'static str, Switched), &'static Linked>;
     static WHOLE: Mutex<BTreeMap<(Entry, Choices), &'static Whole>> = Mutex::new(BTreeMap::new());
     static KNOWN: Mutex<Known> = Mutex::new(BTreeMap::new());
     let key = (kernel.entry, kernel.choices.clone());
@@ -30,7 +29,7 @@ pub fn linked(kernel: &Kernel, plan: &Plan) -> &'static Linked {
         WHOLE.lock().unwrap().entry(key).or_insert(Box::leak(Box::new(Whole { text, shader })))
     });
     let constants: Vec<_> = kernel.constants_in(plan).collect();
-    let key = (whole.text.text.as_str(), switched(&whole.shader, &constants));
+    let key = (whole.text.text.as_str(), whole.shader.switched(&constants));
     if let Some(linked) = KNOWN.lock().unwrap().get(&key) {
         return linked;
     }

@@ -426,7 +426,7 @@ fn check_links<const LENGTH: usize>(
         LinkSource::Listed(_) => {}
         LinkSource::Start(all) if links.species.is_none() => {
             let are_there = all.iter().any(|links| !links.members.is_empty() || !scene.molecules.is_empty());
-            // Of a run that continues, the file was there once.
+            // A run that continues no longer has the file.
             if scene.start().is_none() || are_there {
                 return;
             }

@@ -4,7 +4,7 @@ use crate::families::Model;
 use crate::plan::Plan;
 use crate::shaders::{Choices, Constant, couplings, external, pairs, space};
 
-/// What all kernels choose, if there is shear.
+/// Choices of all kernels, if there is shear.
 pub(super) fn choices(model: &Model) -> Choices {
     if model.particles().shear.is_none() {
         return Choices::new();
