@@ -577,7 +577,7 @@ fn frames_of_a_sheared_run_lean() {
     }
 }
 
-/// A run with displaced boundaries keeps its bits in parts, and momentum together with what boundaries took.
+/// A run with displaced boundaries keeps its bits in parts, and momentum including that lost at sheared boundaries.
 #[test]
 fn a_run_with_displaced_boundaries_in_parts() {
     let place = Place::of(sheared());
@@ -587,7 +587,7 @@ fn a_run_with_displaced_boundaries_in_parts() {
     let next = Place::of(next);
     next.whole_again_and_in_parts();
     let conserved = next.summary("whole").conserved_exactly;
-    assert!(conserved.iter().any(|what| what.contains("what boundaries that shear have taken")), "{conserved:?}");
+    assert!(conserved.iter().any(|what| what.contains("including that lost at sheared boundaries")), "{conserved:?}");
 }
 
 /// Between walls nothing is periodic: a run is read back as it was, and its frames to the precision of the format.
