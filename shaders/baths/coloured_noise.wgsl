@@ -5,7 +5,7 @@
 // the jump.
 struct NoiseImpulses { closing: Steps, opening: Steps }
 
-override COLOURED_NOISE: u32; // 1 where there is one
+override COLOURED_NOISE: u32 = 0u; // 1 where there is one
 override HOLD_IMPULSE: f32;   // impulse of half a step per force
 
 // Time is counted in half steps; `halves` whole ones and a `fraction` are left of the force.

@@ -60,7 +60,7 @@ fn finish_own() {
 
 // A bath on every coordinate, from what the last step has made of it; its law is in baths/bath. `position_impulse` is
 // its impulse of half a step.
-override POSITION_BATHS: u32; // 0 where there are none, 1 without memory, 2 with it
+override POSITION_BATHS: u32 = 0u; // 0 where there are none, 1 without memory, 2 with it
 const BATHS_WITH_MEMORY: u32 = 2u;
 override POSITION_LOSS: f32;  // the part of a bath with memory that is lost in a step
 
@@ -106,7 +106,7 @@ fn drift_seen(me: Particle) -> Vector {
 // Baths on particles take for rest what is at rest in the box, or in a sheared box the linear profile of the flow where
 // the particle is: its drift in a step, and its momentum. For the drift of the last step that is exact in the stress of
 // a report; the flow of a part s of the drift before would make it 1 + s gamma dt / m times as large.
-override SEES_FLOW: u32; // 1 where friction is that of velocities relative to the flow
+override SEES_FLOW: u32 = 0u; // 1 where friction is that of velocities relative to the flow
 
 fn flow_of_drift(me: Particle) -> Vector {
     if (SEES_FLOW == 0u) { return Vector(0.0); }
@@ -144,7 +144,7 @@ fn note_position_bath(species: i32, bath: Vector) {
 }
 
 // A report of oscillators: the products of which the means are the covariances of bath, momentum and displacement.
-override OSCILLATES: u32;            // 1 where tethers say where displacements of baths with memory begin
+override OSCILLATES: u32 = 0u;       // 1 where tethers say where displacements of baths with memory begin
 override BATH_MOMENTUM: f32;         // bath times momentum, over its quantum
 override BATH_DISPLACEMENT: f32;     // bath times displacement, over its quantum
 override MOMENTUM_DISPLACEMENT: f32; // momentum times displacement, over its quantum

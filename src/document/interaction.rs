@@ -1,7 +1,7 @@
 //! Interactions: the tagged union of a scene, which names the families.
 
 use super::{
-    AnglesInteraction, BodyForceInteraction, BondsInteraction, ColouredNoiseInteraction, DpdInteraction,
+    AnglesInteraction, Bath, BodyForceInteraction, BondsInteraction, ColouredNoiseInteraction, DpdInteraction,
     HarmonicChainInteraction, LangevinInteraction, ShallowWaterInteraction, TetherInteraction, VoronoiInteraction,
 };
 use schemars::JsonSchema;
@@ -34,36 +34,62 @@ pub enum Interaction {
 }
 
 impl Interaction {
-    /// Range of the forces of pairs that have none of their own, in a scene of this many species; zero where there are none.
+    /// Its name in a scene.
     #[must_use]
-    pub fn common_cutoff(&self, species: usize) -> f64 {
+    pub fn name(&self) -> &'static str {
         match self {
-            Self::Dpd(dpd) => dpd.common_cutoff(species).unwrap_or(0.0),
-            _ => 0.0,
+            Self::Dpd(_) => "dpd",
+            Self::Langevin(_) => "langevin",
+            Self::ColouredNoise(_) => "coloured-noise",
+            Self::Tether(_) => "tether",
+            Self::BodyForce(_) => "body-force",
+            Self::Bonds(_) => "bonds",
+            Self::Angles(_) => "angles",
+            Self::HarmonicChain(_) => "harmonic-chain",
+            Self::ShallowWater(_) => "shallow-water",
+            Self::Voronoi(_) => "voronoi",
         }
     }
-}
 
-impl Interaction {
     /// Whether it acts on particles and can be combined with others; the others are the only interaction of a scene of another family.
     #[must_use]
     pub fn is_of_particles(&self) -> bool {
         !matches!(self, Self::ShallowWater(_) | Self::Voronoi(_))
     }
 
+    /// Its heat bath with the largest friction, if it has one on particles, pairs or bonds.
+    #[must_use]
+    pub fn bath(&self) -> Option<(&Bath, f64)> {
+        match self {
+            Self::Dpd(dpd) => {
+                let own = dpd.pairs.iter().filter_map(|pair| pair.friction);
+                Some((&dpd.bath, own.fold(dpd.friction, f64::max)))
+            }
+            Self::Langevin(langevin) => {
+                let own = langevin.species.iter().map(|entry| entry.friction);
+                Some((&langevin.bath, own.fold(langevin.friction, f64::max)))
+            }
+            Self::Bonds(bonds) => Some((&bonds.bath, bonds.friction)),
+            _ => None,
+        }
+    }
+
+    /// The same bath, to replace it.
+    #[must_use]
+    pub fn bath_mut(&mut self) -> Option<&mut Bath> {
+        match self {
+            Self::Dpd(dpd) => Some(&mut dpd.bath),
+            Self::Langevin(langevin) => Some(&mut langevin.bath),
+            Self::Bonds(bonds) => Some(&mut bonds.bath),
+            _ => None,
+        }
+    }
+
     /// Temperature of the heat bath, in a scene of a temperature; that of the scene without one.
     pub(crate) fn bath_temperature(&self, scene: f64) -> f64 {
         match self {
-            Self::Dpd(dpd) => dpd.bath.temperature(scene),
-            Self::Langevin(langevin) => langevin.bath.temperature(scene),
-            Self::Bonds(bonds) => bonds.bath.temperature(scene),
-            Self::ColouredNoise(_)
-            | Self::Tether(_)
-            | Self::BodyForce(_)
-            | Self::Angles(_)
-            | Self::HarmonicChain(_)
-            | Self::ShallowWater(_) => scene,
             Self::Voronoi(voronoi) => voronoi.hottest(scene),
+            _ => self.bath().map_or(scene, |(bath, _)| bath.temperature(scene)),
         }
     }
 }

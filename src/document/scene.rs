@@ -1,8 +1,8 @@
 //! The scene as a whole: box, clock, noise.
 
 use super::{
-    ColouredNoiseInteraction, DpdInteraction, EarlierRun, FileStart, Generator, Integrator, Interaction, KeptStart,
-    Molecule, NumberedGroup, Origin, Output, ParticleGroup, Shear, StateFile, StateVelocities, Walls,
+    DpdInteraction, EarlierRun, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, NumberedGroup,
+    Origin, Output, ParticleGroup, Shear, StateFile, StateVelocities, Walls,
 };
 use crate::noise::seed_from_state;
 use schemars::JsonSchema;
@@ -99,14 +99,6 @@ impl Scene {
     pub(crate) fn pair_interactions(&self) -> impl Iterator<Item = (usize, &DpdInteraction)> {
         self.interactions.iter().enumerate().filter_map(|(index, interaction)| match interaction {
             Interaction::Dpd(dpd) => Some((index, dpd)),
-            _ => None,
-        })
-    }
-
-    /// The coloured noise, of which there is one at most.
-    pub(crate) fn coloured_noise(&self) -> Option<&ColouredNoiseInteraction> {
-        self.interactions.iter().find_map(|interaction| match interaction {
-            Interaction::ColouredNoise(noise) => Some(noise),
             _ => None,
         })
     }

@@ -55,21 +55,16 @@ impl KeptQuantity {
 }
 
 /// One of the integer sums that a model keeps.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct KeptSum {
     /// The quantity.
     pub quantity: KeptQuantity,
     /// The direction of a component: ` along x`.
     pub direction: &'static str,
-    /// Its place among the sums of the first sampler.
-    pub place: usize,
     /// Value of one unit.
     pub unit: f64,
-    /// The place of the sum of the impulse of body forces, which is excluded.
-    pub put_in: Option<usize>,
-    /// The place of the sum of the momentum absorbed by the first wall, which is included, and the number of walls, whose
-    /// sums follow each other at every third place.
-    pub walls: Option<(usize, usize)>,
+    /// The places of its parts among the sums of the first sampler, and the sign of each.
+    pub parts: Vec<(usize, i64)>,
     /// In a state.
     pub total: i64,
 }
@@ -78,11 +73,9 @@ impl KeptSum {
     /// The kept sum, from the sums of a report.
     #[must_use]
     pub fn of(&self, sums: &[i64]) -> Option<i64> {
-        let found = sums.get(self.place)?;
-        let put_in = self.put_in.map_or(Some(0), |place| sums.get(place).copied())?;
-        let (first, number) = self.walls.unwrap_or_default();
-        let taken = (0..number).try_fold(0_i64, |sum, wall| Some(sum.wrapping_add(*sums.get(first + 3 * wall)?)))?;
-        Some(found.wrapping_sub(put_in).wrapping_add(taken))
+        self.parts
+            .iter()
+            .try_fold(0_i64, |sum, (place, sign)| Some(sum.wrapping_add(sums.get(*place)?.wrapping_mul(*sign))))
     }
 }
 
@@ -90,14 +83,9 @@ impl KeptSum {
 pub(super) fn momentum(state: &State, sums: &Sums, dimension: usize, unit: f64) -> Vec<KeptSum> {
     let Some(first) = sums.place(Sum::Momentum) else { return Vec::new() };
     let directions = [" along x", " along y", " along z"].into_iter().zip(state.total_momentum()).enumerate();
-    let component = |(axis, (direction, total))| KeptSum {
-        quantity: KeptQuantity::MOMENTUM,
-        direction,
-        place: first + axis,
-        unit,
-        put_in: None,
-        walls: None,
-        total,
+    let component = |(axis, (direction, total))| {
+        let parts = vec![(first + axis, 1)];
+        KeptSum { quantity: KeptQuantity::MOMENTUM, direction, unit, parts, total }
     };
     directions.take(dimension).map(component).collect()
 }
@@ -105,8 +93,8 @@ pub(super) fn momentum(state: &State, sums: &Sums, dimension: usize, unit: f64) 
 /// The sum of all masses, or nothing if a report has none.
 pub(super) fn mass(state: &State, quantity: KeptQuantity, sums: &Sums, unit: f64) -> Option<KeptSum> {
     let total = state.masses.iter().map(|mass| i64::from(*mass)).sum();
-    let place = sums.place(Sum::Mass)?;
-    Some(KeptSum { quantity, direction: "", place, unit, put_in: None, walls: None, total })
+    let parts = vec![(sums.place(Sum::Mass)?, 1)];
+    Some(KeptSum { quantity, direction: "", unit, parts, total })
 }
 
 /// Why the energy of forces is not kept exactly.

@@ -74,9 +74,7 @@ pub struct LargestStep {
 #[must_use]
 pub fn largest_steps(scene: &Scene) -> Vec<LargestStep> {
     let share = |law: &str, step: f64| {
-        let mut other = scene.clone();
-        other.time.step = step;
-        limits(&other).iter().find(|limit| limit.law == law).map_or(0.0, |limit| limit.share)
+        limits(&at_step(scene, step)).iter().find(|limit| limit.law == law).map_or(0.0, |limit| limit.share)
     };
     let largest = |limit: Limit| {
         let step = largest_step([scene.time.step, limit.share], 2e-4, &|step| share(limit.law, step))?;
@@ -85,6 +83,13 @@ pub fn largest_steps(scene: &Scene) -> Vec<LargestStep> {
     let mut found: Vec<LargestStep> = limits(scene).into_iter().filter_map(largest).collect();
     found.sort_by(|a, b| a.step.total_cmp(&b.step));
     found
+}
+
+/// A scene with another time step.
+pub(super) fn at_step(scene: &Scene, step: f64) -> Scene {
+    let mut other = scene.clone();
+    other.time.step = step;
+    other
 }
 
 /// Where a share that grows with the step is 1, to a precision, from a step and its share; none where that is nowhere near.

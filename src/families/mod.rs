@@ -37,13 +37,20 @@ pub use limits::{Beyond, LargestStep, Limit, largest_steps, limits};
 pub use model::{Model, Species};
 pub use observables::{BathProducts, CellObservables, Observables, OnWalls, PutIn};
 pub(crate) use particles::chains::mirrored;
-pub(crate) use particles::model::{Alike, FREQUENCY_LIMIT, MOST_RELAXATION, RelaxationErrors, TOLERANCE};
-pub use particles::model::{
-    Angle, Angles, BodyForces, Bond, BondKind, Bonds, ChainGroup, ChainTrios, ColouredNoise, FixedImpulse,
-    HarmonicChain, Jump, Likeness, Link, ManyBodyForce, PairForce, PlaneWalls, PositionBath, ShearedBox, SoftRepulsion,
-    SpringChain, Strand, Walks,
-};
-pub(crate) use particles::surroundings;
+pub(crate) use particles::model::Alike;
+pub use particles::model::{Angle, Bond, ChainGroup, Link, Walks};
+pub use particles::space::shear::ShearedBox;
+pub use particles::space::walls::PlaneWalls;
+pub use particles::terms::angles::Angles;
+pub use particles::terms::body_forces::{BodyForces, FixedImpulse};
+pub use particles::terms::bonds::{BondKind, Bonds};
+pub use particles::terms::coloured_noise::{ColouredNoise, Jump};
+pub use particles::terms::harmonic_chain::{ChainTrios, HarmonicChain, Likeness, SpringChain, Strand};
+pub use particles::terms::langevin::PositionBath;
+pub(crate) use particles::terms::pairs::surroundings;
+pub(crate) use particles::terms::pairs::{FREQUENCY_LIMIT, MOST_RELAXATION, RelaxationErrors, TOLERANCE};
+pub use particles::terms::pairs::{ManyBodyForce, PairForce, SoftRepulsion};
+pub use particles::terms::tethers::Tethers;
 pub use particles::{Particles, combinations};
 pub use pictures::PictureKind;
 pub use registry::Family;

@@ -47,13 +47,11 @@ pub(crate) fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, prob
         let alone = match interaction {
             // Of a second one all has been said.
             Interaction::ShallowWater(_) if Some(index) != first_water => continue,
-            Interaction::ShallowWater(_) => Some("shallow-water"),
-            Interaction::Voronoi(_) => Some("voronoi"),
-            Interaction::HarmonicChain(_) => Some("harmonic-chain"),
-            _ => None,
+            Interaction::ShallowWater(_) | Interaction::Voronoi(_) | Interaction::HarmonicChain(_) => true,
+            _ => false,
         };
-        if let Some(name) = alone.filter(|_| scene.interactions.len() > 1) {
-            let accepted = format!("`{name}` as the only interaction of a scene");
+        if alone && scene.interactions.len() > 1 {
+            let accepted = format!("`{}` as the only interaction of a scene", interaction.name());
             problems.refuse(&path, "together with another interaction", accepted);
         }
         match interaction {
@@ -61,7 +59,11 @@ pub(crate) fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, prob
                 shallow_water::checks::check(scene, water, &path, problems);
             }
             Interaction::Voronoi(voronoi) => voronoi::checks::check(scene, voronoi, &path, problems),
-            _ => particles::checks::check_interaction(scene, species, interaction, &path, problems),
+            _ => {
+                if let Some(term) = particles::terms::of(interaction) {
+                    term.check(scene, species, &path, problems);
+                }
+            }
         }
     }
     particles::checks::check_scene(scene, species, problems);

@@ -1,8 +1,8 @@
 //! How fast particles are expected to move, beside how far they may go in a step.
 
-use super::units::noise_momentum;
+use super::particles::terms::random_momenta;
 use super::{Model, Physics, Species};
-use crate::document::{ColouredNoiseInteraction, ParticleGroup, Problems, Scene, Velocities, brief};
+use crate::document::{ParticleGroup, Problems, Scene, Velocities, brief};
 
 /// Times that the fastest of many particles may exceed the velocities expected here: for Maxwell's distribution five are enough
 /// for a million, and forces add to it.
@@ -61,10 +61,7 @@ pub(super) fn expected(scene: &Scene, species: &[Species], physics: &dyn Physics
     if let Some(shear) = &scene.space.shear {
         most += shear.speed(&scene.space.lengths);
     }
-    if let Some(noise) = scene.coloured_noise() {
-        most = most.max(noise_momentum(noise, scene.time.step) / lightest);
-    }
-    most
+    most.max(random_momenta(scene)[0] / lightest)
 }
 
 /// Refuses a time step in which particles go beyond the reach of their family with the velocities that they start with or that
@@ -72,9 +69,7 @@ pub(super) fn expected(scene: &Scene, species: &[Species], physics: &dyn Physics
 pub(super) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
     let physics = model.physics();
     let (reach, step) = (physics.reach(model), scene.time.step);
-    // The momentum along an axis that a random force gives in half a step.
-    let impulse = |noise: &ColouredNoiseInteraction| 0.5 * noise.strength.sqrt() * noise.time.min(scene.time.step);
-    let pushed = scene.coloured_noise().map_or(0.0, impulse);
+    let [_, pushed] = random_momenta(scene);
     let heat = if physics.is_heated(model) { hottest(scene) } else { 0.0 };
     let speed = |group| {
         let [start, bath] = [at_start(scene, group, physics), thermal(heat, physics.mean_mass(group))];

@@ -1,6 +1,7 @@
 //! Where the particles of a scene start, and how fast.
 
-use super::particles::{chains, layers};
+use super::particles::chains;
+use super::particles::space::layers;
 use crate::document::{FileStart, Generator, ParticleGroup, Placement, Scene, StateVelocities, Velocities};
 use crate::families::Model;
 use crate::noise::{self, stream};

@@ -1,8 +1,9 @@
 //! The unit of integer momenta.
 
 use super::particles::model::forces;
+use super::particles::terms;
 use super::{ChainTrios, PairForce, Species, speeds};
-use crate::document::{ColouredNoiseInteraction, NoiseProcess, Scene};
+use crate::document::Scene;
 
 /// A momentum that forces make this many times larger than motion from elsewhere is the one that integers have to hold: they
 /// have room for 64 of the scale that their unit follows, rounded up to a power of two, and heat and neighbours add to it.
@@ -33,9 +34,7 @@ pub(super) fn momentum_unit(
     if let Some(shear) = &scene.space.shear {
         scale = scale.max(heaviest * shear.speed(&scene.space.lengths) / 8.0);
     }
-    if let Some(noise) = scene.coloured_noise() {
-        scale = scale.max(noise_momentum(noise, scene.time.step));
-    }
+    scale = scale.max(terms::random_momenta(scene)[0]);
     if scale == 0.0
         && let Some(force) = pair_force
     {
@@ -56,11 +55,4 @@ pub(super) fn momentum_unit(
         scale = PART_OF_LARGEST * forced;
     }
     (scale.log2().ceil() - bits).exp2()
-}
-
-/// The momentum that the forces of a coloured noise may add up to before friction holds it: what the longest time of a
-/// kangaroo process gives is 64 of these. A coarser scale would lose the impulse of half a step in rounding.
-pub(super) fn noise_momentum(noise: &ColouredNoiseInteraction, time_step: f64) -> f64 {
-    let times = if noise.process == NoiseProcess::Short { 16.0 } else { 96.0 };
-    noise.strength.sqrt() * (times * noise.time).clamp(time_step, 4096.0 * time_step)
 }

@@ -194,7 +194,7 @@ mod tests {
         let state = initial_state(&scene, &model);
         let mut sums = vec![0; 12];
         for sum in model.physics().kept(&model, &state) {
-            sums[sum.place] = sum.total;
+            sums[sum.parts[0].0] = sum.total;
         }
         (model, state, Sample { sampler: 0, step: 0, sums })
     }

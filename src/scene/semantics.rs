@@ -173,7 +173,7 @@ fn quantity(number: f64) -> String {
 fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut Problems) {
     families::check_interactions(scene, species, problems);
     // Cutoffs of single pairs of species are checked where they are given.
-    let common = scene.interactions.iter().map(|interaction| interaction.common_cutoff(species.count()));
+    let common = scene.pair_interactions().filter_map(|(_, dpd)| dpd.common_cutoff(species.count()));
     let cutoff = common.fold(0.0, f64::max);
     for (axis, length) in scene.space.lengths.iter().enumerate() {
         if *length < 2.0 * cutoff {

@@ -68,13 +68,8 @@ fn unneeded(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Ve
         ));
     }
     for (index, interaction) in scene.interactions.iter().enumerate() {
-        let (bath, friction) = match interaction {
-            Interaction::Dpd(dpd) => (&dpd.bath, dpd.friction),
-            Interaction::Bonds(bonds) => (&bonds.bath, bonds.friction),
-            Interaction::Langevin(langevin) => (&langevin.bath, langevin.friction),
-            _ => continue,
-        };
-        if let Bath::Memory { rate, .. } = bath
+        if let Some((bath, friction)) = interaction.bath()
+            && let Bath::Memory { rate, .. } = bath
             && BathStep::of(bath, friction, scene.time.step).persistence.abs() < FORGOTTEN
         {
             let without = without_memory(scene, index);
@@ -102,12 +97,8 @@ fn unneeded(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Ve
 /// The scene with a bath of no memory in an interaction.
 fn without_memory(scene: &Scene, index: usize) -> Scene {
     let mut other = scene.clone();
-    let bath = match other.interactions.get_mut(index) {
-        Some(Interaction::Dpd(dpd)) => &mut dpd.bath,
-        Some(Interaction::Bonds(bonds)) => &mut bonds.bath,
-        Some(Interaction::Langevin(langevin)) => &mut langevin.bath,
-        _ => return other,
-    };
-    *bath = Bath::White { temperature: Some(bath.temperature(scene.temperature)) };
+    if let Some(bath) = other.interactions.get_mut(index).and_then(Interaction::bath_mut) {
+        *bath = Bath::White { temperature: Some(bath.temperature(scene.temperature)) };
+    }
     other
 }

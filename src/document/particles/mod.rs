@@ -6,10 +6,8 @@ mod harmonic_chain;
 mod pairs;
 mod single;
 
-pub use body_force::{BodyForceInteraction, ForceProfile};
-pub use chains::{AnglesInteraction, BondPotential, BondsInteraction};
-pub use harmonic_chain::{ChainEquilibrium, ChainOutput, ChainPulse, HarmonicChainInteraction};
+pub use body_force::*;
+pub use chains::*;
+pub use harmonic_chain::*;
 pub use pairs::*;
-pub use single::{
-    ColouredNoiseInteraction, FrictionVelocity, LangevinInteraction, NoiseProcess, SpeciesFriction, TetherInteraction,
-};
+pub use single::*;

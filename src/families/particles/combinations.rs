@@ -6,7 +6,7 @@
 
 use std::fmt;
 
-use super::checks::acts;
+use super::terms;
 use crate::document::{Integrator, Interaction, Problems, ProfiledQuantity, Scene};
 
 /// The features with their names in messages and tables, and what each is.
@@ -212,40 +212,10 @@ impl Feature {
             }
             Ranks => None,
             _ => scene.interactions.iter().enumerate().find_map(|(index, interaction)| {
-                let (_, key) = Self::of(interaction).into_iter().find(|(feature, _)| *feature == self)?;
+                let term = terms::of(interaction).filter(|term| term.acts())?;
+                let (_, key) = term.features().into_iter().find(|(feature, _)| *feature == self)?;
                 Some(format!("interactions[{index}]{key}"))
             }),
-        }
-    }
-
-    /// The features of an interaction that does anything, with the keys under it that ask for them.
-    fn of(interaction: &Interaction) -> Vec<(Self, &'static str)> {
-        match interaction {
-            _ if !acts(interaction) => Vec::new(),
-            Interaction::Dpd(dpd) => {
-                let mut features = vec![(if dpd.remembers() { PairsWithMemory } else { Pairs }, "")];
-                features.extend(dpd.acting_many_body().map(|_| (ManyBody, ".many_body")));
-                features
-            }
-            Interaction::Bonds(bonds) => {
-                let feature = match (bonds.has_bath(), bonds.bath.remembers()) {
-                    (false, _) => Bonds,
-                    (true, false) => FrictionOfBonds,
-                    (true, true) => MemoryOfBonds,
-                };
-                let mut features = vec![(feature, "")];
-                features.extend(bonds.exclude_repulsion.then_some((Exclusion, ".exclude_repulsion")));
-                features
-            }
-            Interaction::Langevin(bath) if bath.bath.remembers() => vec![(LangevinWithMemory, "")],
-            Interaction::Langevin(_) => vec![(Langevin, "")],
-            Interaction::BodyForce(force) if force.profile.is_uniform() => vec![(UniformForce, "")],
-            Interaction::BodyForce(_) => vec![(VaryingForce, "")],
-            Interaction::ColouredNoise(_) => vec![(ColouredNoise, "")],
-            Interaction::Angles(_) => vec![(Angles, "")],
-            Interaction::Tether(_) => vec![(Tethers, "")],
-            Interaction::HarmonicChain(_) => vec![(HarmonicChain, "")],
-            Interaction::ShallowWater(_) | Interaction::Voronoi(_) => Vec::new(),
         }
     }
 

@@ -1,7 +1,8 @@
 //! What particles from a file or of molecules are, and what acts on which of them, in words: a file knows its types by numbers, and nothing but
 //! this tells whether they are what the scene takes them for.
 
-use crate::document::{FileLinks, Interaction, LinkSource, Links, Scene, SpeciesNames};
+use super::terms;
+use crate::document::{FileLinks, LinkSource, Links, Scene, SpeciesNames};
 use crate::families::Model;
 use crate::numbers::grouped;
 use crate::printable;
@@ -21,45 +22,30 @@ pub(super) fn rows(scene: &Scene, model: &Model) -> Vec<(&'static str, String)> 
         format!("{} {}{kind}", species.name, grouped(species.count))
     });
     let mut rows = vec![("species", of_species.collect::<Vec<_>>().join(", "))];
-    rows.extend(scene.interactions.iter().filter_map(|interaction| of_interaction(scene, &names, interaction)));
+    let members = |interaction| Some((interaction, terms::of(interaction)?.members(scene, &names)?));
+    let all = scene.interactions.iter().filter_map(members);
+    rows.extend(all.map(|(interaction, members)| (interaction.name(), members)));
     // Names may be those of a file.
     rows.into_iter().map(|(name, text)| (name, printable::name(&text).into_owned())).collect()
 }
 
-/// What an interaction acts on.
-fn of_interaction(
-    scene: &Scene,
-    names: &SpeciesNames<'_>,
-    interaction: &Interaction,
-) -> Option<(&'static str, String)> {
-    let some = |species: Option<&[String]>| match species {
-        None => format!("all particles: {}", names.names().join(", ")),
-        Some(species) => species.join(", "),
-    };
-    let own = |species: Vec<String>| match species.as_slice() {
-        [] => String::new(),
-        species => format!("; {} as given for them", species.join(", ")),
-    };
-    Some(match interaction {
-        Interaction::Dpd(dpd) => {
-            let pairs = dpd.pairs.iter().map(|pair| pair.between.join("-"));
-            ("dpd", format!("pairs of {}{}", names.names().join(", "), own(pairs.collect())))
-        }
-        Interaction::Langevin(langevin) => {
-            let species = langevin.species.iter().map(|entry| entry.name.clone());
-            ("langevin", format!("{}{}", some(None), own(species.collect())))
-        }
-        Interaction::ColouredNoise(_) => ("coloured-noise", some(None)),
-        Interaction::Tether(_) => ("tether", some(None)),
-        Interaction::BodyForce(force) => ("body-force", some(force.species.as_deref())),
-        Interaction::Bonds(bonds) => ("bonds", of_links(scene, names, &bonds.links(scene))),
-        Interaction::Angles(angles) => ("angles", of_links(scene, names, &angles.links(scene))),
-        Interaction::HarmonicChain(_) | Interaction::ShallowWater(_) | Interaction::Voronoi(_) => return None,
-    })
+/// All particles, by the names of their species.
+pub(crate) fn all_particles(names: &SpeciesNames<'_>) -> String {
+    format!("all particles: {}", names.names().join(", "))
+}
+
+/// That some species have numbers of their own.
+pub(crate) fn as_given(species: impl Iterator<Item = String>) -> String {
+    let species = species.collect::<Vec<_>>().join(", ");
+    if species.is_empty() { species } else { format!("; {species} as given for them") }
 }
 
 /// Bonds or angles: how many, and of what.
-fn of_links<const LENGTH: usize>(scene: &Scene, names: &SpeciesNames<'_>, links: &Links<'_, LENGTH>) -> String {
+pub(crate) fn of_links<const LENGTH: usize>(
+    scene: &Scene,
+    names: &SpeciesNames<'_>,
+    links: &Links<'_, LENGTH>,
+) -> String {
     match links.source(scene) {
         LinkSource::Listed(listed) => format!("{} that are listed", grouped(listed.len() as u64)),
         LinkSource::Chains(None) => "along all chains".to_owned(),

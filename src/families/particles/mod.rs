@@ -6,7 +6,6 @@ pub mod combinations;
 mod composition;
 mod conservation;
 mod description;
-pub(crate) mod layers;
 mod layout;
 pub(crate) mod model;
 mod normal_modes;
@@ -14,29 +13,30 @@ mod observables;
 mod oscillators;
 pub(crate) mod plan;
 pub mod reference;
+pub(crate) mod space;
 pub(crate) mod stability;
 mod start;
 mod sums;
+pub(crate) mod terms;
 mod unneeded;
 mod warnings;
 
-pub use layout::{CoupledLayout, ListLayout, ParticleLayout};
+pub use layout::{CoupledLayout, KeptArray, ListLayout, ParticleLayout};
 
 use super::reference::Stepper;
 use super::{
     Angles, BathStep, BodyForces, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptQuantity,
-    KeptSum, Limit, Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, units,
+    KeptSum, Limit, Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, Tethers,
+    units,
 };
-use crate::document::{
-    BondPotential, DpdInteraction, FileStart, Integrator, Interaction, PairRelaxation, Problems, Scene, Surroundings,
-    Warning,
-};
+use crate::document::{BondPotential, Integrator, PairRelaxation, Problems, Scene, Surroundings, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
 use crate::shaders::Sum;
 use crate::state::State;
-use model::{surroundings, topology};
+use model::topology::chain_groups;
 use reference::Reference;
 use std::sync::LazyLock;
+use terms::Term;
 
 /// What acts on particles.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -49,8 +49,8 @@ pub struct Particles {
     pub position_bath: Option<PositionBath>,
     /// A random force on every particle that is constant for random times.
     pub coloured_noise: Option<ColouredNoise>,
-    /// Spring constant that ties every particle to where it started.
-    pub tether: Option<f64>,
+    /// Springs from every particle to where it started.
+    pub tethers: Option<Tethers>,
     /// Forces on particles from outside.
     pub body_forces: Option<BodyForces>,
     /// Walls that reflect particles, in the order of their axes.
@@ -106,7 +106,7 @@ impl Particles {
     /// Whether particles are oscillators in baths with memory: a report adds the covariances of bath, momentum and displacement, which theory
     /// knows.
     pub(crate) fn oscillates_in_memory(&self) -> bool {
-        self.tether.is_some() && self.position_bath.as_ref().is_some_and(|bath| bath.memory)
+        self.tethers.is_some() && self.position_bath.as_ref().is_some_and(|bath| bath.memory)
     }
 
     /// The number of coordinates that have such a bath, and can move.
@@ -134,47 +134,37 @@ impl Particles {
     /// What acts on the particles of a scene; harmonic chains add their species.
     pub(super) fn new(scene: &Scene, species: &mut Vec<Species>) -> Self {
         let mut particles = Self { walls: PlaneWalls::of(scene), shear: ShearedBox::of(scene), ..Self::default() };
-        let (mut bonds, mut angles) = (Bonds::default(), Angles::default());
-        particles.pair_force = pair_force(scene, species, scene.space.lengths.len());
-        for interaction in scene.interactions.iter().filter(|interaction| checks::acts(interaction)) {
-            match interaction {
-                Interaction::Langevin(langevin) => {
-                    let sheared = particles.shear.is_some();
-                    let bath = PositionBath::new(langevin, species, scene.temperature, scene.time.step, sheared);
-                    particles.position_bath = Some(bath);
-                }
-                Interaction::ColouredNoise(noise) => particles.coloured_noise = Some(ColouredNoise::new(noise)),
-                Interaction::Tether(spring) => particles.tether = Some(spring.stiffness),
-                Interaction::BodyForce(interaction) => {
-                    let forces = particles.body_forces.get_or_insert_with(|| BodyForces::new(interaction, species));
-                    forces.add(interaction, species);
-                }
-                Interaction::Bonds(interaction) => bonds.add(interaction, scene, species),
-                Interaction::Angles(interaction) => angles.add(interaction, scene, species),
-                Interaction::HarmonicChain(interaction) => {
-                    let trios = ChainTrios::new(interaction, scene);
-                    species.extend(trios.species());
-                    trios.add_bonds(&mut bonds, scene.time.step);
-                    particles.chains = Some(trios);
-                }
-                // Pairs are of all `dpd` interactions together; others are of other families.
-                _ => {}
-            }
+        for term in terms::acting(scene) {
+            term.add(scene, species, &mut particles);
         }
-        if let Some(force) = &mut particles.pair_force {
-            // Of two images of a neighbour a list must see only one.
-            force.skin = force.skin.min(0.5 * scene.space.shortest_length() - force.cutoff).max(0.0);
-            if let Some(shear) = &particles.shear {
-                // Nor one that is next to both boundaries.
-                let edge = scene.space.lengths.get(shear.gradient).copied().unwrap_or(1.0);
-                force.skin = force.skin.min(edge / 3.0 - force.cutoff).max(0.0);
-            }
-            particles.surroundings = surroundings::of(scene, species, force);
-        }
-        particles.chain_groups = topology::chain_groups(scene, &bonds);
-        particles.bonds = (bonds.count() > 0).then_some(bonds);
-        particles.angles = (angles.count() > 0).then_some(angles);
+        let unbonded = Bonds::default();
+        particles.chain_groups = chain_groups(scene, particles.bonds.as_ref().unwrap_or(&unbonded));
+        particles.bonds = particles.bonds.filter(|bonds| bonds.count() > 0);
+        particles.angles = particles.angles.filter(|angles| angles.count() > 0);
         particles
+    }
+
+    /// Everything that acts on particles, and the walls and boundaries of their space.
+    pub(crate) fn terms(&self) -> Vec<&dyn Term> {
+        fn term<T: Term>(term: &T) -> &dyn Term {
+            term
+        }
+        let before = [self.coloured_noise.as_ref().map(term), self.body_forces.as_ref().map(term)];
+        let after = [
+            self.shear.as_ref().map(term),
+            self.position_bath.as_ref().map(term),
+            self.pair_force.as_ref().map(term),
+            self.bonds.as_ref().map(term),
+            self.angles.as_ref().map(term),
+            self.tethers.as_ref().map(term),
+            self.chains.as_ref().map(term),
+        ];
+        before.into_iter().flatten().chain(self.walls.iter().map(term)).chain(after.into_iter().flatten()).collect()
+    }
+
+    /// The arrays of the state that terms keep between steps.
+    pub(crate) fn kept(&self, model: &Model) -> Vec<KeptArray> {
+        self.terms().into_iter().filter_map(|term| term.keeps(model)).collect()
     }
 
     /// Leaves out how bonds and angles are described where both have the same, which may be along chains or from a file, and who belongs
@@ -221,7 +211,7 @@ impl Particles {
 
     /// Whether there are bonds, angles or tethers.
     pub(crate) fn are_sprung(&self) -> bool {
-        self.are_bonded() || self.tether.is_some()
+        self.are_bonded() || self.tethers.is_some()
     }
 
     /// Whether there are bonds or angles.
@@ -261,21 +251,15 @@ impl Physics for Particles {
     }
 
     fn has_potential(&self) -> bool {
-        let bonds = self.bonds.as_ref();
-        self.pair_force.as_ref().is_some_and(PairForce::is_conservative)
-            || self.tether.is_some()
-            || bonds.is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.potential.is_some()))
-            || self.angles.is_some()
+        self.terms().iter().any(|term| term.has_potential())
     }
 
     fn has_memory(&self) -> bool {
-        self.pair_force.as_ref().is_some_and(PairForce::remembers)
-            || self.position_bath.as_ref().is_some_and(|bath| bath.memory)
-            || self.bonds.as_ref().is_some_and(Bonds::have_memory)
+        self.terms().iter().any(|term| term.has_memory())
     }
 
     fn is_free(&self) -> bool {
-        self.position_bath.is_none() && self.tether.is_none()
+        !self.terms().iter().any(|term| term.is_tied_to_space())
     }
 
     fn reaches_equilibrium(&self) -> bool {
@@ -317,8 +301,8 @@ impl Physics for Particles {
     }
 
     fn check_start(&self, scene: &Scene, model: &Model, state: &State, problems: &mut Problems) {
-        start::check_extents(scene, model, state, problems);
-        checks::walls::check_bonds(self, model, state, problems);
+        terms::bonds::check_extents(scene, model, state, problems);
+        space::walls::scene::check_bonds(self, model, state, problems);
     }
 
     fn unneeded(&self, scene: &Scene, model: &Model) -> Vec<String> {
@@ -326,17 +310,11 @@ impl Physics for Particles {
     }
 
     fn check_capacity(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
-        if let Some(shear) = &self.shear {
-            checks::shear::check_step(scene, model, shear, problems);
-        }
-        if self.relaxes_bonds(model) {
-            checks::check_rounds(self, problems);
+        for term in self.terms() {
+            term.check_capacity(scene, model, problems);
         }
         if scene.output.chain_sizes.is_some() {
             checks::check_kinds(self, problems);
-        }
-        if let Some(forces) = &self.body_forces {
-            checks::body_force::check_impulses(scene, model, forces, problems);
         }
     }
 
@@ -381,9 +359,8 @@ impl Physics for Particles {
             return Vec::new();
         }
         let sums = sums::sums(model);
-        let momentum = super::conservation::momentum(state, &sums, model.units.dimension, model.units.momentum);
-        let put_in = sums.place(Sum::GivenMomentum);
-        let walls = sums.place(Sum::Walls).map(|first| (first, plan::walls::count(model)));
+        let given = sums.place(Sum::GivenMomentum);
+        let walls = sums.place(Sum::Walls).map(|first| (first, space::walls::plan::count(model)));
         // What frozen particles have by the motion of their walls is no part of the momentum of a report.
         let carried = |axis: usize| -> i64 {
             let frozen = |(momentum, species): (&[i32; 3], &u32)| {
@@ -391,19 +368,19 @@ impl Physics for Particles {
             };
             state.momenta.iter().zip(&state.species).map(frozen).sum()
         };
-        // A run that goes on with an earlier one starts with what had been put in and taken up.
+        // A run that goes on with an earlier one starts with what had been given and absorbed.
         let exchanged = state.exchanged_momentum();
         let shear = self.shear.is_some();
-        let walls_are = walls.is_some() && !shear;
-        let quantity = KeptQuantity::Momentum { walls: walls_are, shear, body_forces: put_in.is_some() };
-        let of_axis = |(axis, sum): (usize, KeptSum)| KeptSum {
-            quantity,
-            put_in: put_in.map(|first| first + axis),
-            walls: walls.map(|(first, number)| (first + axis, number)),
-            total: exchanged[axis] - carried(axis),
-            ..sum
-        };
-        momentum.into_iter().enumerate().map(of_axis).collect()
+        let quantity = KeptQuantity::Momentum { walls: walls.is_some() && !shear, shear, body_forces: given.is_some() };
+        let mut momentum = super::conservation::momentum(state, &sums, model.units.dimension, model.units.momentum);
+        for (axis, sum) in momentum.iter_mut().enumerate() {
+            (sum.quantity, sum.total) = (quantity, exchanged[axis] - carried(axis));
+            sum.parts.extend(given.map(|first| (first + axis, -1)));
+            sum.parts.extend(
+                walls.into_iter().flat_map(|(first, count)| (0..count).map(move |wall| (first + 3 * wall + axis, 1))),
+            );
+        }
+        momentum
     }
 
     fn never_changes(&self) -> &'static [&'static str] {
@@ -436,26 +413,6 @@ impl Physics for Particles {
         let (model, state) = (model.clone(), state.clone());
         Some(Box::new(Reference::new(model, state)))
     }
-}
-
-/// How dense it is around the particles of a file or of molecules in a box of these edges; nothing without a pair force.
-pub(crate) fn surroundings(scene: &Scene, start: &FileStart, lengths: &[f64]) -> Option<Surroundings> {
-    let places = start.places.as_ref()?;
-    let species = Species::of(scene);
-    let force = pair_force(scene, &species, lengths.len());
-    let crowd = surroundings::Crowd {
-        places: &places.positions,
-        species: &start.species,
-        lengths,
-        even: vec![0.0; species.len()],
-    };
-    force.map(|force| crowd.surroundings(force.cutoff))
-}
-
-/// The force between pairs, which all `dpd` interactions of a scene make together; none without one.
-fn pair_force(scene: &Scene, species: &[Species], dimension: usize) -> Option<PairForce> {
-    let interactions: Vec<&DpdInteraction> = scene.pair_interactions().map(|(_, dpd)| dpd).collect();
-    PairForce::new(&interactions, species, scene.temperature, dimension)
 }
 
 /// The index of a species by its name.

@@ -1,7 +1,8 @@
 //! The normal modes of networks of springs without a length.
 
-use super::model::{Bond, Bonds, Neighbours};
+use super::model::Neighbours;
 use crate::document::BondPotential;
+use crate::families::{Bond, Bonds};
 use nalgebra::DMatrix;
 use std::collections::HashMap;
 

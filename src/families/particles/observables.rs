@@ -1,6 +1,6 @@
 //! From the integer sums of a report to observables of particles.
 
-use super::plan::walls;
+use super::space::walls::plan as walls;
 use super::sums::sums;
 use crate::families::{BathProducts, Column, Model, Observables, OnWalls, Particles, PutIn, column};
 use crate::plan::Plan;
@@ -59,7 +59,7 @@ pub(super) fn columns(particles: &Particles, model: &Model) -> Vec<Column> {
         columns.push(column::CONFIGURATIONAL_TEMPERATURE);
     }
     // What is tied to places in space presses on nothing.
-    if particles.tether.is_none() && !model.has_fixed_particles() {
+    if particles.tethers.is_none() && !model.has_fixed_particles() {
         columns.push(column::PRESSURE);
         columns.extend(potential.then_some(column::CONSERVATIVE_PRESSURE));
     }

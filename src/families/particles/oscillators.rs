@@ -29,17 +29,12 @@ struct Coordinates {
 fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
     let particles = model.particles();
     let bath = particles.position_bath.as_ref()?;
-    let is_alone = particles.pair_force.is_none()
-        && particles.angles.is_none()
-        && particles.coloured_noise.is_none()
-        && particles.body_forces.is_none()
-        && particles.walls.is_empty()
-        && particles.shear.is_none();
+    let is_linear = particles.terms().iter().all(|term| term.is_linear());
     // Friction that sees a predicted velocity leaves another temperature.
     let predicts = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     // A bath that never forgets has no noise either.
     let couples = bath.steps.iter().all(|step| step.coupling > 0.0 && (!bath.memory || step.persistence.abs() < 1.0));
-    if !is_alone || predicts || !couples || bath.temperature <= 0.0 || model.mobile_particles() == 0 {
+    if !is_linear || predicts || !couples || bath.temperature <= 0.0 || model.mobile_particles() == 0 {
         return None;
     }
     let coordinates = coordinates(model, particles)?;
@@ -104,7 +99,7 @@ fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
 /// The coordinates of all that moves, alike ones together; none where there is no spring, or where modes are not known.
 fn coordinates(model: &Model, particles: &Particles) -> Option<Vec<Coordinates>> {
     let dimension = model.units.dimension as f64;
-    let tether = particles.tether.unwrap_or(0.0);
+    let tether = particles.tethers.map_or(0.0, |tethers| tethers.stiffness);
     let mobile = || model.species.iter().enumerate().filter(|(_, species)| !species.fixed && species.count > 0);
     let Some(bonds) = particles.bonds.as_ref() else {
         let alike = |(species, found): (usize, &Species)| Coordinates {

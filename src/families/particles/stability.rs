@@ -6,13 +6,11 @@
 //! left out here, springs, baths and neighbours that attract, only makes that larger: a part of it at 4 is certainly
 //! unstable, and refused.
 
-use crate::document::{
-    Bath, BondPotential, BondsInteraction, Integrator, Interaction, NumberedSpecies, Problems, Scene, Warning, brief,
-};
-use crate::families::limits::largest_step;
+use crate::document::{Bath, BondPotential, Integrator, Interaction, NumberedSpecies, Problems, Scene, Warning, brief};
+use crate::families::limits::{at_step, largest_step};
 use crate::families::{
-    Alike, BathStep, Beyond, Bond, BondKind, Bonds, FREQUENCY_LIMIT, Limit, MOST_RELAXATION, Model, Particles,
-    RelaxationErrors, TOLERANCE,
+    Alike, Beyond, Bond, BondKind, Bonds, FREQUENCY_LIMIT, Limit, MOST_RELAXATION, Model, Particles, RelaxationErrors,
+    Species, TOLERANCE,
 };
 
 /// B + W beyond which nothing is stable.
@@ -61,7 +59,7 @@ fn cold_by_prediction(strains: &[Strain], model: &Model) -> f64 {
 /// Warns of a temperature that a prediction makes wrong by more than is tolerated.
 pub(crate) fn warn_of_prediction(scene: &Scene, model: &Model) -> Option<Warning> {
     let network = Network::of(scene, model);
-    let cold = cold_by_prediction(&certain(scene, model, network.as_ref(), scene.time.step), model);
+    let cold = cold_by_prediction(&certain(scene, model, network.as_ref()), model);
     (cold.abs() > TOLERANCE).then(|| {
         let message = format!(
             "friction of particles or bonds sees predicted velocities, which makes their kinetic temperature {:.1} % \
@@ -90,13 +88,17 @@ struct Strain {
 pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
     let step = scene.time.step;
     let network = Network::of(scene, model);
-    let Some(worst) = worst(&certain(scene, model, network.as_ref(), step)) else { return };
+    let Some(worst) = worst(&certain(scene, model, network.as_ref())) else { return };
     if worst.sum < LIMIT {
         return;
     }
     let sum = if worst.sum < 1e6 { format!("{:.4}", worst.sum) } else { brief(worst.sum) };
     let found = format!("{step}, at which B + W is {sum} for {}", worst.what);
-    let share = |step: f64| strongest(&certain(scene, model, network.as_ref(), step)) / LIMIT;
+    let share = |step: f64| {
+        let other = at_step(scene, step);
+        let model = Model::new(&other);
+        strongest(&certain(&other, &model, Network::of(&other, &model).as_ref())) / LIMIT
+    };
     let largest = largest_step([step, worst.sum / LIMIT], 1e-6, &share);
     let mut accepted = format!(
         "at most {}, so that B + W = (λₑ + K)dt²/m stays below {LIMIT}, beyond which no scheme is stable",
@@ -168,8 +170,8 @@ pub(crate) fn check_repulsion(scene: &Scene, model: &Model, problems: &mut Probl
 /// Warns of a time step near the edge.
 pub(crate) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
     let network = Network::of(scene, model);
-    let mut strains = certain(scene, model, network.as_ref(), scene.time.step);
-    strains.extend(possible(scene, model, network.as_ref(), scene.time.step));
+    let mut strains = certain(scene, model, network.as_ref());
+    strains.extend(possible(model, network.as_ref()));
     let worst = worst(&strains).filter(|strain| strain.sum > CLEAN)?;
     let verdict = if worst.sum >= LIMIT {
         format!("{LIMIT} is the limit of stability, which is passed at times")
@@ -191,8 +193,8 @@ pub(crate) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
 pub(super) fn limits(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Limit> {
     let step = scene.time.step;
     let network = Network::of(scene, model);
-    let mut strains = certain(scene, model, network.as_ref(), step);
-    strains.extend(possible(scene, model, network.as_ref(), step));
+    let mut strains = certain(scene, model, network.as_ref());
+    strains.extend(possible(model, network.as_ref()));
     let strain = strongest(&strains);
     let pairs = particles.pair_force.as_ref();
     let friction = pairs.map_or(0.0, |force| model.largest_friction_rate(force).0);
@@ -255,51 +257,34 @@ fn worst(strains: &[Strain]) -> Option<Strain> {
 
 /// The key that sets the strength of a bath, and its value.
 fn bath_strength(interaction: &Interaction) -> (&'static str, f64) {
-    let (bath, friction) = match interaction {
-        Interaction::Dpd(dpd) => {
-            let own = dpd.pairs.iter().filter_map(|pair| pair.friction);
-            (&dpd.bath, own.fold(dpd.friction, f64::max))
-        }
-        Interaction::Langevin(langevin) => {
-            let own = langevin.species.iter().map(|entry| entry.friction);
-            (&langevin.bath, own.fold(langevin.friction, f64::max))
-        }
-        Interaction::Bonds(bonds) => (&bonds.bath, bonds.friction),
-        _ => return ("friction", 0.0),
-    };
-    match bath {
-        Bath::Memory { coupling: Some(coupling), .. } => ("coupling", *coupling),
-        _ => ("friction", friction),
+    match interaction.bath() {
+        Some((Bath::Memory { coupling: Some(coupling), .. }, _)) => ("coupling", *coupling),
+        bath => ("friction", bath.map_or(0.0, |(_, friction)| friction)),
     }
 }
 
 /// Parts of the matrix that are there at all times.
-fn certain(scene: &Scene, model: &Model, network: Option<&Network>, step: f64) -> Vec<Strain> {
-    let mut strains = of_particles(scene, model, step);
-    strains.extend(of_pairs_on_average(scene, model, step));
+fn certain(scene: &Scene, model: &Model, network: Option<&Network>) -> Vec<Strain> {
+    let mut strains = of_particles(scene, model);
+    strains.extend(of_pairs_on_average(scene, model));
     if let Some(bonds) = model.particles().bonds.as_ref() {
-        strains.extend(of_single_bonds(scene, model, bonds, step));
+        strains.extend(of_single_bonds(scene, model, bonds));
         let line = model.units.dimension == 1;
         // Without a length at rest a spring is as stiff across as along.
-        let isotropic = |kind: usize| match bonds.kinds[kind].potential {
+        let isotropic = |kind: &BondKind| match kind.potential {
             Some(BondPotential::Harmonic { stiffness, length: 0.0 }) => [stiffness, 0.0],
             _ => [0.0; 2],
         };
-        let all = stiffnesses(scene, model, bonds, step);
-        let stiffness = |kind: usize| if line { all[kind] } else { isotropic(kind) };
-        strains.extend(network.and_then(|network| network.strain(step, &stiffness)));
+        let stiffness = |kind: &BondKind| if line { stiffnesses(model, kind) } else { isotropic(kind) };
+        strains.extend(network.and_then(|network| network.strain(model, bonds, &stiffness)));
     }
     strains
 }
 
 /// The matrix as it may be: chains that are straight, two particles in one place.
-fn possible(scene: &Scene, model: &Model, network: Option<&Network>, step: f64) -> Vec<Strain> {
-    let mut strains = Vec::new();
-    if let Some(bonds) = model.particles().bonds.as_ref() {
-        let all = stiffnesses(scene, model, bonds, step);
-        strains.extend(network.and_then(|network| network.strain(step, &|kind| all[kind])));
-    }
-    strains
+fn possible(model: &Model, network: Option<&Network>) -> Option<Strain> {
+    let bonds = model.particles().bonds.as_ref()?;
+    network?.strain(model, bonds, &|kind| stiffnesses(model, kind))
 }
 
 fn place_of(scene: &Scene, wanted: impl Fn(&Interaction) -> bool) -> usize {
@@ -312,38 +297,28 @@ fn inverse_mass(model: &Model, species: usize) -> f64 {
 }
 
 /// Springs and baths on single particles.
-fn of_particles(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
-    let mut strains = Vec::new();
-    let langevin = scene.interactions.iter().find_map(|interaction| match interaction {
-        Interaction::Langevin(langevin) => Some(langevin),
-        _ => None,
-    });
-    let place = match langevin {
-        Some(_) => place_of(scene, |interaction| matches!(interaction, Interaction::Langevin(_))),
-        None => place_of(scene, |interaction| matches!(interaction, Interaction::Tether(_))),
-    };
-    for (index, species) in model.species.iter().enumerate().filter(|(_, species)| species.count > 0) {
-        let friction = langevin.map_or(0.0, |langevin| {
-            let own = langevin.species.iter().find(|entry| entry.name == species.name);
-            own.map_or(langevin.friction, |entry| entry.friction)
-        });
-        // What relaxes exactly puts no strain on the step.
-        let relaxes = model.particles().relaxes_particles(model);
-        let bath = langevin.filter(|_| !relaxes);
-        let bath = bath.map_or(0.0, |langevin| BathStep::of(&langevin.bath, friction, step).coupling);
-        let bath = bath * strain_of_bath(model);
-        let spring = model.particles().tether.unwrap_or(0.0);
-        let scale = step * step * inverse_mass(model, index);
+fn of_particles(scene: &Scene, model: &Model) -> Vec<Strain> {
+    let particles = model.particles();
+    let of_baths = |interaction: &Interaction| matches!(interaction, Interaction::Langevin(_));
+    let of_springs = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_));
+    let place = scene.interactions.iter().position(of_baths).unwrap_or_else(|| place_of(scene, of_springs));
+    let spring = particles.tethers.map_or(0.0, |tethers| tethers.stiffness);
+    // What relaxes exactly puts no strain on the step.
+    let bath = particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles(model));
+    let species = model.species.iter().enumerate().filter(|(_, species)| species.count > 0);
+    let strain = |(index, species): (usize, &Species)| {
+        let bath = bath.map_or(0.0, |bath| bath.steps[index].coupling) * strain_of_bath(model);
+        let scale = model.time_step * model.time_step * inverse_mass(model, index);
         let what = format!("every `{}` of mass {}", species.name, species.mass);
-        strains.push(Strain { sum: scale * (bath + spring), bath: scale * bath, place, what });
-    }
-    strains
+        Strain { sum: scale * (bath + spring), bath: scale * bath, place, what }
+    };
+    species.map(strain).collect()
 }
 
 /// λₑ of pairs: the mean of all eigenvalues for evenly spread particles, Σ λₑρ\[ω\]/(d·m). The largest is several times
 /// as large, but particles that repel each other keep away from where ω is largest: half of the mean is certain.
-fn of_pairs_on_average(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
-    let mut strains = Vec::new();
+fn of_pairs_on_average(scene: &Scene, model: &Model) -> Vec<Strain> {
+    let (mut strains, step) = (Vec::new(), model.time_step);
     let Some(force) = model.particles().pair_force.as_ref().filter(|_| model.integrator == Integrator::CotterReich {})
     else {
         return strains;
@@ -361,31 +336,15 @@ fn of_pairs_on_average(scene: &Scene, model: &Model, step: f64) -> Vec<Strain> {
     strains
 }
 
-/// K and λₑ at a step of each kind of bonds; K at rest, the least of a bond that is finitely extensible.
-fn stiffnesses(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<[f64; 2]> {
-    let asked: Vec<&BondsInteraction> = scene
-        .interactions
-        .iter()
-        .filter_map(|interaction| match interaction {
-            Interaction::Bonds(bonds) => Some(bonds),
-            _ => None,
-        })
-        .collect();
-    let kind = |(index, kind): (usize, &BondKind)| {
-        let spring = match kind.potential {
-            Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => stiffness,
-            None => 0.0,
-        };
-        let bath = match asked.get(index) {
-            // What relaxes exactly puts no strain on the step.
-            _ if model.particles().relaxes_bonds(model) => 0.0,
-            Some(bonds) => BathStep::of(&bonds.bath, bonds.friction, step).coupling * strain_of_bath(model),
-            // The baths of harmonic chains are white: 2γ/dt.
-            None => kind.bath.map_or(0.0, |bath| bath.coupling * model.time_step / step),
-        };
-        [spring, bath]
+/// K and λₑ of a kind of bonds; K at rest, the least of a bond that is finitely extensible.
+fn stiffnesses(model: &Model, kind: &BondKind) -> [f64; 2] {
+    let spring = match kind.potential {
+        Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => stiffness,
+        None => 0.0,
     };
-    bonds.kinds.iter().enumerate().map(kind).collect()
+    // What relaxes exactly puts no strain on the step.
+    let bath = kind.bath.filter(|_| !model.particles().relaxes_bonds(model));
+    [spring, bath.map_or(0.0, |bath| bath.coupling * strain_of_bath(model))]
 }
 
 /// The interaction that each kind of bonds comes from.
@@ -405,9 +364,9 @@ fn numbered_species<'a>(scene: &'a Scene, model: &Model) -> NumberedSpecies<'a> 
 }
 
 /// Every bond by itself, on the reduced mass of its ends.
-fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Vec<Strain> {
+fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds) -> Vec<Strain> {
     let members = numbered_species(scene, model);
-    let (stiffnesses, places) = (stiffnesses(scene, model, bonds, step), places(scene, bonds));
+    let (step, places) = (model.time_step, places(scene, bonds));
     let mut largest = vec![0.0_f64; bonds.kinds.len()];
     for (kind, alike) in bonds.alike() {
         let inverse = match alike {
@@ -424,7 +383,7 @@ fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds, step: f64) -> Ve
         largest[kind as usize] = largest[kind as usize].max(inverse);
     }
     let strain = |(kind, inverse): (usize, &f64)| {
-        let [spring, bath] = stiffnesses[kind].map(|value| value * step * step * inverse);
+        let [spring, bath] = stiffnesses(model, &bonds.kinds[kind]).map(|value| value * step * step * inverse);
         let what = format!("the bonds of interactions[{}], of reduced mass {}", places[kind], 1.0 / inverse);
         Strain { sum: spring + bath, bath, place: places[kind], what }
     };
@@ -437,7 +396,6 @@ struct Network {
     bonds: Vec<([usize; 2], usize)>,
     particles: Vec<u32>,
     inverse_masses: Vec<f64>,
-    kinds: usize,
     /// The interaction that they come from.
     place: usize,
 }
@@ -455,14 +413,13 @@ impl Network {
             bonds: seen.iter().map(|bond| (bond.ends.map(place_of), bond.kind as usize)).collect(),
             inverse_masses: particles.iter().map(|end| inverse_mass(model, members.of(*end).unwrap_or(0))).collect(),
             particles,
-            kinds: bonds.kinds.len(),
             place: *places(scene, bonds).first()?,
         })
     }
 
     /// All bonds together as if they were in one line, by power iteration. `stiffness` gives K and λₑ of a kind.
-    fn strain(&self, step: f64, stiffness: &dyn Fn(usize) -> [f64; 2]) -> Option<Strain> {
-        let kinds: Vec<[f64; 2]> = (0..self.kinds).map(stiffness).collect();
+    fn strain(&self, model: &Model, bonds: &Bonds, stiffness: &dyn Fn(&BondKind) -> [f64; 2]) -> Option<Strain> {
+        let (step, kinds): (f64, Vec<[f64; 2]>) = (model.time_step, bonds.kinds.iter().map(stiffness).collect());
         if kinds.iter().all(|[spring, bath]| spring + bath == 0.0) {
             return None;
         }

@@ -1,6 +1,6 @@
 //! What a report of particles sums.
 
-use super::plan::walls;
+use super::space::walls::plan as walls;
 use crate::families::Model;
 use crate::plan::Sums;
 use crate::shaders::Sum;

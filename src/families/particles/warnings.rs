@@ -1,10 +1,8 @@
 //! What is allowed of particles but deserves a second look.
 
 use super::stability;
-use crate::document::{
-    BondPotential, ColouredNoiseInteraction, FrictionVelocity, Interaction, LangevinInteraction, NoiseProcess,
-    PairRelaxation, Placement, Scene, Warning, brief,
-};
+use super::terms::{self, SceneTerm, Springs};
+use crate::document::{Interaction, PairRelaxation, Placement, Scene, Warning, brief};
 use crate::families::warnings::{warn, warn_of_momentum};
 use crate::families::{FREQUENCY_LIMIT, MOST_RELAXATION, Model, PairForce, Particles, Species};
 
@@ -22,13 +20,8 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
         warn_of_layers(scene, force, &mut warnings);
     }
     for (index, interaction) in scene.interactions.iter().enumerate() {
-        let path = format!("interactions[{index}]");
-        match interaction {
-            Interaction::ColouredNoise(noise) => warn_of_noise(noise, model, &path, &mut warnings),
-            Interaction::Langevin(langevin) if particles.shear.is_some() => {
-                warn_of_slowed_flow(langevin, &path, &mut warnings);
-            }
-            _ => {}
+        if let Some(term) = terms::of(interaction) {
+            term.warn(model, &format!("interactions[{index}]"), &mut warnings);
         }
     }
     warn_of_places(scene, &mut warnings);
@@ -48,9 +41,6 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
 /// Units of momentum that a thermal momentum or an impulse should have: it is rounded to a whole number of them.
 const FEWEST_UNITS: f64 = 1000.0;
 
-/// Impulses of fewer units of momentum are rounded by more than a thousandth.
-const COARSE_IMPULSE: f64 = 500.0;
-
 /// Thermal extensions within which nearly all springs stay.
 const NEARLY_ALL: f64 = 4.0;
 
@@ -63,15 +53,8 @@ fn warn_of_springs(scene: &Scene, warnings: &mut Vec<Warning>) {
     let half = 0.5 * scene.space.shortest_length();
     let resolution = scene.space.lengths.iter().copied().fold(0.0, f64::max) / 4_294_967_296.0;
     for (index, interaction) in scene.interactions.iter().enumerate() {
-        let [stiffness, length] = match interaction {
-            Interaction::Tether(spring) => [spring.stiffness, 0.0],
-            Interaction::Bonds(bonds) => match bonds.potential {
-                Some(BondPotential::Harmonic { stiffness, length }) => [stiffness, length],
-                _ => continue,
-            },
-            // Half the box is checked with their spacing.
-            Interaction::HarmonicChain(chain) => [chain.stiffness, 0.0],
-            _ => continue,
+        let Some(Springs { stiffness, length }) = terms::of(interaction).and_then(SceneTerm::springs) else {
+            continue;
         };
         let temperature = interaction.bath_temperature(scene.temperature);
         let extension = (temperature / stiffness).sqrt();
@@ -79,8 +62,7 @@ fn warn_of_springs(scene: &Scene, warnings: &mut Vec<Warning>) {
             continue;
         }
         let path = format!("interactions[{index}]");
-        let chains = matches!(interaction, Interaction::HarmonicChain(_));
-        if length + NEARLY_ALL * extension > half && !chains {
+        if let Some(length) = length.filter(|length| length + NEARLY_ALL * extension > half) {
             let message = format!(
                 "heat stretches these springs by √(kT/K) = {} about their length at rest of {}, and beyond {}, half the shortest \
                  edge of the box, they pull towards the next image: take stiffer springs, a lower temperature or a larger box",
@@ -287,34 +269,6 @@ fn warn_of_attraction(model: &Model, force: &PairForce, warnings: &mut Vec<Warni
             species.name
         );
         warn(warnings, "interactions", message);
-    }
-}
-
-/// Temperatures in shear are about the linear profile, from which friction relative to the box takes the flow.
-fn warn_of_slowed_flow(langevin: &LangevinInteraction, path: &str, warnings: &mut Vec<Warning>) {
-    if langevin.velocity == Some(FrictionVelocity::Laboratory) {
-        let message = "friction relative to the box slows the flow, while temperatures, stresses and velocities of \
-                       analyses are about the linear profile: they count what the flow lacks of it as heat, and \
-                       `output.profiles` shows it";
-        warn(warnings, format!("{path}.velocity"), message.to_owned());
-    }
-}
-
-fn warn_of_noise(noise: &ColouredNoiseInteraction, model: &Model, path: &str, warnings: &mut Vec<Warning>) {
-    if noise.process == NoiseProcess::Literal {
-        let message = "the process as it is printed has a mean force that is not zero and that grows with age: it has no \
-                       stationary state, and drives the centre of mass; `kangaroo` keeps its holding times without that";
-        warn(warnings, format!("{path}.process"), message.to_owned());
-    }
-    let impulse = 0.5 * noise.strength.sqrt() * model.time_step;
-    let units = impulse / model.units.momentum;
-    if noise.strength > 0.0 && units < COARSE_IMPULSE {
-        let message = format!(
-            "the noise changes a momentum by {impulse:.1e} in half a step, {units:.1} of the units of {:.1e} that momenta \
-             are counted in: rounding distorts it; a larger `time.step` or a lower `temperature` resolves it better",
-            model.units.momentum
-        );
-        warn(warnings, format!("{path}.strength"), message);
     }
 }
 

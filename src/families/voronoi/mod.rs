@@ -158,7 +158,7 @@ impl Physics for Voronoi {
         if let Some(place) = sums.place(Sum::TotalEnergy) {
             let total = state.energies.iter().map(|energy| i64::from(*energy)).sum();
             let (quantity, unit) = (KeptQuantity::Energy, self.energy_unit);
-            kept.push(KeptSum { quantity, direction: "", place, unit, put_in: None, walls: None, total });
+            kept.push(KeptSum { quantity, direction: "", unit, parts: vec![(place, 1)], total });
         }
         kept
     }

@@ -9,7 +9,7 @@ mod memory_kernel;
 mod normal_modes;
 mod thermal_series;
 
-pub use crate::families::particles::model::{HalfPulse, Pulse, half_pulses, thermal_start};
+pub use crate::families::particles::terms::harmonic_chain::{HalfPulse, Pulse, half_pulses, thermal_start};
 pub use memory_kernel::{MemoryKernel, Plateau};
 pub use normal_modes::NormalModes;
 pub use thermal_series::{ThermalEstimates, ThermalSeries};

@@ -298,7 +298,7 @@ impl<'a> Reader<'a> {
         let species_of_scene = SpeciesNames::of(scene).count();
         let mut start =
             places::start(self.file, self.state, &species, (dimension, walled, sheared), lengths, species_of_scene);
-        start.surroundings = families::surroundings(scene, &start, &lengths[..dimension]);
+        start.surroundings = families::surroundings::of_start(scene, &start, &lengths[..dimension]);
         self.check_order(scene, &start);
         self.adopt_checksum(scene);
         let mut unused = self.file.unused.clone();

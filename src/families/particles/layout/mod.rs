@@ -3,7 +3,7 @@
 mod coupled;
 mod list;
 
-pub use coupled::CoupledLayout;
+pub use coupled::{CoupledLayout, KeptArray};
 pub use list::ListLayout;
 
 use crate::plan::{Length, Misfit, Places, StateLayout, content};

@@ -2,21 +2,20 @@
 
 use std::f64::consts::PI;
 
-use super::{PairForce, surroundings};
 use crate::document::{
-    AnglesInteraction, BondPotential, BondsInteraction, Chain, Interaction, LinkSource, NumberedGroup, NumberedSpecies,
-    ParticleGroup, Placement, Scene, SpeciesNames,
+    AnglesInteraction, BondsInteraction, Chain, LinkSource, NumberedGroup, NumberedSpecies, ParticleGroup, Placement,
+    Scene, SpeciesNames,
 };
-use crate::families::Species;
+use crate::families::particles::terms;
+use crate::families::{PairForce, Species, surroundings};
 
 /// Part of an edge of the box to which integer positions resolve, and some more: springs as long as they should be are off by it.
-const RESOLUTION: f64 = 1.0 / (1 << 28) as f64;
+pub(crate) const RESOLUTION: f64 = 1.0 / (1 << 28) as f64;
 
 /// The largest momentum that a particle is expected to get from potentials; masses beyond `heaviest` count as that.
 pub(crate) fn momentum(scene: &Scene, species: &[Species], pair_force: Option<&PairForce>, heaviest: f64) -> f64 {
     let particles = Particles::of(scene, heaviest);
-    let longest = scene.space.lengths.iter().copied().fold(0.0, f64::max);
-    let mut most = pair_force.map_or(0.0, |force| {
+    let of_pairs = pair_force.map_or(0.0, |force| {
         let mass = |a: usize| mobile_mass(species[a].mass, species[a].fixed, heaviest);
         let squares = (0..species.len()).flat_map(|a| (a..species.len()).map(move |b| [a, b]));
         let squares = squares.map(|[a, b]| moved([mass(a), mass(b)]) * force.energy_between(a, b));
@@ -28,29 +27,7 @@ pub(crate) fn momentum(scene: &Scene, species: &[Species], pair_force: Option<&P
             0.5 * scene.time.step * many_body.strain(in_box.max(around))
         }))
     });
-    for interaction in &scene.interactions {
-        most = most.max(match interaction {
-            Interaction::Tether(spring) => {
-                (particles.heaviest_mobile() * spring.stiffness).sqrt() * RESOLUTION * longest
-            }
-            // From a sharp bend to a straight chain.
-            Interaction::Angles(angles) => 2.0 * (particles.bent(angles) * angles.stiffness.abs()).sqrt(),
-            Interaction::Bonds(bonds) => {
-                let spring = |stiffness: f64, length: f64, extent: f64| {
-                    let of = |start: Start| start.mass.sqrt() * start.extension.min(extent).max(RESOLUTION * longest);
-                    stiffness.sqrt() * particles.starts(bonds, length).into_iter().map(of).fold(0.0, f64::max)
-                };
-                match bonds.potential {
-                    None => 0.0,
-                    Some(BondPotential::Harmonic { stiffness, length }) => spring(stiffness, length, f64::INFINITY),
-                    // Near its end the force grows beyond that of the spring.
-                    Some(BondPotential::Fene { stiffness, extent, length }) => 2.0 * spring(stiffness, length, extent),
-                }
-            }
-            _ => 0.0,
-        });
-    }
-    most
+    scene.interactions.iter().filter_map(terms::of).map(|term| term.momentum(&particles)).fold(of_pairs, f64::max)
 }
 
 /// A mass; none of what is held.
@@ -74,7 +51,7 @@ struct Start {
 }
 
 /// Who the particles of a scene are and, where it says so, where they are.
-struct Particles<'a> {
+pub(crate) struct Particles<'a> {
     scene: &'a Scene,
     groups: Vec<NumberedGroup<'a>>,
     species: NumberedSpecies<'a>,
@@ -98,7 +75,13 @@ impl<'a> Particles<'a> {
         }
     }
 
-    fn heaviest_mobile(&self) -> f64 {
+    /// The longest edge of the box.
+    pub fn longest_edge(&self) -> f64 {
+        self.scene.space.lengths.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The mass of the heaviest species that can move.
+    pub fn heaviest_mobile(&self) -> f64 {
         self.masses.iter().flatten().copied().fold(0.0, f64::max)
     }
 
@@ -128,13 +111,20 @@ impl<'a> Particles<'a> {
     }
 
     /// The mass that angles move.
-    fn bent(&self, angles: &AnglesInteraction) -> f64 {
+    pub fn bent(&self, angles: &AnglesInteraction) -> f64 {
         let of_triple = |triple: &[u32; 3]| moved(triple.map(|particle| self.mass_of(particle)));
         match angles.links(self.scene).source(self.scene) {
             LinkSource::Listed(triples) => triples.iter().map(of_triple).fold(0.0, f64::max),
             LinkSource::Start(all) => all.iter().flat_map(|links| &links.members).map(of_triple).fold(0.0, f64::max),
             LinkSource::Chains(named) => self.chains(named).map(|(_, _, mass)| mass).fold(0.0, f64::max),
         }
+    }
+
+    /// The largest momentum that bonds of a stiffness, a length at rest and an extent give.
+    pub fn of_bonds(&self, bonds: &BondsInteraction, stiffness: f64, length: f64, extent: f64) -> f64 {
+        let least = RESOLUTION * self.longest_edge();
+        let of = |start: Start| start.mass.sqrt() * start.extension.min(extent).max(least);
+        stiffness.sqrt() * self.starts(bonds, length).into_iter().map(of).fold(0.0, f64::max)
     }
 
     /// How bonds of a length at rest start: of those that start alike, one.

@@ -1,10 +1,9 @@
 //! Which particles follow each other along chains: described, however many they are, and listed only where a run needs them.
 
-use super::Bonds;
 use super::molecules::{BondedMolecules, molecules};
 use crate::document::{FileLinks, LinkSource, Links, NumberedGroup, Scene, SpeciesNames};
-use crate::families::Species;
 use crate::families::particles::index_of;
+use crate::families::{Bonds, Species};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 

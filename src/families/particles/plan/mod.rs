@@ -1,17 +1,10 @@
 //! Plans of particles.
 
-mod bonded;
-pub(crate) mod external;
-mod law;
-mod own;
-mod position_bath;
+pub(crate) mod bonded;
 pub(crate) mod quanta;
-mod shear;
 mod species;
 pub(crate) mod step;
-mod stress;
-mod tethers;
-pub(crate) mod walls;
+pub(crate) mod stress;
 
 use super::layout::PARTICLE;
 use crate::document::Integrator;

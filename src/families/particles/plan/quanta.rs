@@ -1,7 +1,8 @@
 //! The integer units in which a report sums what it observes of particles.
 
 use super::bonded::stiffest_spring;
-use crate::families::{BathStep, Model, PairForce};
+use crate::families::particles::conservation;
+use crate::families::{BathStep, Model, PairForce, Tethers};
 use crate::plan::{ProductQuanta, Quanta};
 
 /// Units of the sums. A sum of 64 bits has to hold all particles, and a term the 24 bits of single precision: energies
@@ -12,7 +13,8 @@ use crate::plan::{ProductQuanta, Quanta};
 pub(crate) fn quanta(model: &Model) -> Quanta {
     let mut quanta = quanta_without_memory(model);
     let temperature = quanta.energy * 2_f64.powi(32);
-    let largest = baths(model).into_iter().fold(0.0, |most: f64, step| most.max(step.coupling));
+    let baths = conservation::baths(model).into_iter().map(|(step, _)| step);
+    let largest = baths.filter(BathStep::remembers).fold(0.0, |most: f64, step| most.max(step.coupling));
     if largest > 0.0 {
         quanta.bath_squared = (temperature * largest).log2().ceil().exp2() * 2_f64.powi(-32);
         quanta.bath_products = products(model, temperature);
@@ -52,7 +54,7 @@ fn quanta_without_memory(model: &Model) -> Quanta {
 fn products(model: &Model, temperature: f64) -> ProductQuanta {
     let particles = model.particles();
     let bath = particles.position_bath.as_ref().filter(|_| particles.oscillates_in_memory());
-    let Some((bath, stiffness)) = bath.zip(particles.tether) else { return ProductQuanta::default() };
+    let Some((bath, Tethers { stiffness })) = bath.zip(particles.tethers) else { return ProductQuanta::default() };
     let coupling = bath.steps.iter().fold(0.0, |most: f64, step| most.max(step.coupling));
     if coupling == 0.0 {
         return ProductQuanta::default();
@@ -66,21 +68,4 @@ fn products(model: &Model, temperature: f64) -> ProductQuanta {
         displacement: quantum(bath * displacement),
         momentum_displacement: quantum(momentum * displacement),
     }
-}
-
-/// The baths that remember.
-fn baths(model: &Model) -> Vec<BathStep> {
-    let mut steps = Vec::new();
-    if let Some(force) = model.particles().pair_force.as_ref().filter(|force| force.remembers()) {
-        let count = model.species.len();
-        let pairs = (0..count).flat_map(|a| (0..count).map(move |b| (a, b)));
-        steps.extend(pairs.map(|(a, b)| force.bath_step(a, b, model.time_step)));
-    }
-    if let Some(bath) = model.particles().position_bath.as_ref().filter(|bath| bath.memory) {
-        steps.extend(&bath.steps);
-    }
-    if let Some(bonds) = model.particles().bonds.as_ref() {
-        steps.extend(bonds.kinds.iter().filter_map(|kind| kind.bath).filter(BathStep::remembers));
-    }
-    steps
 }

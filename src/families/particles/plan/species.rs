@@ -1,6 +1,6 @@
 //! How kernels know what species are like: by constants where there are few, else by a table.
 
-use super::law::have_ranges;
+use crate::families::particles::terms::pairs::law::have_ranges;
 use crate::families::{self, Model};
 use crate::plan::switch;
 use crate::shaders::space::{Coefficients, MassOfParticle, RelativeMotion};

@@ -8,12 +8,12 @@ use crate::shaders::{Array, Choices, Constant, Entry};
 const WORDS: u64 = 12;
 
 /// Whether an analysis needs the stress.
-pub(super) fn is_needed(measured: &Measured) -> bool {
+pub(crate) fn is_needed(measured: &Measured) -> bool {
     measured.needs(Need::Stresses)
 }
 
 /// Adds the array of stresses and the kernel that clears it, which comes before those that add to it.
-pub(super) fn begin(model: &Model, workgroup: u64, plan: &mut Plan) -> usize {
+pub(crate) fn begin(model: &Model, workgroup: u64, plan: &mut Plan) -> usize {
     let length = longest(model);
     let half = 0.5 * model.time_step;
     plan.stress_unit = 0.5 * model.units.momentum / half * length;

@@ -4,35 +4,55 @@
 //! Σ r·F = 0. Tethers and baths of coordinates pull at points in space and add nothing to the pressure between particles.
 //! The configurational temperature is that of the particles that can move.
 
-use super::densities::Densities;
+use super::Images;
 use super::held;
-use super::pairs::{Forces, Pair, find_pairs};
+use super::pairs::Pair;
 use super::potential::Potential;
-use super::shear::Images;
-use super::terms::angles::Corner;
-use super::terms::{bonds, pairs, tethers};
-use crate::families::{Bonds, Model, Observables};
+use crate::families::{Model, Observables};
 use crate::state::State;
 
-/// Sums of the potential and its derivatives.
-struct Configuration {
-    potential: f64,
-    virial: f64,
-    gradients: Vec<[f64; 3]>,
-    laplacians: Vec<f64>,
-    dimension: usize,
-    /// Whether each particle is held, and has no part of virials.
+/// Sums of the potential and its derivatives, and the particles that they are of.
+pub(crate) struct Configuration<'a> {
+    pub model: &'a Model,
+    pub state: &'a State,
+    pub images: &'a Images<'a>,
+    pub potential: f64,
+    pub virial: f64,
+    pub gradients: Vec<[f64; 3]>,
+    pub laplacians: Vec<f64>,
+    pub dimension: usize,
+    /// True of each particle that is held, and has no part of virials.
     held: Vec<bool>,
 }
 
-impl Configuration {
+impl<'a> Configuration<'a> {
+    /// All sums over a state.
+    fn new(model: &'a Model, state: &'a State, images: &'a Images<'a>) -> Self {
+        let count = state.len();
+        let mut sums = Self {
+            model,
+            state,
+            images,
+            potential: 0.0,
+            virial: 0.0,
+            gradients: vec![[0.0; 3]; count],
+            laplacians: vec![0.0; count],
+            dimension: model.units.dimension,
+            held: (0..count).map(|particle| held::is_held(model, state, particle)).collect(),
+        };
+        for term in model.particles().terms() {
+            term.observe(&mut sums);
+        }
+        sums
+    }
+
     /// The part of what a pair adds that belongs to ends that can move.
-    fn mobile_share(&self, pair: &Pair) -> f64 {
+    pub fn mobile_share(&self, pair: &Pair) -> f64 {
         0.5 * [pair.first, pair.second].into_iter().filter(|end| !self.held[*end]).count() as f64
     }
 
     /// Adds the potential of a pair or a bond.
-    fn add(&mut self, pair: &Pair, potential: &Potential) {
+    pub fn add(&mut self, pair: &Pair, potential: &Potential) {
         self.potential += potential.energy;
         self.virial += self.mobile_share(pair) * potential.virial(pair.distance);
         let gradient = potential.gradient(pair);
@@ -44,29 +64,11 @@ impl Configuration {
             }
         }
     }
-
-    /// Adds the potential of the local densities.
-    fn add_many_body(&mut self, densities: &Densities, found: &[Pair]) {
-        self.potential += densities.energy();
-        for pair in found {
-            let (force, laplacian) = (densities.force(pair), densities.laplacian(pair));
-            self.virial += self.mobile_share(pair) * pair.distance * force;
-            for (end, sign) in [(pair.first, -1.0), (pair.second, 1.0)] {
-                self.laplacians[end] += laplacian;
-                for (axis, component) in pair.direction().into_iter().enumerate() {
-                    self.gradients[end][axis] += sign * force * component;
-                }
-            }
-        }
-        for (sum, laplacian) in self.laplacians.iter_mut().zip(densities.laplacians_of_particles(found)) {
-            *sum += laplacian;
-        }
-    }
 }
 
 /// What is observed of the motion, with what is observed of the configuration of a state.
 pub(super) fn of_configuration(model: &Model, state: &State, images: &Images<'_>, motion: &Observables) -> Observables {
-    let configuration = configuration(model, state, images);
+    let configuration = Configuration::new(model, state, images);
     let mobile = |particle: &usize| !configuration.held[*particle];
     let squares = |particle: usize| configuration.gradients[particle].iter().map(|slope| slope * slope).sum::<f64>();
     Observables {
@@ -76,68 +78,6 @@ pub(super) fn of_configuration(model: &Model, state: &State, images: &Images<'_>
         conservative_virial: configuration.virial,
         ..*motion
     }
-}
-
-fn configuration(model: &Model, state: &State, images: &Images<'_>) -> Configuration {
-    let count = state.len();
-    let dimension = model.units.dimension;
-    let mut sums = Configuration {
-        potential: 0.0,
-        virial: 0.0,
-        gradients: vec![[0.0; 3]; count],
-        laplacians: vec![0.0; count],
-        dimension,
-        held: (0..count).map(|particle| held::is_held(model, state, particle)).collect(),
-    };
-    if let Some(force) = model.particles().pair_force.as_ref() {
-        let excluded = pairs::excluded_pairs(model);
-        let found = find_pairs(images, &state.positions, force.cutoff);
-        for pair in &found {
-            if excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok() {
-                continue;
-            }
-            sums.add(pair, &Forces::between(model, &state.species, pair).potential);
-        }
-        if let Some(densities) = Densities::of(model, count, &found) {
-            sums.add_many_body(&densities, &found);
-        }
-    }
-    for bond in model.particles().bonds.as_ref().into_iter().flat_map(Bonds::iter) {
-        let kind = model.particles().bonds.as_ref().map(|bonds| &bonds.kinds[bond.kind as usize]);
-        let pair = bonds::span(images, &bond, &state.positions);
-        let potential = kind.and_then(|kind| kind.potential.as_ref());
-        if let Some(potential) = Potential::of_bond(potential, pair.distance) {
-            sums.add(&pair, &potential);
-        }
-    }
-    if let Some(angles) = model.particles().angles.as_ref() {
-        for angle in angles.iter() {
-            let stiffness = angles.stiffness[angle.kind as usize];
-            let Some(corner) = Corner::of(images, &angle, &state.positions) else { continue };
-            sums.potential += stiffness * corner.energy();
-            let [first, last] = corner.gradients();
-            let middle = std::array::from_fn(|axis| -first[axis] - last[axis]);
-            let derivatives = [first, middle, last].into_iter().zip(corner.laplacians(dimension));
-            for (end, (gradient, laplacian)) in angle.ends.iter().zip(derivatives) {
-                sums.laplacians[*end as usize] += stiffness * laplacian;
-                for axis in 0..3 {
-                    sums.gradients[*end as usize][axis] += stiffness * gradient[axis];
-                }
-            }
-        }
-    }
-    if let Some(stiffness) = model.particles().tether {
-        for particle in 0..count {
-            let way = tethers::displacement(model, state, particle);
-            let (energies, gradient) = (tethers::energies(stiffness, way), tethers::gradient(stiffness, way));
-            for axis in 0..3 {
-                sums.potential += energies[axis];
-                sums.gradients[particle][axis] += gradient[axis];
-            }
-            sums.laplacians[particle] += tethers::laplacian(stiffness, dimension);
-        }
-    }
-    sums
 }
 
 #[cfg(test)]
@@ -255,7 +195,7 @@ mod tests {
             // The last two are in one place, where the potential has a cusp.
             let [squares, laplacian] = differences_of_the_potential(&reference, 4, &[]);
             let images = Images::at_rest(&reference.model.units);
-            let configuration = configuration(&reference.model, &reference.state, &images);
+            let configuration = Configuration::new(&reference.model, &reference.state, &images);
             let found = configuration.gradients[..4].iter().flatten().map(|slope| slope * slope).sum::<f64>();
             assert!((found / squares - 1.0).abs() < 1e-6, "{dimension}: {found} {squares}");
             let found = configuration.laplacians[..4].iter().sum::<f64>();
@@ -283,7 +223,7 @@ mod tests {
                 species.fixed = false;
             }
             if let Family::Particles(particles) = &mut reference.model.family {
-                particles.tether = None;
+                particles.tethers = None;
             }
             let energy = |factor: f64| {
                 let mut stretched = reference.clone();

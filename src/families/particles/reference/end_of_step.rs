@@ -1,10 +1,10 @@
 //! The end of a step of particles: the opening kick, what friction will see of it, and the drift.
 
 use super::held;
-use super::shear;
-use super::walls::{self, Flight, Way};
 use crate::document::Integrator;
 use crate::families::Model;
+use crate::families::particles::space::shear::reference as shear;
+use crate::families::particles::space::walls::reference::{self as walls, Flight, Way};
 use crate::families::reference::{Unstable, add, drift, narrow, whole_fractions};
 use crate::prediction;
 use crate::state::State;
@@ -84,7 +84,7 @@ pub(super) fn move_on(
 }
 
 /// dt p/m of all particles, in whole units of the box fraction, each of the equal parts rounded half to even.
-pub(super) fn drifts(model: &Model, masses: &[f64], momenta: &[[i32; 3]], parts: i64) -> Vec<[i64; 3]> {
+pub(crate) fn drifts(model: &Model, masses: &[f64], momenta: &[[i32; 3]], parts: i64) -> Vec<[i64; 3]> {
     let drift = |(momentum, mass): (&[i32; 3], &f64)| {
         let momentum = model.units.momentum(*momentum);
         std::array::from_fn(|axis| {

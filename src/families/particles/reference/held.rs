@@ -5,18 +5,18 @@ use crate::families::{Model, PlaneWalls};
 use crate::state::State;
 
 /// Whether no impulse moves a particle.
-pub(super) fn is_held(model: &Model, state: &State, particle: usize) -> bool {
+pub(crate) fn is_held(model: &Model, state: &State, particle: usize) -> bool {
     model.species[state.species[particle] as usize].fixed
 }
 
 /// Whether a particle is frozen.
-pub(super) fn is_frozen(model: &Model, state: &State, particle: usize) -> bool {
+pub(crate) fn is_frozen(model: &Model, state: &State, particle: usize) -> bool {
     model.species[state.species[particle] as usize].frozen
 }
 
 /// The momentum that every wall is to absorb: that of frozen particles beyond the one in the state; no elements without
 /// frozen particles.
-pub(super) fn absorbed(model: &Model, state: &State, momenta: &[[i64; 3]]) -> Vec<[i64; 3]> {
+pub(crate) fn absorbed(model: &Model, state: &State, momenta: &[[i64; 3]]) -> Vec<[i64; 3]> {
     if !model.has_frozen_particles() {
         return Vec::new();
     }
@@ -34,14 +34,14 @@ pub(super) fn absorbed(model: &Model, state: &State, momenta: &[[i64; 3]]) -> Ve
 }
 
 /// Gives held particles the momenta in the state.
-pub(super) fn hold(model: &Model, state: &State, momenta: &mut [[i64; 3]]) {
+pub(crate) fn hold(model: &Model, state: &State, momenta: &mut [[i64; 3]]) {
     for particle in (0..state.len()).filter(|&particle| is_held(model, state, particle)) {
         momenta[particle] = state.momenta[particle].map(i64::from);
     }
 }
 
 /// Leaves out impulses on held particles.
-pub(super) fn exclude(model: &Model, state: &State, impulses: &mut [[i64; 3]]) {
+pub(crate) fn exclude(model: &Model, state: &State, impulses: &mut [[i64; 3]]) {
     for particle in (0..state.len()).filter(|&particle| is_held(model, state, particle)) {
         impulses[particle] = [0; 3];
     }

@@ -16,34 +16,93 @@
 //! At step 0 the momenta are those of the report point, and baths with memory are as they are in the state: nothing is
 //! closed. Baths without memory take the initial momenta for those that brought the particles there.
 
-mod body_force;
 mod configuration;
-mod densities;
-mod end_of_step;
-mod held;
-mod leapfrog;
+pub(crate) mod end_of_step;
+pub(crate) mod held;
 mod motion;
 mod observables;
 pub(crate) mod pairs;
 mod potential;
-mod relaxation;
-mod shear;
 mod splitting;
 mod stress;
-mod terms;
-mod walls;
 
+pub(crate) use super::space::shear::reference::Images;
+pub(crate) use configuration::Configuration;
+pub(crate) use pairs::{Forces, Pair, dot, exchange, find_pairs, noise as noise_of_pair};
+pub(crate) use potential::Potential;
 pub use splitting::Relaxation;
 pub use stress::Virial;
+pub(crate) use stress::Virials;
 
+use super::space::shear::reference as shear;
+use super::terms::body_forces;
 use crate::families::reference::bath::BathSums;
 use crate::families::reference::{Unstable, add, narrow, widen};
-use crate::families::{Model, Observables, PairForce};
+use crate::families::{Model, Observables};
 use crate::state::{Reported, State};
 use motion::Motion;
-use pairs::Pair;
-use shear::Images;
-use stress::Virials;
+use pairs::MOST_UNITS;
+
+/// The report point of a step: what terms find there.
+pub(crate) struct Moment<'a> {
+    pub model: &'a Model,
+    pub state: &'a State,
+    pub motion: Motion,
+    pub images: Images<'a>,
+    /// The pairs within the cutoff, where no list has them.
+    pub found: Vec<Pair>,
+}
+
+/// The half kicks of a step, as terms add them, and the baths after it.
+pub(crate) struct Kicks {
+    /// Impulses that end the step before and begin the next alike.
+    pub both: Vec<[i64; 3]>,
+    /// Impulses that end the step before.
+    pub closing: Vec<[i64; 3]>,
+    /// Impulses that begin the next.
+    pub opening: Vec<[i64; 3]>,
+    /// The baths at the report point; positions and momenta are left empty.
+    pub baths: State,
+    pub bath_sums: BathSums,
+    pub virials: Virials,
+    /// The reason why there is no next step.
+    pub failure: Option<Unstable>,
+}
+
+impl Kicks {
+    fn new(model: &Model, state: &State) -> Self {
+        let none = || vec![[0; 3]; state.len()];
+        Self {
+            both: none(),
+            closing: none(),
+            opening: none(),
+            baths: State::default(),
+            bath_sums: BathSums::default(),
+            virials: Virials::new(model, state),
+            failure: None,
+        }
+    }
+
+    /// Adds an impulse to that of one particle, rounded half to even to whole units.
+    pub fn push(&mut self, model: &Model, particle: usize, impulse: [f64; 3]) {
+        round(&mut self.both[particle], impulse, model.units.momentum);
+    }
+
+    /// Adds the impulses and virials of forces that push a pair apart.
+    pub fn push_apart(&mut self, model: &Model, pair: &Pair, conservative: f64, frictional: f64) {
+        let force = conservative + frictional;
+        let impulse = pair.direction().map(|component| 0.5 * model.time_step * force * component);
+        exchange(&mut self.both, pair, impulse, model.units.momentum);
+        self.virials.add(pair, conservative, frictional);
+    }
+}
+
+/// Adds an impulse in units of momentum, rounded half to even to whole ones.
+pub(crate) fn round(sum: &mut [i64; 3], impulse: [f64; 3], unit: f64) {
+    for axis in 0..3 {
+        sum[axis] += (impulse[axis] / unit).round_ties_even().clamp(-MOST_UNITS, MOST_UNITS) as i64;
+    }
+}
 
 /// What a step finds at its report point.
 struct Report {
@@ -128,7 +187,7 @@ impl Reference {
     pub fn step(&mut self) -> Result<(), Unstable> {
         let Report { momenta, opening, baths, .. } = self.report()?;
         let parts = if self.splits() { 2 } else { 1 };
-        let account = body_force::account(&self.model, &self.state, &self.masses);
+        let account = body_forces::reference::account(&self.model, &self.state, &self.masses);
         end_of_step::end(&self.model, &self.masses, &mut self.state, momenta, &opening, parts)?;
         self.state.account = account;
         self.state.pair_baths = baths.pair_baths;
@@ -219,63 +278,30 @@ impl Reference {
         self.model.particles().splits(&self.model)
     }
 
-    fn pairs(&self) -> Vec<Pair> {
-        let Some(force) = self.model.particles().pair_force.as_ref() else { return Vec::new() };
-        pairs::find_pairs(&Images::of_step(&self.model, self.state.step), &self.state.positions, force.cutoff)
-    }
-
     /// Everything at the report point of the current step.
     fn report(&self) -> Result<Report, Unstable> {
         let (model, state) = (&self.model, &self.state);
         let particles = model.particles();
-        let motion = Motion::of(model, state, &self.masses);
-        let mut kick = vec![[0; 3]; state.len()];
-        let mut bath_sums = BathSums::default();
-        let mut baths = State::default();
-        let mut virials = Virials::new(model, state);
-        let remembers = particles.pair_force.as_ref().is_some_and(PairForce::remembers);
-        let found = if remembers { Vec::new() } else { self.pairs() };
-
-        if let Some(force) = particles.pair_force.as_ref() {
-            if remembers {
-                (baths.pair_baths, baths.anchors) = terms::pair_list::renew(model, force, state);
-                let listed = &mut baths.pair_baths;
-                terms::pairs::kick((model, force), state, listed, &mut kick, &mut bath_sums, &mut virials);
-            } else {
-                leapfrog::half_kicks((model, force), state, &motion, &found, &mut kick, &mut virials);
-            }
+        let images = Images::of_step(model, state.step);
+        // Pairs with memory are listed.
+        let force = particles.pair_force.as_ref().filter(|force| !force.remembers());
+        let found = force.map_or_else(Vec::new, |force| find_pairs(&images, &state.positions, force.cutoff));
+        let moment = Moment { model, state, motion: Motion::of(model, state, &self.masses), images, found };
+        let mut kicks = Kicks::new(model, state);
+        for term in particles.terms() {
+            term.kick(&moment, &mut kicks);
         }
-        if let Some(bonds) = particles.bonds.as_ref() {
-            baths.bond_baths =
-                terms::bonds::kick(model, bonds, state, &motion, &mut kick, &mut bath_sums, &mut virials)?;
-        }
-        if let Some(angles) = particles.angles.as_ref() {
-            terms::angles::kick(model, angles, state, &mut kick, &mut virials);
-        }
-        if let Some(bath) = particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles(model)) {
-            baths.position_baths = terms::position_baths::kick(model, bath, state, &motion, &mut kick, &mut bath_sums);
-        }
-        if let Some(stiffness) = particles.tether {
-            terms::tethers::kick(model, stiffness, state, &mut kick);
-        }
-        body_force::kick(model, state, &mut kick);
-
+        let Kicks { both, closing, mut opening, baths, bath_sums, mut virials, failure } = kicks;
+        failure.map_or(Ok(()), Err)?;
         let mut momenta = widen(&state.momenta);
-        let mut opening = kick.clone();
         let closes = model.clock(state.step) > 0;
         if closes {
-            add(&mut momenta, &kick);
+            add(&mut momenta, &both);
         }
-        if let Some(noise) = particles.coloured_noise.as_ref() {
-            let mut impulses = terms::coloured_noise::advance(model, noise, state);
-            held::exclude(model, state, &mut impulses.closing);
-            held::exclude(model, state, &mut impulses.opening);
-            add(&mut momenta, &impulses.closing);
-            add(&mut opening, &impulses.opening);
-            baths.holds = impulses.holds;
-        }
+        add(&mut momenta, &closing);
+        add(&mut opening, &both);
         if closes && self.splits() {
-            splitting::relax(self, &found, &mut momenta, &mut virials);
+            splitting::relax(self, &moment.found, &mut momenta, &mut virials);
         }
         Ok(Report { momenta, opening, baths, bath_sums, virials })
     }

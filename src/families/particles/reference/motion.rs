@@ -2,13 +2,13 @@
 
 use super::end_of_step;
 use super::pairs::{Pair, dot};
-use super::walls;
 use crate::document::Integrator;
 use crate::families::Model;
+use crate::families::particles::space::walls::reference as walls;
 use crate::state::State;
 
 /// The last drift of every particle, and the velocities that friction may see in its place.
-pub(super) struct Motion {
+pub(crate) struct Motion {
     /// dt p/m: r(n) - r(n-1), where no wall has reflected it.
     drifts: Vec<[f64; 3]>,
     /// r(n) - r(n-1) between walls.

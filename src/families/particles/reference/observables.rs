@@ -1,13 +1,12 @@
 //! Sums over particles and pairs at the report point.
 
-use super::body_force;
 use super::configuration::of_configuration;
 use super::held;
 use super::pairs::find_pairs;
-use super::shear::{self, Images};
-use super::terms::tethers;
-use super::walls;
 use super::{Reference, Report};
+use crate::families::particles::space::shear::reference::{self as shear, Images};
+use crate::families::particles::space::walls::reference as walls;
+use crate::families::particles::terms::{body_forces, tethers};
 use crate::families::{BathProducts, Model, Observables};
 use crate::state::State;
 
@@ -30,7 +29,7 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
         mass: (0..state.len()).filter(|id| !held::is_frozen(model, state, *id)).map(|id| masses[id]).sum(),
         kinetic_energy,
         momentum: total.map(|units| units as f64 * model.units.momentum),
-        put_in: body_force::put_in(model, state, masses),
+        put_in: body_forces::reference::put_in(model, state, masses),
         on_walls: walls::on_walls(model, state, momenta),
         ..Observables::zero(model, state)
     }
@@ -62,7 +61,7 @@ fn products(reference: &Reference, report: &Report) -> BathProducts {
         if bath.steps[state.species[particle] as usize].continuous_coupling == 0.0 {
             continue;
         }
-        let displacement = tethers::displacement(model, state, particle);
+        let displacement = tethers::reference::displacement(model, state, particle);
         for axis in 0..model.units.dimension {
             let value = f64::from(f32::from_bits(report.baths.position_baths[particle][axis]));
             let momentum = report.momenta[particle][axis] as f64 * model.units.momentum;

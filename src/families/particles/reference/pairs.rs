@@ -1,14 +1,14 @@
 //! Which particles interact, and the numbers of a pair that every integrator needs.
 
+use super::Images;
 use super::potential::Potential;
-use super::shear::Images;
 use crate::document::Distribution;
 use crate::families::Model;
 use crate::noise;
 
 /// Two particles within range of each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pair {
+pub(crate) struct Pair {
     /// Smaller id i.
     pub first: usize,
     /// Larger id j.
@@ -35,7 +35,7 @@ impl Pair {
 }
 
 /// All pairs closer than `range`, which is at most half of every box edge or sees nearest images only.
-pub(super) fn find_pairs(images: &Images<'_>, positions: &[[u32; 3]], range: f64) -> Vec<Pair> {
+pub(crate) fn find_pairs(images: &Images<'_>, positions: &[[u32; 3]], range: f64) -> Vec<Pair> {
     let units = images.units;
     let dimension = units.dimension;
     // Smaller cells than this would mostly be empty.
@@ -145,7 +145,7 @@ fn half_stencil(dimension: usize) -> Vec<[isize; 3]> {
 
 /// The pair forces of the model at one distance.
 #[derive(Default)]
-pub(super) struct Forces {
+pub(crate) struct Forces {
     /// The conservative force.
     pub potential: Potential,
     /// Friction coefficient γ of the two species.
@@ -171,7 +171,7 @@ impl Forces {
 }
 
 /// The noise ζ of a pair, of zero mean and unit variance, under a step's key.
-pub(super) fn noise(model: &Model, key: [u32; 2], pair: &Pair) -> f64 {
+pub(crate) fn noise(model: &Model, key: [u32; 2], pair: &Pair) -> f64 {
     let words = noise::words(model.generator, key, [pair.first as u32, pair.second as u32]);
     match model.distribution {
         Distribution::Uniform => 12.0_f64.sqrt() * noise::centred_uniform(words[0]),
@@ -180,7 +180,7 @@ pub(super) fn noise(model: &Model, key: [u32; 2], pair: &Pair) -> f64 {
 }
 
 /// Gives an impulse to particle i and takes it from particle j, rounded once, half to even, to whole units.
-pub(super) fn exchange(sums: &mut [[i64; 3]], pair: &Pair, impulse: [f64; 3], unit: f64) {
+pub(crate) fn exchange(sums: &mut [[i64; 3]], pair: &Pair, impulse: [f64; 3], unit: f64) {
     for axis in 0..3 {
         // A hundred thousand such impulses still fit a sum, and one of them is already too much for a momentum.
         let whole = (impulse[axis] / unit).round_ties_even().clamp(-MOST_UNITS, MOST_UNITS) as i64;
@@ -189,17 +189,11 @@ pub(super) fn exchange(sums: &mut [[i64; 3]], pair: &Pair, impulse: [f64; 3], un
     }
 }
 
-/// Gives the half kick dt/2 F e to one end of a pair or a bond and takes it from the other.
-pub(super) fn push_apart(model: &Model, pair: &Pair, force: f64, kick: &mut [[i64; 3]]) {
-    let impulse = pair.direction().map(|component| 0.5 * model.time_step * force * component);
-    exchange(kick, pair, impulse, model.units.momentum);
-}
-
-pub(super) const MOST_UNITS: f64 = (1_u64 << 44) as f64;
+pub(crate) const MOST_UNITS: f64 = (1_u64 << 44) as f64;
 
 /// Scalar product.
 #[inline]
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 

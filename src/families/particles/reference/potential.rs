@@ -6,7 +6,7 @@ use crate::families::{PairForce, SoftRepulsion};
 
 /// V, V' and V'' at a distance.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Potential {
+pub(crate) struct Potential {
     /// V.
     pub energy: f64,
     /// V'.

@@ -17,9 +17,9 @@
 use super::Reference;
 use super::held;
 use super::pairs::{self, Forces, Pair, dot};
-use super::relaxation;
 use super::stress::Virials;
 use crate::families::Model;
+use crate::families::particles::terms::{bonds, langevin};
 use crate::families::reference::add;
 use crate::noise::{self, stream};
 
@@ -58,8 +58,8 @@ pub enum Relaxation {
 /// are added.
 pub(super) fn relax(reference: &Reference, found: &[Pair], momenta: &mut [[i64; 3]], virials: &mut Virials) {
     let (model, state) = (&reference.model, &reference.state);
-    relaxation::of_particles(model, state, &reference.masses, momenta);
-    relaxation::of_bonds(model, state, &reference.masses, momenta, virials);
+    langevin::reference::relax(model, state, &reference.masses, momenta);
+    bonds::reference::relax(model, state, &reference.masses, momenta, virials);
     if model.particles().relaxes_pairs(model) {
         // Friction sees held particles with the velocity that they keep, whatever a wall is to absorb.
         let mut seen = momenta.to_vec();

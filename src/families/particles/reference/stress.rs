@@ -20,7 +20,7 @@ const AXES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
 
 /// The virials of all particles.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Virials {
+pub(crate) struct Virials {
     /// Σ r·F of everything.
     pub total: f64,
     /// Of each particle.

@@ -3,7 +3,8 @@
 use super::{Builder, Order};
 use crate::families::Bonds;
 use crate::families::particles::plan::bonded::{self, Bonded, Observed};
-use crate::families::particles::plan::{own, shear, stress};
+use crate::families::particles::plan::stress;
+use crate::families::particles::space::shear::plan as shear;
 use crate::shaders::{Array, Choices, Constant, Entry, couplings};
 
 /// Conservative impulses are gathered beside those of all forces.
@@ -11,7 +12,7 @@ const APART: f64 = 2.0;
 
 /// Kernels of couplings.
 #[derive(Debug, Default)]
-pub(super) struct GatheringKernels {
+pub(crate) struct GatheringKernels {
     /// They add the impulses of a step.
     pub kicks: Vec<usize>,
     /// Their report, with the impulses there; of a split step the part that belongs to the motion.
@@ -35,8 +36,12 @@ impl Builder<'_> {
 
     /// Whether impulses wait in an array for the passes over particles.
     pub(super) fn gathers(&self) -> bool {
-        let left = self.splits() && own::acts(self.model);
-        self.is_bonded() || self.is_tethered() || self.order == Order::WithList || self.visits_once() || left
+        let left = self.splits() && self.model.particles().acts_on_particles(self.model);
+        self.is_bonded()
+            || self.model.particles().tethers.is_some()
+            || self.order == Order::WithList
+            || self.visits_once()
+            || left
     }
 
     /// Whether some of these impulses are of friction, which a report has to tell from the conservative ones.
@@ -56,7 +61,7 @@ impl Builder<'_> {
     }
 
     /// Adds impulses to particles in any order.
-    pub(super) fn kicks(&self) -> Choices {
+    pub fn kicks(&self) -> Choices {
         bonded::kicks(self.model.units.dimension)
     }
 
@@ -64,20 +69,20 @@ impl Builder<'_> {
     /// raise.
     pub(super) fn gathering(&mut self, rows: &mut u32) -> GatheringKernels {
         let mut kernels = GatheringKernels::default();
-        self.listed_pairs(rows, &mut kernels);
-        let scales = self.scales();
-        // Lists leave out what bonds exclude.
-        let excluded = if self.order == Order::EveryStep { bonded::excluded(&scales, &mut self.plan) } else { None };
-        for bonded in bonded::all(&scales).into_iter().chain(excluded) {
-            self.couple(&bonded, rows, &mut kernels);
+        for term in self.model.particles().terms() {
+            term.gather(self, rows, &mut kernels);
         }
-        self.tethers(rows, &mut kernels);
         self.gathering_buffers();
         kernels
     }
 
+    /// True if pairs are found in a list.
+    pub fn lists_pairs(&self) -> bool {
+        self.order == Order::WithList
+    }
+
     /// Adds the kernels of bonds, angles or excluded pairs.
-    fn couple(&mut self, bonded: &Bonded, rows: &mut u32, kernels: &mut GatheringKernels) {
+    pub fn couple(&mut self, bonded: &Bonded, rows: &mut u32, kernels: &mut GatheringKernels) {
         self.plan.constants.extend(bonded.constants.iter().copied());
         let kicks = self.kicks();
         let kick = self.bonded_kernel(bonded.name, bonded, &bonded.choices.clone().and(&kicks));
@@ -126,7 +131,7 @@ impl Builder<'_> {
     }
 
     /// A kernel of a report leaves rows of sums after the given number of rows, which it raises.
-    pub(super) fn leaves_rows(&mut self, kernel: usize, rows: &mut u32) {
+    pub fn leaves_rows(&mut self, kernel: usize, rows: &mut u32) {
         self.plan.kernels[kernel].constants.push((Constant::FirstGroup, f64::from(*rows)));
         *rows += self.plan.kernels[kernel].workgroups;
     }
@@ -137,17 +142,8 @@ impl Builder<'_> {
     }
 
     fn gathering_buffers(&mut self) {
-        let scales = self.scales();
         if self.is_bonded() {
-            bonded::add_tables(&scales, &mut self.plan);
             self.plan.add_buffer(Array::Slots, 4 * self.particles);
-        }
-        let bonds = self.model.particles().bonds.as_ref();
-        if bonds.is_some_and(Bonds::have_friction) && !self.model.particles().relaxes_bonds(self.model) {
-            scales.add_bath_impulse(&mut self.plan);
-        }
-        if let Some(bonds) = bonds.filter(|bonds| bonds.have_memory()) {
-            self.plan.add_buffer(Array::BondBaths, 4 * bonds.count());
         }
         let places = self.slots + self.frame_capacity();
         if self.gathers() {

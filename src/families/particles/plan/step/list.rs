@@ -2,7 +2,7 @@
 
 use super::{Builder, Order};
 use crate::families::particles::layout::PARTICLE;
-use crate::families::particles::plan::shear;
+use crate::families::particles::space::shear::plan as shear;
 use crate::families::{Model, PairForce};
 use crate::noise::{self, stream};
 use crate::plan::prefix_sum::PrefixSum;

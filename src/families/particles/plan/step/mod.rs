@@ -1,35 +1,31 @@
 //! The plan of a scene of particles: how they are ordered, what adds impulses to them, and what ends a step.
 
-mod bond_baths;
-mod density;
-mod excluded;
 mod gathered;
 mod list;
-mod listed_pairs;
 mod part;
-mod particle_bath;
 mod reported;
 mod scheme;
-mod stress;
-mod tethers;
+
+pub(crate) use gathered::GatheringKernels;
+pub(crate) use scheme::stages;
 
 use super::bonded::Scales;
-use super::external;
-use super::law::{self, ranges};
-use super::own;
 use super::prefix_sum::{PrefixSum, needs_levels};
 use super::quanta::quanta;
 use super::serial_memory::TURNS;
-use super::shear;
 use super::species::Species;
-use super::walls;
 use super::{
     Grid, Hardware, Kernel, Measured, Need, Options, PARTICLE, PhysicsPlan, Plan, Quanta, Texture, Traversal,
     generator, predicted, texture_candidates,
 };
 use crate::document::Integrator;
+use crate::families::particles::space::shear::plan as shear;
+use crate::families::particles::space::walls::plan as walls;
+use crate::families::particles::terms::body_forces::plan as external;
+use crate::families::particles::terms::langevin;
+use crate::families::particles::terms::pairs::law::{self, ranges};
 use crate::families::particles::{CoupledLayout, ListLayout, ParticleLayout};
-use crate::families::{Bonds, Model, PairForce};
+use crate::families::{Model, PairForce};
 use crate::noise;
 use crate::plan::{Cells, Layout, switch};
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, couplings, grid, pairs, space};
@@ -136,17 +132,13 @@ fn empty_plan(model: &Model, grid: &Grid, order: Order, options: Options) -> Pla
         walls: walls::count(model),
     };
     let force = model.particles().pair_force.as_ref().filter(|_| order == Order::WithList);
-    let bonds = model.particles().bonds.as_ref().filter(|bonds| bonds.have_memory());
     let layout = CoupledLayout {
         particles,
         list: force.map(|force| ListLayout {
             capacity: list::capacity(model, force, options) as usize,
             memory: force.remembers(),
         }),
-        position_baths: own::remembers(model),
-        bond_baths: bonds.map_or(0, Bonds::count) as usize,
-        holds: model.particles().coloured_noise.is_some(),
-        tethers: model.particles().tether.is_some(),
+        kept: model.particles().kept(model),
     };
     let plan = model.empty_plan(grid.cells, layout, quanta(model), noise::stream::PAIR);
     if order == Order::EveryStep {
@@ -159,7 +151,7 @@ fn empty_plan(model: &Model, grid: &Grid, order: Order, options: Options) -> Pla
 
 /// What a traversal does with the hits of the prefilter.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Masks {
+pub(crate) enum Masks {
     /// Finds and forgets them.
     Unkept,
     /// Finds and keeps them.
@@ -168,21 +160,21 @@ enum Masks {
     Kept,
 }
 
-struct Builder<'a> {
-    model: &'a Model,
-    measured: &'a Measured,
-    force: &'a PairForce,
-    grid: Grid,
-    particles: u64,
+pub(crate) struct Builder<'a> {
+    pub model: &'a Model,
+    pub measured: &'a Measured,
+    pub force: &'a PairForce,
+    pub grid: Grid,
+    pub particles: u64,
     /// Places for particles as they are stored.
-    slots: u64,
+    pub slots: u64,
     order: Order,
     /// How passes over particles visit their pairs.
-    traversal: Traversal,
-    options: Options,
-    species: Species,
+    pub traversal: Traversal,
+    pub options: Options,
+    pub species: Species,
     /// Whether sorted particles are texels.
-    texels: bool,
+    pub texels: bool,
     /// Whether a step ends with the prefix sum over cells for the next one.
     scans_at_end: bool,
     /// The kernels of that sum on their own.
@@ -193,7 +185,7 @@ struct Builder<'a> {
     inner: Option<Cells>,
     /// The kernels that exchange particles then.
     passed_on_early: Vec<usize>,
-    plan: Plan,
+    pub plan: Plan,
 }
 
 /// Units of a rate of relaxation, and the mean of the fluid up to which their sums fit.
@@ -233,7 +225,7 @@ impl<'a> Builder<'a> {
             constants.push((Constant::Halves, 0.0));
         }
         if self.model.has_memory() {
-            constants.push((Constant::BathSquare, own::inverse(self.plan.quanta.bath_squared)));
+            constants.push((Constant::BathSquare, langevin::plan::inverse(self.plan.quanta.bath_squared)));
         }
         let (sees, lambda) =
             if let Integrator::GrootWarren { lambda } = self.model.integrator { (1.0, lambda) } else { (0.0, 0.5) };
@@ -243,7 +235,7 @@ impl<'a> Builder<'a> {
             switch(Constant::Gathers, self.gathers()),
             (Constant::CouplingsConserve, self.conservative_gathered()),
         ]);
-        constants.extend(own::switches(self.model));
+        constants.push(switch(Constant::OwnActs, self.model.particles().acts_on_particles(self.model)));
         constants.push(generator(self.model.generator));
         constants.extend(law::constants(self.model, self.force));
         constants.extend(self.species.constants());
@@ -264,7 +256,9 @@ impl<'a> Builder<'a> {
         }
         self.plan.constants = constants;
         self.particle_constants();
-        own::add(&self.scales(), &mut self.plan);
+        for term in self.model.particles().terms() {
+            term.act(&self.scales(), &mut self.plan);
+        }
         walls::add_constants(self.model, &mut self.plan);
         self.density_constants();
     }
@@ -277,7 +271,7 @@ impl<'a> Builder<'a> {
         if self.relaxes_in_two_stages() && excess > 1.0 { RATE_UNIT / excess.log2().ceil().exp2() } else { RATE_UNIT }
     }
 
-    fn scales(&self) -> Scales<'a> {
+    pub fn scales(&self) -> Scales<'a> {
         Scales { model: self.model, species: self.species, quanta: self.plan.quanta }
     }
 
@@ -306,12 +300,12 @@ impl<'a> Builder<'a> {
     }
 
     /// A kernel with a lane for each of some things.
-    fn kernel(&mut self, name: &'static str, entry: Entry, choices: Choices, things: u64) -> usize {
+    pub fn kernel(&mut self, name: &'static str, entry: Entry, choices: Choices, things: u64) -> usize {
         self.plan.add_kernel(Kernel::new(name, entry, choices, things.div_ceil(self.workgroup_size())))
     }
 
     /// What is chosen for every kernel: the space, the species, where particles are and how they are ordered.
-    fn choices(&self) -> Choices {
+    pub fn choices(&self) -> Choices {
         self.space()
             .and(&self.species.choices())
             .with_if(self.texels, arrays::Sorted::Apart)
@@ -402,7 +396,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Whether steps are split: friction needs a second pass over the pairs.
-    fn splits(&self) -> bool {
+    pub fn splits(&self) -> bool {
         self.model.particles().splits(self.model)
     }
 
@@ -411,8 +405,10 @@ impl<'a> Builder<'a> {
     fn more_buffers(&self) -> u32 {
         let (walled, dense) = (walls::count(self.model) > 0, self.model.particles().have_local_densities());
         let booked = self.options.part.is_some() && (walled || self.is_sheared());
-        let there = [self.gathers(), walled, booked, self.species.have_table(), dense];
-        there.into_iter().map(u32::from).sum::<u32>() + own::buffers(self.model)
+        let remembers = langevin::plan::remembers(self.model);
+        let holds = self.model.particles().coloured_noise.is_some();
+        let there = [self.gathers(), walled, booked, self.species.have_table(), dense, remembers, holds];
+        there.into_iter().map(u32::from).sum()
     }
 
     /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
@@ -423,12 +419,12 @@ impl<'a> Builder<'a> {
     }
 
     /// Whether boundaries shear.
-    fn is_sheared(&self) -> bool {
+    pub fn is_sheared(&self) -> bool {
         self.model.particles().shear.is_some()
     }
 
     /// Whether steps relax the momentum of every particle by itself.
-    fn relaxes_particles(&self) -> bool {
+    pub fn relaxes_particles(&self) -> bool {
         self.model.particles().relaxes_particles(self.model)
     }
 
@@ -438,12 +434,12 @@ impl<'a> Builder<'a> {
         self.force.acts() && self.splits() && !self.relaxes_pairs() && !self.measured.needs(Need::Forces)
     }
 
-    fn relaxes_pairs(&self) -> bool {
+    pub fn relaxes_pairs(&self) -> bool {
         self.model.particles().relaxes_pairs(self.model)
     }
 
     /// Whether friction has two stages.
-    fn relaxes_in_two_stages(&self) -> bool {
+    pub fn relaxes_in_two_stages(&self) -> bool {
         self.model.particles().relaxes_in_two_stages(self.model)
     }
 
@@ -459,7 +455,7 @@ impl<'a> Builder<'a> {
     }
 
     /// A kernel that visits all pairs.
-    fn traversal(&mut self, name: &'static str, traversal: Traversal, masks: Masks, pass: &Choices) -> usize {
+    pub fn traversal(&mut self, name: &'static str, traversal: Traversal, masks: Masks, pass: &Choices) -> usize {
         let visits = self.prefilter_source().and(&shear::of_visits(self.model));
         let choices = self.choices().and(&visits).and(pass).with_any(match masks {
             Masks::Unkept => self.is_sheared().then_some(pairs::Hits::Sheared),
@@ -547,6 +543,9 @@ impl<'a> Builder<'a> {
     fn buffers(&mut self) {
         self.plan.add_buffer(Array::Control, 64);
         self.plan.add_buffer(Array::Particles, PARTICLE * self.slots);
+        for kept in self.model.particles().kept(self.model) {
+            self.plan.add_buffer(kept.array, kept.bytes());
+        }
         if self.order == Order::EveryStep {
             self.buffers_of_order();
         } else {
@@ -599,9 +598,9 @@ impl<'a> Builder<'a> {
             let ranges = ranges(self.force, count, self.repulsion_impulse());
             if self.relaxes_particles() {
                 table.extend(self.particle_entries());
-            } else if own::bathes(self.model) {
+            } else if langevin::plan::bathes(self.model) {
                 for species in 0..count {
-                    table.extend(own::coefficients(&self.scales(), species).map(|value| value as f32));
+                    table.extend(langevin::plan::coefficients(&self.scales(), species).map(|value| value as f32));
                     table.push(0.0);
                 }
             } else if !ranges.is_empty() {
@@ -621,12 +620,12 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn workgroup_size(&self) -> u64 {
+    pub fn workgroup_size(&self) -> u64 {
         self.options.workgroup()
     }
 
     /// Room for the copies in the frames: a quarter more than the share of the end cells, and never more than all particles.
-    fn frame_capacity(&self) -> u64 {
+    pub fn frame_capacity(&self) -> u64 {
         if self.order == Order::EveryStep && self.grid.framed() {
             self.options.copies.unwrap_or(5 * self.slots / (2 * u64::from(self.grid.cells[0])) + 512).min(self.slots)
         } else {

@@ -47,7 +47,7 @@ impl Builder<'_> {
         let (halo, reach) = (self.halo(), self.model.physics().reach(self.model));
         let mut planned = part.plan(&self.model.units, halo, reach, self.particles, self.options.list_growth);
         // No step changes where tethers end.
-        planned.whole.extend(self.model.particles().tether.is_some().then_some(Array::Tethers));
+        planned.whole.extend(self.model.particles().tethers.is_some().then_some(Array::Tethers));
         planned.portion = self.options.particles_in_message.unwrap_or(planned.portion);
         self.slots = planned.slots;
         // Samples of split steps are taken at their report, and nothing goes on during the exchange there.
@@ -127,7 +127,7 @@ impl Builder<'_> {
     }
 
     /// The longest bond along which friction is passed on, if there are several ranks; of any length if they all know the whole box.
-    pub(super) fn longest_bond(&self) -> Option<(Constant, f64)> {
+    pub fn longest_bond(&self) -> Option<(Constant, f64)> {
         let [_, needed, ..] = self.plan.part.as_ref()?.domains[..] else { return None };
         Some((Constant::BondReach, if needed.is_whole() { LONGEST } else { self.bond_reach() }))
     }

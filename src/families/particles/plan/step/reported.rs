@@ -1,7 +1,7 @@
 //! What a report leaves for analyses and trajectories.
 
 use super::{Builder, Order};
-use crate::families::particles::plan::shear;
+use crate::families::particles::space::shear::plan as shear;
 use crate::plan::{Need, Ordered, Reported, switch};
 use crate::shaders::{Array, Constant, pairs};
 

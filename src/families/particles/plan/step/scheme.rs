@@ -1,8 +1,10 @@
 //! The scheme of a step: one pass over particles of a leapfrog step, two or three of a split one.
 
 use super::{Builder, Masks, Order};
-use crate::families::particles::plan::{external, own, shear, walls};
+use crate::families::particles::space::shear::plan as shear;
+use crate::families::particles::space::walls::plan as walls;
 use crate::families::particles::sums::sums;
+use crate::families::particles::terms::body_forces::plan as external;
 use crate::plan::{Need, Traversal};
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, pairs};
 
@@ -10,7 +12,7 @@ use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, pairs};
 ///
 /// (1 - α₁h)(1 - α₂h) = 1 - h + bh² for a mode of eigenvalue h, which has the noise β₁(1 - α₂h) + β₂ = 1 - (1 + 2b)h/4
 /// times √(2kT h). Its temperature is kT (1 - .298h)²/(1 - .595h + .095h² - .0045h³): within 1.1 % up to h = 2.
-pub(super) fn stages() -> [[(Constant, f64); 2]; 2] {
+pub(crate) fn stages() -> [[(Constant, f64); 2]; 2] {
     let b = 0.095_f64;
     let alpha = [0.5 - (0.25 - b).sqrt(), 0.5 + (0.25 - b).sqrt()];
     let first = (1.0 + 2.0 * b) / (4.0 * alpha[1]);
@@ -42,7 +44,7 @@ impl Builder<'_> {
     }
 
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup, from a row on.
-    pub(super) fn observation(&mut self, name: &'static str, first_group: u32, pass: Choices) -> usize {
+    pub fn observation(&mut self, name: &'static str, first_group: u32, pass: Choices) -> usize {
         let pass = pass.with_if(self.traversal == Traversal::Clusters, core::Reduction::OfEight);
         let kernel = self.traversal(name, self.traversal, Masks::Unkept, &pass);
         self.plan.kernels[kernel].constants.push((Constant::FirstGroup, f64::from(first_group)));
@@ -107,7 +109,7 @@ impl Builder<'_> {
             self.plan.kernels[configuration].constants.push(shear::moment(1));
         }
         // Baths see whole drifts.
-        let seen = if own::acts(self.model) { 2.0 } else { 1.0 };
+        let seen = if self.model.particles().acts_on_particles(self.model) { 2.0 } else { 1.0 };
         for (kernel, halves) in [(find, seen), (motion, 1.0), (configuration, 1.0)] {
             self.plan.kernels[kernel].constants.push((Constant::Halves, halves));
         }
@@ -153,8 +155,8 @@ impl Builder<'_> {
     }
 
     /// Whether baths and random forces on single particles are part of the forces of a split step's report.
-    pub(super) fn reports_own_forces(&self) -> bool {
-        self.splits() && own::acts(self.model) && self.measured.needs(Need::Forces)
+    pub fn reports_own_forces(&self) -> bool {
+        self.splits() && self.model.particles().acts_on_particles(self.model) && self.measured.needs(Need::Forces)
     }
 
     /// Whether the forces of a split step's report are begun before pairs are.
@@ -163,7 +165,7 @@ impl Builder<'_> {
     }
 
     /// Says whether a kernel of a report adds its forces to those that an earlier one has left.
-    pub(super) fn adds_forces(&mut self, kernel: usize, adds: bool) {
+    pub fn adds_forces(&mut self, kernel: usize, adds: bool) {
         if adds && self.measured.needs(Need::Forces) {
             self.plan.kernels[kernel].constants.push((Constant::ForcesBegun, 1.0));
         }

@@ -1,0 +1,118 @@
+//! Body forces of a scene.
+
+use super::{BodyForces, FixedImpulse};
+use crate::document::{BodyForceInteraction, ForceProfile, Interaction, Problems, Scene, SpeciesNames};
+use crate::families::particles::combinations::Feature;
+use crate::families::particles::composition::all_particles;
+use crate::families::particles::terms::SceneTerm;
+use crate::families::{Model, Particles, Species};
+
+/// The largest impulse of half a step in units of momentum: several of them still fit the integers.
+const LARGEST: f64 = (1_u64 << 27) as f64;
+
+impl SceneTerm for BodyForceInteraction {
+    fn acts(&self) -> bool {
+        self.force.iter().any(|component| *component != 0.0)
+    }
+
+    fn features(&self) -> Vec<(Feature, &'static str)> {
+        vec![(if self.profile.is_uniform() { Feature::UniformForce } else { Feature::VaryingForce }, "")]
+    }
+
+    fn check(&self, scene: &Scene, names: &SpeciesNames<'_>, path: &str, problems: &mut Problems) {
+        let dimension = scene.space.lengths.len();
+        if self.force.len() != dimension {
+            let found = format!("{} components", self.force.len());
+            problems.refuse(format!("{path}.force"), found, format!("{dimension}, one for each axis of the box"));
+        }
+        let varies = !self.profile.is_uniform();
+        match self.axis {
+            None if varies => {
+                let accepted = "an `axis` along which the force varies: \"x\", \"y\" or \"z\"";
+                problems.refuse(format!("{path}.axis"), "none", accepted);
+            }
+            Some(_) if !varies => {
+                let accepted =
+                    "no `axis`, or the profile `opposed` or `sinusoidal`: a uniform force is the same along all axes";
+                problems.refuse(format!("{path}.axis"), "one", accepted);
+            }
+            Some(axis) if axis as usize >= dimension => {
+                let accepted = format!("one of the {dimension} axes of the box");
+                problems.refuse(format!("{path}.axis"), format!("\"{}\"", axis.name()), accepted);
+            }
+            _ => {}
+        }
+        if let Some(waves) = self.waves.filter(|_| self.profile != ForceProfile::Sinusoidal) {
+            problems.refuse(format!("{path}.waves"), waves, "no `waves`, or the profile `sinusoidal`");
+        }
+        for (index, name) in self.species.iter().flatten().enumerate() {
+            let path = format!("{path}.species[{index}]");
+            names.check(name, &path, problems);
+            if scene.particles.iter().any(|group| group.species == *name && group.is_held()) {
+                let found = format!("`{name}`, whose particles are fixed");
+                problems.refuse(path, found, "species that can move: what is held takes up no momentum");
+            }
+        }
+    }
+
+    fn members(&self, _: &Scene, names: &SpeciesNames<'_>) -> Option<String> {
+        Some(self.species.as_ref().map_or_else(|| all_particles(names), |species| species.join(", ")))
+    }
+
+    /// Adds its force to those of earlier interactions. What is held absorbs no momentum.
+    fn add(&self, _: &Scene, species: &mut Vec<Species>, particles: &mut Particles) {
+        let forces = particles.body_forces.get_or_insert_with(|| BodyForces {
+            profile: self.profile,
+            axis: self.axis.map_or(0, |axis| axis as usize),
+            waves: self.waves.unwrap_or(1),
+            forces: vec![[0.0; 3]; species.len()],
+        });
+        for (species, sum) in species.iter().zip(&mut forces.forces) {
+            let named = self.species.as_ref().is_none_or(|names| names.contains(&species.name));
+            if named && !species.fixed {
+                for (sum, component) in sum.iter_mut().zip(&self.force) {
+                    *sum += component;
+                }
+            }
+        }
+    }
+}
+
+/// Several add up, but vary in the same way.
+pub(crate) fn check_together(scene: &Scene, problems: &mut Problems) {
+    let mut first: Option<(usize, &BodyForceInteraction)> = None;
+    for (index, interaction) in scene.interactions.iter().enumerate() {
+        let Interaction::BodyForce(force) = interaction else { continue };
+        let Some((earlier, known)) = first else {
+            first = Some((index, force));
+            continue;
+        };
+        let way = |force: &BodyForceInteraction| (force.profile, force.axis, force.waves.unwrap_or(1));
+        if way(force) != way(known) {
+            let found =
+                format!("a body force of another profile, axis or number of waves than interactions[{earlier}]");
+            let accepted = "the same for all body forces of a scene; their strength may differ from species to species";
+            problems.refuse(format!("interactions[{index}]"), found, accepted);
+        }
+    }
+}
+
+/// Refuses forces whose impulses the integers of momenta do not hold, or lose.
+pub(super) fn check_impulses(scene: &Scene, model: &Model, forces: &BodyForces, problems: &mut Problems) {
+    let place = |interaction: &Interaction| matches!(interaction, Interaction::BodyForce(_));
+    let path = format!("interactions[{}].force", scene.interactions.iter().position(place).unwrap_or(0));
+    let most = LARGEST * model.units.momentum / (0.5 * model.time_step);
+    let least = model.units.momentum / (0.5 * model.time_step) / FixedImpulse::FRACTIONS * 256.0;
+    for (species, force) in model.species.iter().zip(&forces.forces) {
+        for component in force.iter().filter(|component| **component != 0.0) {
+            let wrong = if component.abs() >= most {
+                format!("less than {most:.3e}, whose impulse of half a step integer momenta hold")
+            } else if component.abs() < least {
+                format!("at least {least:.3e}, of which half a step gives 2^-24 of a unit of momentum; or no force")
+            } else {
+                continue;
+            };
+            problems.refuse(&path, format!("{component:e} on a particle of species `{}`", species.name), wrong);
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! Pairs whose repulsion bonds exclude, where all pairs are visited and none is listed.
+
+use super::Bonds;
+use crate::families::particles::plan::bonded::{Bonded, Observed};
+use crate::plan::{Plan, Words};
+use crate::shaders::{Array, Choices, Constant, Entry, bonds};
+
+/// Takes back the repulsion that a traversal of all pairs adds.
+pub(super) fn bonded(bonds: &Bonds) -> Bonded {
+    let report = |part, scales| Observed { choices: Choices::new().with(part), scales };
+    let configuration = &[Constant::PairEnergy, Constant::PairVirial, Constant::Laplacian];
+    Bonded {
+        name: "exclusions",
+        reports: ["report_exclusions", "report_exclusions_between"],
+        entry: Entry::ExcludeRepulsion,
+        count: bonds.excluding(),
+        choices: Choices::new(),
+        observed: report(bonds::ExclusionReport::Observed, configuration),
+        motion: Some(report(bonds::ExclusionReport::Motion, &[Constant::PairVirial])),
+        configuration: report(bonds::ExclusionReport::Configuration, configuration),
+        stress: ("stress_of_exclusions", Choices::new().with(bonds::ExclusionReport::Stress)),
+        constants: vec![(Constant::Excluded, bonds.excluding() as f64)],
+        operations: 40.0,
+    }
+}
+
+pub(super) fn add_table(bonds: &Bonds, plan: &mut Plan) {
+    plan.add_long_table(Array::ExcludedPairs, ExcludedPairs { bonds: bonds.clone() });
+}
+
+/// The ends of every bond that excludes repulsion. A pair that several bonds exclude is there once; for the others there is a
+/// particle with itself.
+#[derive(Debug, Clone, PartialEq)]
+struct ExcludedPairs {
+    bonds: Bonds,
+}
+
+impl Words for ExcludedPairs {
+    fn count(&self) -> u64 {
+        self.bonds.excluding().saturating_mul(2)
+    }
+
+    fn words(&self) -> Vec<u32> {
+        let bonds = &self.bonds;
+        let excluding = bonds.iter().filter(|bond| bonds.kinds[bond.kind as usize].exclude_repulsion);
+        let mut pairs: Vec<[u32; 2]> =
+            excluding.map(|bond| [bond.ends[0].min(bond.ends[1]), bond.ends[0].max(bond.ends[1])]).collect();
+        pairs.sort_unstable();
+        for index in (1..pairs.len()).rev() {
+            if pairs[index] == pairs[index - 1] {
+                pairs[index][1] = pairs[index][0];
+            }
+        }
+        pairs.into_flattened()
+    }
+}

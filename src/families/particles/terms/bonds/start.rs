@@ -1,0 +1,56 @@
+//! Bonds at the start: their lengths, and the variables of their baths.
+
+use super::Bonds;
+use crate::document::{BondPotential, Interaction, Problems, Scene};
+use crate::families::{BathStep, Model};
+use crate::noise::{self, stream};
+use crate::state::{State, sheared_copy};
+use std::collections::HashSet;
+
+/// Draws the bath variables of all bonds from their law at rest. Bonds without memory beside others have a zero.
+pub(super) fn draw_baths(bonds: &Bonds, state: &mut State, model: &Model) {
+    let key = noise::step_key(model.seed, stream::BOND, 0);
+    let all = bonds.iter().enumerate().map(|(index, bond)| {
+        let kind = &bonds.kinds[bond.kind as usize];
+        let width = kind.bath.filter(BathStep::remembers).map_or(0.0, |step| step.deviation(kind.temperature));
+        let words = noise::words(model.generator, key, [index as u32, 1]);
+        ((width * noise::gaussian(words)) as f32).to_bits()
+    });
+    state.bond_baths = all.collect();
+}
+
+/// A bond of finite extent cannot start longer than it can be.
+pub(crate) fn check_extents(scene: &Scene, model: &Model, state: &State, problems: &mut Problems) {
+    let Some(bonds) = model.particles().bonds.as_ref() else { return };
+    let finite = |kind: u32| match bonds.kinds[kind as usize].potential {
+        Some(BondPotential::Fene { extent, length, .. }) => Some((extent, length)),
+        _ => None,
+    };
+    if (0..bonds.kinds.len()).all(|kind| finite(kind as u32).is_none()) {
+        return;
+    }
+    let places: Vec<usize> = (0..scene.interactions.len())
+        .filter(|index| matches!(scene.interactions[*index], Interaction::Bonds(_)))
+        .collect();
+    let mut reported = HashSet::new();
+    for bond in bonds.iter() {
+        let Some((extent, length)) = finite(bond.kind) else { continue };
+        let [a, b] = bond.ends.map(|end| state.positions[end as usize]);
+        let b = match &model.particles().shear {
+            Some(shear) => sheared_copy(a, b, (shear.gradient, shear.shift(model.clock(0).wrapping_mul(2)))),
+            None => b,
+        };
+        let distance = model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt();
+        if (distance - length).abs() >= extent && reported.insert(bond.kind) {
+            let found = format!(
+                "{extent}, and a distance of {distance:.6} between particles {} and {} at the start",
+                bond.ends[0], bond.ends[1]
+            );
+            let accepted = format!(
+                "more than {:.6}, by which that bond starts off its length {length}; or a start with shorter bonds",
+                (distance - length).abs()
+            );
+            problems.refuse(format!("interactions[{}].potential.extent", places[bond.kind as usize]), found, accepted);
+        }
+    }
+}
