@@ -1,7 +1,6 @@
 //! Bonds between particles: a potential, and a heat bath coupled to the length.
 
 mod exclusions;
-mod listed_exclusions;
 pub(crate) mod plan;
 pub(crate) mod reference;
 mod relaxation;

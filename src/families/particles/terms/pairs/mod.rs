@@ -1,16 +1,14 @@
 //! Pair forces of dissipative particle dynamics, doi:10.1063/1.474784.
 
 pub(crate) mod densities;
-mod density_plan;
 pub(crate) mod law;
 mod leapfrog;
-mod list_plan;
 mod list_reference;
 mod many_body;
 mod memory_reference;
+mod plan;
 mod relaxation;
 mod scene;
-mod stress_plan;
 pub(crate) mod surroundings;
 mod time_scales;
 
