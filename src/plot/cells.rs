@@ -3,7 +3,7 @@
 use super::canvas::{Area, Canvas};
 use super::color_map::{ColorMap, ColorScale};
 use super::error::PlotError;
-use super::palette::{Colour, inks, scale_colour};
+use super::palette::inks;
 use super::snapshot_page::{Key, Page, check};
 use crate::scene::{Snapshot, Theme};
 use crate::tessellation::Tessellation;
@@ -82,12 +82,8 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
     let pixels_per_length =
         ((frame.width() - 2.0 * rule) / width).min((frame.height() - 2.0 * rule) / height).max(1e-9 / width);
     let outline = Area::around(frame.centre(), [width, height].map(|length| length * pixels_per_length));
-    let colour = |cell: usize| match picture.shown {
-        Some(shown) => scale_colour(scale.bar.fraction(shown.values[cell]).unwrap_or(0.0)),
-        None => key.colour_of(picture.species[cell]),
-    };
     canvas.clip(Some(outline));
-    draw(&mut canvas, picture, [outline.left, outline.bottom], pixels_per_length, inks.paper, colour);
+    draw(&mut canvas, picture, [outline.left, outline.bottom], pixels_per_length, &key);
     canvas.clip(None);
     let corners = outline.corners();
     for (number, from) in corners.iter().enumerate() {
@@ -101,14 +97,7 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
 }
 
 /// Paints all cells and the lines between them; `origin` is the place of the lower left corner of the box.
-fn draw(
-    canvas: &mut Canvas,
-    picture: &CellPicture<'_>,
-    origin: [f64; 2],
-    pixels_per_length: f64,
-    paper: Colour,
-    colour: impl Fn(usize) -> Colour,
-) {
+fn draw(canvas: &mut Canvas, picture: &CellPicture<'_>, origin: [f64; 2], pixels_per_length: f64, key: &Key<'_>) {
     let cells = &picture.tessellation.cells;
     let pixel = |[x, y]: [f64; 2]| [origin[0] + x * pixels_per_length, origin[1] - y * pixels_per_length];
     for (index, cell) in cells.iter().enumerate() {
@@ -117,7 +106,7 @@ fn draw(
             let Some((first, rest)) = cell.corners.split_first() else { continue };
             // Cells are convex: a fan of triangles fills one.
             for pair in rest.windows(2) {
-                canvas.triangle([corner(*first), corner(pair[0]), corner(pair[1])], colour(index));
+                canvas.triangle([corner(*first), corner(pair[0]), corner(pair[1])], key.colour(index));
             }
         }
     }
@@ -135,7 +124,7 @@ fn draw(
             let corner = |[x, y]: [f64; 2]| pixel([place[0] + x, place[1] + y]);
             for (number, _) in cell.faces.iter().enumerate().filter(|(_, face)| own(face)) {
                 let next = (number + 1) % cell.corners.len();
-                canvas.line(corner(cell.corners[number]), corner(cell.corners[next]), width, paper);
+                canvas.line(corner(cell.corners[number]), corner(cell.corners[next]), width, canvas.paper);
             }
         }
     }

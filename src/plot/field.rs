@@ -5,7 +5,8 @@ use super::chart::Scale;
 use super::chart_layout::Sizes;
 use super::color_map::{ColorMap, ColorScale};
 use super::error::PlotError;
-use super::palette::{Colour, Inks, inks};
+use super::field_renderer::{FieldScene, Image};
+use super::palette::{Colour, Inks, inks, linear};
 use super::periodic_curve::segments;
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
 use super::ticks::{AxisMap, Ticks, ticks, ticks_along};
@@ -75,21 +76,6 @@ pub struct PeriodicCurve<'a> {
     pub points: &'a [[f64; 2]],
     /// Whether the last point is joined to the first.
     pub closed: bool,
-}
-
-/// The image of a field, for `field.wgsl`.
-pub(super) struct FieldScene {
-    /// Left, top, width and height in pixels.
-    pub area: [u32; 4],
-    /// Nodes along x and y.
-    pub nodes: [u32; 2],
-    /// One fraction of the table per node, in the order of [`Field::values`].
-    pub fractions: Vec<f32>,
-    pub samples: [u32; 2],
-    pub limits: [f64; 2],
-    pub interpolation: u32,
-    pub missing: Colour,
-    pub table: Vec<Colour>,
 }
 
 const NEAREST: u32 = 0;
@@ -473,15 +459,17 @@ impl Layout<'_> {
             Some(fraction) => fraction.clamp(-FARTHEST, FARTHEST) as f32,
             None => NO_VALUE,
         };
-        FieldScene {
-            area: [image.left, image.top, pixels[0], pixels[1]].map(|pixels| pixels as u32),
-            nodes: field.nodes.map(|nodes| nodes as u32),
-            fractions: field.values.iter().map(fraction).collect(),
-            samples: nodes_per_pixel.map(|nodes| nodes.ceil().max(1.0) as u32),
-            limits: self.scale.limits(),
+        let [red, green, blue, _] = MISSING.map(linear);
+        let image = Image {
+            area: [image.left, image.top, pixels[0], pixels[1]].map(|pixels| pixels as f32),
+            nodes: field.nodes.map(|nodes| nodes as i32),
+            samples: nodes_per_pixel.map(|nodes| nodes.ceil().max(1.0) as i32),
+            limits: self.scale.limits().map(|limit| limit as f32),
             interpolation,
-            missing: MISSING,
-            table: self.scale.colours().to_vec(),
-        }
+            padding: 0,
+            missing: [red, green, blue, 1.0],
+        };
+        let fractions = field.values.iter().map(fraction).collect();
+        FieldScene { image, fractions, table: self.scale.colours().to_vec() }
     }
 }

@@ -1,63 +1,71 @@
 //! The device side of a field: its values and colours as textures, drawn into the place of the image.
 
-use super::field::FieldScene;
-use super::palette::linear;
-use super::pipelines::{Page, Painter, Target};
+use super::canvas::Area;
+use super::error::PlotError;
+use super::palette::Colour;
+use super::pipelines::{Page, Target};
+use super::renderer::{Content, Plotter};
 use bytemuck::{Pod, Zeroable};
 
 /// The uniform of `field.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
-struct Image {
-    area: [f32; 4],
-    nodes: [i32; 2],
-    samples: [i32; 2],
-    limits: [f32; 2],
-    interpolation: u32,
-    padding: u32,
-    missing: [f32; 4],
+pub(super) struct Image {
+    /// Left, top, width and height in pixels.
+    pub area: [f32; 4],
+    /// Nodes along x and y.
+    pub nodes: [i32; 2],
+    pub samples: [i32; 2],
+    pub limits: [f32; 2],
+    pub interpolation: u32,
+    pub padding: u32,
+    /// Colour where there is no value, in linear light.
+    pub missing: [f32; 4],
+}
+
+/// The image of a field.
+pub(super) struct FieldScene {
+    pub image: Image,
+    /// One fraction of the table per node, in the order of [`Field::values`](crate::measure::Field::values).
+    pub fractions: Vec<f32>,
+    pub table: Vec<Colour>,
 }
 
 const FIELD: Page = ("plot/field.wgsl", include_str!("../../shaders/plot/field.wgsl"));
 
-pub(super) fn field_pipeline(painter: &Painter) -> wgpu::RenderPipeline {
-    painter.pipeline::<()>("plot: field", FIELD, ["vertex_field", "fragment_field"], &[], Target::Picture)
-}
+impl Content for FieldScene {
+    /// In a picture too small for its type the image may stand out of it.
+    fn area(&self) -> Area {
+        let [left, top, width, height] = self.image.area.map(f64::from);
+        Area { left, top, right: left + width, bottom: top + height }
+    }
 
-/// Draws the image of a field into a picture; `clip` is its part inside the picture: left, top, width, height.
-pub(super) fn draw_field(
-    painter: &Painter,
-    pipeline: &wgpu::RenderPipeline,
-    scene: &FieldScene,
-    [x, y, width, height]: [u32; 4],
-    view: &wgpu::TextureView,
-) {
-    let [kx, ky] = scene.nodes;
-    let fractions = bytemuck::cast_slice(&scene.fractions);
-    let values = painter.filled_texture("plot: field", [ky, kx], wgpu::TextureFormat::R32Float, fractions);
-    // Read back as linear light and written as sRGB again: the same bytes.
-    let (colours, table) = (scene.table.len() as u32, bytemuck::cast_slice(&scene.table));
-    let table = painter.filled_texture("plot: colours", [colours, 1], wgpu::TextureFormat::Rgba8UnormSrgb, table);
-    let missing = scene.missing;
-    let image = Image {
-        area: scene.area.map(|pixels| pixels as f32),
-        nodes: scene.nodes.map(|nodes| nodes as i32),
-        samples: scene.samples.map(|samples| samples as i32),
-        limits: scene.limits.map(|limit| limit as f32),
-        interpolation: scene.interpolation,
-        padding: 0,
-        missing: [linear(missing[0]), linear(missing[1]), linear(missing[2]), 1.0],
-    };
-    let uniform = painter.uniform("plot: image", &image);
-    let textures = [&values, &table].map(wgpu::BindingResource::TextureView);
-    let resources = std::iter::once(uniform.as_entire_binding()).chain(textures);
-    let group = painter.bind_group("plot: field", pipeline, resources);
-    painter.paint("plot: field", view, None, None, |pass| {
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.set_scissor_rect(x, y, width, height);
-        pass.draw(0..4, 0..1);
-    });
+    fn draw(
+        &self,
+        plotter: &Plotter<'_>,
+        [x, y, width, height]: [u32; 4],
+        picture: &wgpu::TextureView,
+    ) -> Result<(), PlotError> {
+        let pipeline = plotter.once(&plotter.field, "pipeline of the fields", |plotter| {
+            plotter.pipeline::<()>("plot: field", FIELD, ["vertex_field", "fragment_field"], &[], Target::Picture)
+        })?;
+        plotter.checked("field", || {
+            let [kx, ky] = self.image.nodes.map(|nodes| nodes as u32);
+            let fractions = bytemuck::cast_slice(&self.fractions);
+            let values = plotter.filled_texture("plot: field", [ky, kx], wgpu::TextureFormat::R32Float, fractions);
+            // Read back as linear light and written as sRGB again: the same bytes.
+            let (size, table) = ([self.table.len() as u32, 1], bytemuck::cast_slice(&self.table));
+            let table = plotter.filled_texture("plot: colours", size, wgpu::TextureFormat::Rgba8UnormSrgb, table);
+            let image = plotter.uniform("plot: image", &self.image);
+            plotter.pass("plot: field", picture, None, None, |pass| {
+                let textures = [&values, &table].map(wgpu::BindingResource::TextureView);
+                let resources = std::iter::once(image.as_entire_binding()).chain(textures);
+                plotter.bind(pass, "plot: field", pipeline, resources);
+                pass.set_scissor_rect(x, y, width, height);
+                pass.draw(0..4, 0..1);
+            });
+        })
+    }
 }
 
 #[cfg(test)]

@@ -17,7 +17,7 @@
 //!
 //! let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
 //! let style = PlotStyle { width: 640, height: Some(400), ..PlotStyle::default() };
-//! let picture = Plotter::new(gpu.device(), gpu.queue())?.draw_chart(&chart, &style)?;
+//! let picture = Plotter::new(&gpu)?.draw_chart(&chart, &style)?;
 //! assert_eq!(picture.dimensions(), (640, 400));
 //! # let directory = tempfile::tempdir()?;
 //! # let path = directory.path().join("root.png");

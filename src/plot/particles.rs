@@ -2,8 +2,9 @@
 
 use super::canvas::{Area, Canvas};
 use super::error::PlotError;
-use super::palette::{Colour, Inks, inks, scale_colour};
+use super::palette::{Colour, inks, linear};
 use super::snapshot_page::{self, Key, Page};
+use super::sphere_renderer::{Camera, SphereScene};
 use crate::scene::{Snapshot, SnapshotColor, Theme};
 use bytemuck::{Pod, Zeroable};
 
@@ -53,30 +54,6 @@ pub(super) struct RodInstance {
 
 /// Radius of a bond in radii of a particle.
 const ROD: f64 = 0.35;
-
-/// Particles and the view of them.
-pub(super) struct SphereScene {
-    pub particles: Vec<ParticleInstance>,
-    pub rods: Vec<RodInstance>,
-    pub rod_radius: f64,
-    pub right: [f64; 3],
-    pub up: [f64; 3],
-    pub toward: [f64; 3],
-    /// Half the depth of everything in view, in units of length.
-    pub half_depth: f64,
-    pub pixels_per_length: f64,
-    /// Where the centre of the box lies, in pixels.
-    pub centre: [f64; 2],
-    /// Part of the picture that particles may cover.
-    pub area: Area,
-    pub radius: f64,
-    pub lighting: f64,
-    pub rim: f64,
-    pub fog: f64,
-    pub paper: Colour,
-    /// Side of the square of samples per pixel.
-    pub samples: u32,
-}
 
 /// Compass bearing and height of the viewer of a three-dimensional box, in degrees.
 const AZIMUTH: f64 = -62.0;
@@ -153,8 +130,15 @@ pub(super) fn lay_out(
     let page = Page::new(style, [extent(right), extent(up)]);
     let [width, height] = page.pixels();
     let mut canvas = Canvas::new(width, height, inks.paper)?;
-    let colouring = Colouring::new(picture, style, &inks);
-    let frame = page.frame(&mut canvas, [picture.title, picture.subtitle], &colouring.key, &inks);
+    let key = match (style.color, picture.speeds) {
+        (SnapshotColor::Speed, Some(speeds)) => {
+            let fastest = speeds.iter().copied().filter(|speed| speed.is_finite()).fold(0.0, f64::max);
+            let fitting = [0.0, if fastest > 0.0 { fastest } else { 1.0 }];
+            Key::scale("speed (length/time)", style.range.unwrap_or(fitting), speeds)
+        }
+        _ => Key::species(picture.species_names, picture.species, &inks),
+    };
+    let frame = page.frame(&mut canvas, [picture.title, picture.subtitle], &key, &inks);
 
     // Spheres may stand out of a three-dimensional box; discs of a flat one are cut off at its edge.
     let overhang = if picture.dimension == 3 { 2.0 * picture.radius.min(0.1 * extent(right)) } else { 0.0 };
@@ -181,34 +165,31 @@ pub(super) fn lay_out(
         let [from, to] = measured_edge(axis, picture.dimension).map(project);
         page.edge_length(&mut canvas, (name, lengths[axis]), [from, to], &inks);
     }
-    page.footer(&mut canvas, &colouring.key, &inks, outline, pixels_per_length);
+    page.footer(&mut canvas, &key, &inks, outline, pixels_per_length);
 
     // A particle smaller than a pixel is drawn as large as one.
     let radius = picture.radius.max(0.7 / pixels_per_length);
-    let particles = instances(picture, &colouring, lengths, radius);
-    let rods = rods(picture, &colouring, lengths);
+    let particles = instances(picture, &key, lengths, radius);
+    let rods = rods(picture, &key, lengths);
     let fragments = particles.len() as f64 * 3.2 * (radius * pixels_per_length).powi(2);
+    // More samples where they cost little.
+    let samples = if fragments < 4e6 { 3 } else { 2 };
+    let scale = pixels_per_length * f64::from(samples);
     let flat = picture.dimension == 2;
-    let scene = SphereScene {
-        right,
-        up,
-        toward,
-        half_depth: 0.5 * extent(toward) + 1.01 * radius,
-        pixels_per_length,
-        centre,
-        area: if flat { outline } else { frame.grown(radius * pixels_per_length) },
-        radius,
-        lighting: if flat { 0.3 } else { 1.0 },
-        rim: if flat { 0.35 } else { 0.12 },
-        fog: if flat { 0.0 } else { 0.4 },
-        paper: inks.paper,
-        // More samples where they cost little.
-        samples: if fragments < 4e6 { 3 } else { 2 },
-        particles,
-        rods,
-        rod_radius: ROD * radius,
+    let [lighting, rim, fog] = if flat { [0.3, 0.35, 0.0] } else { [1.0, 0.12, 0.4] };
+    let paper = [0, 1, 2].map(|channel| f64::from(linear(inks.paper[channel]).sqrt()));
+    let with = |[x, y, z]: [f64; 3], last: f64| [x, y, z, last].map(|value| value as f32);
+    let camera = Camera {
+        right: with(right, scale),
+        up: with(up, 0.0),
+        toward: with(toward, 0.5 * extent(toward) + 1.01 * radius),
+        fog: with(paper, fog),
+        look: [radius, radius * scale, lighting, rim].map(|value| value as f32),
+        rods: [ROD * radius, ROD * radius * scale, 0.0, 0.0].map(|value| value as f32),
+        ..Camera::default()
     };
-    Ok((canvas, scene))
+    let area = if flat { outline } else { frame.grown(radius * pixels_per_length) };
+    Ok((canvas, SphereScene { particles, rods, camera, centre, area, samples }))
 }
 
 /// Edges of the unit box and whether they lie on its near side.
@@ -241,18 +222,13 @@ fn measured_edge(axis: usize, dimension: u32) -> [[f64; 3]; 2] {
     [from, to]
 }
 
-fn instances(
-    picture: &ParticlePicture<'_>,
-    colouring: &Colouring<'_>,
-    lengths: [f64; 3],
-    radius: f64,
-) -> Vec<ParticleInstance> {
+fn instances(picture: &ParticlePicture<'_>, key: &Key<'_>, lengths: [f64; 3], radius: f64) -> Vec<ParticleInstance> {
     let mut instances = Vec::with_capacity(picture.positions.len());
     for (index, position) in picture.positions.iter().enumerate() {
         if position.iter().take(picture.dimension as usize).any(|coordinate| !coordinate.is_finite()) {
             continue;
         }
-        let colour = colouring.colour(picture, index);
+        let colour = key.colour(index);
         let mut relative = [0, 1, 2].map(|axis| position[axis] - 0.5 * lengths[axis]);
         if picture.dimension == 3 {
             instances.push(ParticleInstance { position: relative.map(|x| x as f32), colour });
@@ -282,7 +258,7 @@ fn instances(
 }
 
 /// The halves of all bonds.
-fn rods(picture: &ParticlePicture<'_>, colouring: &Colouring<'_>, lengths: [f64; 3]) -> Vec<RodInstance> {
+fn rods(picture: &ParticlePicture<'_>, key: &Key<'_>, lengths: [f64; 3]) -> Vec<RodInstance> {
     let dimension = picture.dimension as usize;
     let flat = |position: [f64; 3]| [0, 1, 2].map(|axis| if axis < dimension { position[axis] } else { 0.0 });
     let mut rods = Vec::with_capacity(2 * picture.bonds.len());
@@ -295,36 +271,9 @@ fn rods(picture: &ParticlePicture<'_>, colouring: &Colouring<'_>, lengths: [f64;
             });
             if half.iter().chain(&from).all(|part| part.is_finite()) {
                 let position = [0, 1, 2].map(|axis| (from[axis] - 0.5 * lengths[axis]) as f32);
-                let colour = colouring.colour(picture, near);
-                rods.push(RodInstance { position, reach: half.map(|part| part as f32), colour });
+                rods.push(RodInstance { position, reach: half.map(|part| part as f32), colour: key.colour(near) });
             }
         }
     }
     rods
-}
-
-/// What the colours mean.
-struct Colouring<'a> {
-    key: Key<'a>,
-    /// Speeds, where they are what colours show.
-    speeds: Option<&'a [f64]>,
-}
-
-impl<'a> Colouring<'a> {
-    fn new(picture: &ParticlePicture<'a>, style: &Snapshot, inks: &Inks) -> Self {
-        if let (SnapshotColor::Speed, Some(speeds)) = (style.color, picture.speeds) {
-            let fastest = speeds.iter().copied().filter(|speed| speed.is_finite()).fold(0.0, f64::max);
-            let fitting = [0.0, if fastest > 0.0 { fastest } else { 1.0 }];
-            let key = Key::scale("speed (length/time)", style.range.unwrap_or(fitting), speeds);
-            return Self { key, speeds: Some(speeds) };
-        }
-        Self { key: Key::species(picture.species_names, picture.species, inks), speeds: None }
-    }
-
-    fn colour(&self, picture: &ParticlePicture<'_>, index: usize) -> Colour {
-        match (&self.key, self.speeds) {
-            (Key::Scale { map, .. }, Some(speeds)) => scale_colour(map.fraction(speeds[index]).unwrap_or(0.0)),
-            (key, _) => key.colour_of(picture.species[index]),
-        }
-    }
 }

@@ -1,14 +1,19 @@
 //! What all painting on the device is made of: formats, pipelines made when they are first needed, textures, buffers, passes.
 
 use super::error::PlotError;
+use super::renderer::Plotter;
 use bytemuck::Pod;
 use std::sync::OnceLock;
+use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 /// Written through an sRGB view, so that blending happens in linear light.
 pub(super) const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 /// Of enlarged particles: square roots of linear light, nearly as fine as sRGB and cheaper to write.
 pub(super) const ENLARGED_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Instances in one vertex buffer: 48 bytes each at most, far below the smallest permitted buffer limit.
+const INSTANCES_PER_BUFFER: usize = 1 << 21;
 
 /// What a pipeline paints.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -22,18 +27,14 @@ pub(super) enum Target {
 /// A page of WGSL: its name and its text.
 pub(super) type Page = (&'static str, &'static str);
 
-/// A device that pictures are painted with.
-#[derive(Debug, Clone)]
-pub(super) struct Painter {
-    pub device: wgpu::Device,
-    pub queue: wgpu::Queue,
-}
+/// Instances on the device: buffers, with how many each holds.
+pub(super) type Instances = Vec<(wgpu::Buffer, u32)>;
 
-impl Painter {
+impl Plotter<'_> {
     /// Runs device work and turns what the device reports meanwhile into an error.
     pub(super) fn checked<T>(&self, stage: &'static str, work: impl FnOnce() -> T) -> Result<T, PlotError> {
         let scopes = [wgpu::ErrorFilter::Internal, wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Validation]
-            .map(|filter| self.device.push_error_scope(filter));
+            .map(|filter| self.gpu.device.push_error_scope(filter));
         let result = work();
         let mut failure = None;
         // Scopes are a stack: the last pushed is the first popped.
@@ -72,7 +73,8 @@ impl Painter {
         target: Target,
     ) -> wgpu::RenderPipeline {
         let source = wgpu::ShaderSource::Wgsl(source.into());
-        let module = &self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(name), source });
+        let descriptor = wgpu::ShaderModuleDescriptor { label: Some(name), source };
+        let module = &self.gpu.device.create_shader_module(descriptor);
         let (format, blend) = match target {
             Target::Enlarged => (ENLARGED_FORMAT, None),
             Target::Picture => (COLOUR_FORMAT, Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING)),
@@ -80,7 +82,7 @@ impl Painter {
         let step_mode = wgpu::VertexStepMode::Instance;
         let instance = wgpu::VertexBufferLayout { array_stride: size_of::<T>() as u64, step_mode, attributes };
         let buffers = [Some(instance)];
-        self.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        self.gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(label),
             layout: None,
             vertex: wgpu::VertexState {
@@ -113,15 +115,16 @@ impl Painter {
         self.filled_buffer(label, bytemuck::bytes_of(value), wgpu::BufferUsages::UNIFORM)
     }
 
-    pub(super) fn filled_buffer(&self, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(label),
-            size: bytes.len() as u64,
-            usage: usage | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        self.queue.write_buffer(&buffer, 0, bytes);
-        buffer
+    pub(super) fn instances<T: Pod>(&self, label: &str, instances: &[T]) -> Instances {
+        let filled = |chunk: &[T]| {
+            let buffer = self.filled_buffer(label, bytemuck::cast_slice(chunk), wgpu::BufferUsages::VERTEX);
+            (buffer, chunk.len() as u32)
+        };
+        instances.chunks(INSTANCES_PER_BUFFER).map(filled).collect()
+    }
+
+    fn filled_buffer(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+        self.gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
     }
 
     pub(super) fn texture(
@@ -131,7 +134,7 @@ impl Painter {
         format: wgpu::TextureFormat,
         usage: wgpu::TextureUsages,
     ) -> wgpu::Texture {
-        self.device.create_texture(&wgpu::TextureDescriptor {
+        self.gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: Some(label),
             size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
             mip_level_count: 1,
@@ -155,27 +158,30 @@ impl Painter {
         let texture = self.texture(label, size, format, usage);
         let bytes_per_row = format.block_copy_size(None).map(|texel| texel * size[0]);
         let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row, rows_per_image: None };
-        self.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
+        self.gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
         view(&texture, label)
     }
 
-    /// What a pipeline reads, in the order of its bindings.
-    pub(super) fn bind_group<'a>(
+    /// Draws with a pipeline from here on, which reads these resources in the order of its bindings.
+    pub(super) fn bind<'a>(
         &self,
+        pass: &mut wgpu::RenderPass<'_>,
         label: &str,
         pipeline: &wgpu::RenderPipeline,
         resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
-    ) -> wgpu::BindGroup {
+    ) {
         let entries = (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource });
-        self.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let group = self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(label),
             layout: &pipeline.get_bind_group_layout(0),
             entries: &entries.collect::<Vec<_>>(),
-        })
+        });
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &group, &[]);
     }
 
     /// Paints over a view, or over what it is cleared to; with a depth, which is cleared, the nearest stays.
-    pub(super) fn paint(
+    pub(super) fn pass(
         &self,
         label: &str,
         view: &wgpu::TextureView,
@@ -183,7 +189,7 @@ impl Painter {
         depth: Option<&wgpu::TextureView>,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) {
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some(label) });
+        let mut encoder = self.gpu.encoder(label);
         let load = clear.map_or(wgpu::LoadOp::Load, wgpu::LoadOp::Clear);
         draw(&mut encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(label),
@@ -200,7 +206,15 @@ impl Painter {
             }),
             ..Default::default()
         }));
-        self.queue.submit([encoder.finish()]);
+        self.gpu.queue.submit([encoder.finish()]);
+    }
+}
+
+/// Draws a quad for every instance.
+pub(super) fn draw_instances(pass: &mut wgpu::RenderPass<'_>, instances: &Instances) {
+    for (buffer, count) in instances {
+        pass.set_vertex_buffer(0, buffer.slice(..));
+        pass.draw(0..4, 0..*count);
     }
 }
 

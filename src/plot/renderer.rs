@@ -5,20 +5,16 @@ use super::cells::{self, CellPicture};
 use super::chart::Chart;
 use super::chart_layout;
 use super::error::PlotError;
-use super::field::{self, FieldPicture, FieldScene};
-use super::field_renderer::{draw_field, field_pipeline};
+use super::field::{self, FieldPicture};
 use super::palette::linear;
-use super::particles::{self, ParticlePicture, SphereScene};
-use super::pipelines::{COLOUR_FORMAT, Page, Painter, Target, view};
-use super::readback::read_back;
-use super::sphere_renderer::{composite_pipeline, draw_spheres, rods_pipeline, spheres_pipeline};
+use super::particles::{self, ParticlePicture};
+use super::pipelines::{COLOUR_FORMAT, Page, Target, draw_instances, view};
+use super::readback;
+use crate::gpu::Gpu;
 use crate::scene::{PlotStyle, Snapshot, Theme};
 use bytemuck::{Pod, Zeroable};
 use image::RgbaImage;
 use std::sync::OnceLock;
-
-/// Instances in one vertex buffer: 48 bytes each, far below the smallest permitted buffer limit.
-const INSTANCES_PER_BUFFER: usize = 1 << 21;
 
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
@@ -26,40 +22,38 @@ struct Viewport {
     size: [f32; 2],
 }
 
-/// Draws pictures with one device; its pipelines are made once, when a picture first needs them.
-#[derive(Debug)]
-pub struct Plotter {
-    painter: Painter,
-    shapes: wgpu::RenderPipeline,
-    spheres: OnceLock<wgpu::RenderPipeline>,
-    rods: OnceLock<wgpu::RenderPipeline>,
-    composite: OnceLock<wgpu::RenderPipeline>,
-    field: OnceLock<wgpu::RenderPipeline>,
+/// Draws pictures on one adapter; its pipelines are made once, when a picture first needs them.
+pub struct Plotter<'g> {
+    pub(super) gpu: &'g Gpu,
+    shapes: OnceLock<wgpu::RenderPipeline>,
+    pub(super) spheres: OnceLock<wgpu::RenderPipeline>,
+    pub(super) rods: OnceLock<wgpu::RenderPipeline>,
+    pub(super) composite: OnceLock<wgpu::RenderPipeline>,
+    pub(super) field: OnceLock<wgpu::RenderPipeline>,
 }
 
 /// What lies between the shapes of the background and those of the foreground.
-enum Content<'a> {
-    Nothing,
-    Particles(&'a SphereScene),
-    Field(&'a FieldScene),
+pub(super) trait Content {
+    /// The part of the picture that it may cover.
+    fn area(&self) -> Area;
+    /// Draws it into a picture, of which it takes the part with this left, top, width and height.
+    fn draw(&self, plotter: &Plotter<'_>, clip: [u32; 4], picture: &wgpu::TextureView) -> Result<(), PlotError>;
 }
 
-impl Plotter {
+impl<'g> Plotter<'g> {
     /// Makes the pipeline that every picture needs.
     ///
     /// # Errors
     /// [`PlotError::Device`] if the adapter refuses a shader or a pipeline, [`PlotError::OutOfMemory`].
-    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Self, PlotError> {
-        let painter = Painter { device: device.clone(), queue: queue.clone() };
-        let shapes = painter.checked("pipeline of the shapes", || shapes_pipeline(&painter))?;
-        Ok(Self {
-            painter,
-            shapes,
-            spheres: OnceLock::new(),
-            rods: OnceLock::new(),
-            composite: OnceLock::new(),
-            field: OnceLock::new(),
-        })
+    pub fn new(gpu: &'g Gpu) -> Result<Self, PlotError> {
+        let [shapes, spheres, rods, composite, field] = [const { OnceLock::new() }; 5];
+        let plotter = Self { gpu, shapes, spheres, rods, composite, field };
+        plotter.shapes()?;
+        Ok(plotter)
+    }
+
+    fn shapes(&self) -> Result<&wgpu::RenderPipeline, PlotError> {
+        self.once(&self.shapes, "pipeline of the shapes", shapes_pipeline)
     }
 
     /// Draws a chart into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same bytes
@@ -69,7 +63,7 @@ impl Plotter {
     /// [`PlotError::Size`] if the adapter has no texture that large, [`PlotError::Input`] if a series has errors but
     /// not one per point, [`PlotError::TypeTooLarge`] if `scale` is excessive, and what the device reports.
     pub fn draw_chart(&self, chart: &Chart, style: &PlotStyle) -> Result<RgbaImage, PlotError> {
-        self.paint(&chart_layout::lay_out(chart, style)?, &Content::Nothing)
+        self.paint(&chart_layout::lay_out(chart, style)?, None)
     }
 
     /// Draws the particles into an sRGB image of the size that `style` says, or the box asks for. The same input gives
@@ -93,7 +87,7 @@ impl Plotter {
     /// };
     /// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
     /// let style = scene::Snapshot { width: Some(400), height: Some(300), ..scene::Snapshot::default() };
-    /// let image = plot::Plotter::new(gpu.device(), gpu.queue())?.draw_particles(&picture, &style, scene::Theme::Light)?;
+    /// let image = plot::Plotter::new(&gpu)?.draw_particles(&picture, &style, scene::Theme::Light)?;
     /// assert_eq!(image.dimensions(), (400, 300));
     /// assert!(image.pixels().any(|pixel| pixel != image.get_pixel(0, 0)), "the picture is not empty");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -109,7 +103,7 @@ impl Plotter {
         theme: Theme,
     ) -> Result<RgbaImage, PlotError> {
         let (canvas, scene) = particles::lay_out(picture, style, theme)?;
-        self.paint(&canvas, &Content::Particles(&scene))
+        self.paint(&canvas, Some(&scene))
     }
 
     /// Draws Voronoi cells into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same bytes
@@ -124,7 +118,7 @@ impl Plotter {
         style: &Snapshot,
         theme: Theme,
     ) -> Result<RgbaImage, PlotError> {
-        self.paint(&cells::lay_out(picture, style, theme)?, &Content::Nothing)
+        self.paint(&cells::lay_out(picture, style, theme)?, None)
     }
 
     /// Draws a field into an sRGB image of `style.width` by `style.height` pixels. The same input gives the same bytes
@@ -139,7 +133,7 @@ impl Plotter {
     /// let picture = plot::FieldPicture { title: "A wave", ..plot::FieldPicture::new(&field) };
     /// let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
     /// let style = PlotStyle { width: 400, height: Some(300), ..PlotStyle::default() };
-    /// let image = plot::Plotter::new(gpu.device(), gpu.queue())?.draw_field(&picture, &style)?;
+    /// let image = plot::Plotter::new(&gpu)?.draw_field(&picture, &style)?;
     /// assert_eq!(image.dimensions(), (400, 300));
     /// assert!(image.pixels().any(|pixel| pixel != image.get_pixel(0, 0)), "the picture is not empty");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -150,102 +144,63 @@ impl Plotter {
     /// large as the mesh or the parts of the field do not fit together, [`PlotError::TypeTooLarge`] if `scale` is
     /// excessive, and what the device reports.
     pub fn draw_field(&self, picture: &FieldPicture<'_>, style: &PlotStyle) -> Result<RgbaImage, PlotError> {
-        let limit = self.painter.device.limits().max_texture_dimension_2d;
+        let limit = self.gpu.device.limits().max_texture_dimension_2d;
         let [kx, ky] = picture.field.nodes;
         if kx.max(ky) > limit as usize {
             let message = format!("the mesh has {kx} x {ky} nodes; this adapter draws {limit} along an axis at most");
             return Err(PlotError::Input(message));
         }
         let (canvas, scene) = field::lay_out(picture, style)?;
-        self.paint(&canvas, &Content::Field(&scene))
+        self.paint(&canvas, Some(&scene))
     }
 
-    fn check_size(&self, width: u32, height: u32) -> Result<(), PlotError> {
-        let limit = self.painter.device.limits().max_texture_dimension_2d;
+    fn paint(&self, canvas: &Canvas, content: Option<&dyn Content>) -> Result<RgbaImage, PlotError> {
+        let (width, height) = (canvas.width, canvas.height);
+        let limit = self.gpu.device.limits().max_texture_dimension_2d;
         if width == 0 || height == 0 || width > limit || height > limit {
             return Err(PlotError::Size { width, height, limit });
         }
-        Ok(())
-    }
-
-    fn paint(&self, canvas: &Canvas, content: &Content<'_>) -> Result<RgbaImage, PlotError> {
-        self.check_size(canvas.width, canvas.height)?;
-        let painter = &self.painter;
         let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
-        let size = [canvas.width, canvas.height];
-        let target = painter.checked("picture", || painter.texture("plot: picture", size, COLOUR_FORMAT, usage))?;
+        let size = [width, height];
+        let target = self.checked("picture", || self.texture("plot: picture", size, COLOUR_FORMAT, usage))?;
         let view = view(&target, "plot: picture");
-        let atlas = self.atlas(canvas)?;
+        let (viewport, glyphs) = self.atlas(canvas)?;
+        let pipeline = self.shapes()?;
+        let shapes = |batches: &[Batch], clear: Option<wgpu::Color>| {
+            self.pass("plot: shapes", &view, clear, None, |pass| {
+                let resources = [viewport.as_entire_binding(), wgpu::BindingResource::TextureView(&glyphs)];
+                self.bind(pass, "plot: shapes", pipeline, resources);
+                for batch in batches {
+                    let Some([x, y, width, height]) = scissor(batch.clip, canvas) else { continue };
+                    pass.set_scissor_rect(x, y, width, height);
+                    let shapes = &canvas.shapes[batch.shapes.start as usize..batch.shapes.end as usize];
+                    draw_instances(pass, &self.instances("plot: shapes", shapes));
+                }
+            });
+        };
         let [r, g, b] = [0, 1, 2].map(|channel| f64::from(linear(canvas.paper[channel])));
-        let clear = Some(wgpu::Color { r, g, b, a: 1.0 });
         let (under, over) = canvas.batches.split_at(canvas.background);
-        painter.checked("background", || self.shapes_pass(canvas, under, &view, &atlas, clear))?;
-        match content {
-            Content::Nothing => {}
-            Content::Particles(scene) => {
-                let spheres = painter.once(&self.spheres, "pipeline of the particles", spheres_pipeline)?;
-                let composite = painter.once(&self.composite, "pipeline of the overlay", composite_pipeline)?;
-                let rods = match scene.rods.as_slice() {
-                    [] => None,
-                    _ => Some(painter.once(&self.rods, "pipeline of the bonds", rods_pipeline)?),
-                };
-                if let Some(clip) = scissor(Some(scene.area), canvas) {
-                    let draw = || draw_spheres(painter, [spheres, composite], rods, scene, clip, &view);
-                    painter.checked("particles", draw)?;
-                }
-            }
-            Content::Field(scene) => {
-                let field = painter.once(&self.field, "pipeline of the fields", field_pipeline)?;
-                let [left, top, width, height] = scene.area.map(f64::from);
-                let area = Area { left, top, right: left + width, bottom: top + height };
-                // In a picture too small for its type the image may stand out of it.
-                if let Some(clip) = scissor(Some(area), canvas) {
-                    painter.checked("field", || draw_field(painter, field, scene, clip, &view))?;
-                }
-            }
+        self.checked("background", || shapes(under, Some(wgpu::Color { r, g, b, a: 1.0 })))?;
+        if let Some(content) = content
+            && let Some(clip) = scissor(Some(content.area()), canvas)
+        {
+            content.draw(self, clip, &view)?;
         }
-        painter.checked("foreground", || self.shapes_pass(canvas, over, &view, &atlas, None))?;
-        read_back(painter, &target)
+        self.checked("foreground", || shapes(over, None))?;
+        readback::pixels(self.gpu, &target)
     }
 
-    /// Uploads the glyphs and binds them with the size of the picture.
-    fn atlas(&self, canvas: &Canvas) -> Result<wgpu::BindGroup, PlotError> {
+    /// Uploads the glyphs, and the size of the picture.
+    fn atlas(&self, canvas: &Canvas) -> Result<(wgpu::Buffer, wgpu::TextureView), PlotError> {
         let (width, height, coverage) = canvas.typesetter.atlas()?;
         // A texture has a row at least.
         let coverage = if height > 0 { coverage } else { &vec![0; width as usize] };
         let size = [width, height.max(1)];
-        self.painter.checked("type", || {
-            let glyphs = self.painter.filled_texture("plot: glyphs", size, wgpu::TextureFormat::R8Unorm, coverage);
+        self.checked("type", || {
             let viewport = Viewport { size: [canvas.width as f32, canvas.height as f32] };
-            let viewport = self.painter.uniform("plot: viewport", &viewport);
-            let resources = [viewport.as_entire_binding(), wgpu::BindingResource::TextureView(&glyphs)];
-            self.painter.bind_group("plot: shapes", &self.shapes, resources)
+            let viewport = self.uniform("plot: viewport", &viewport);
+            (viewport, self.filled_texture("plot: glyphs", size, wgpu::TextureFormat::R8Unorm, coverage))
         })
-    }
-
-    fn shapes_pass(
-        &self,
-        canvas: &Canvas,
-        batches: &[Batch],
-        view: &wgpu::TextureView,
-        atlas: &wgpu::BindGroup,
-        clear: Option<wgpu::Color>,
-    ) {
-        self.painter.paint("plot: shapes", view, clear, None, |pass| {
-            pass.set_pipeline(&self.shapes);
-            pass.set_bind_group(0, atlas, &[]);
-            for batch in batches {
-                let Some([x, y, width, height]) = scissor(batch.clip, canvas) else { continue };
-                pass.set_scissor_rect(x, y, width, height);
-                let shapes = &canvas.shapes[batch.shapes.start as usize..batch.shapes.end as usize];
-                for chunk in shapes.chunks(INSTANCES_PER_BUFFER) {
-                    let bytes = bytemuck::cast_slice(chunk);
-                    let buffer = self.painter.filled_buffer("plot: shapes", bytes, wgpu::BufferUsages::VERTEX);
-                    pass.set_vertex_buffer(0, buffer.slice(..));
-                    pass.draw(0..4, 0..chunk.len() as u32);
-                }
-            }
-        });
     }
 }
 
@@ -260,8 +215,8 @@ fn scissor(clip: Option<Area>, canvas: &Canvas) -> Option<[u32; 4]> {
 
 const SHAPES: Page = ("plot/shapes.wgsl", include_str!("../../shaders/plot/shapes.wgsl"));
 
-fn shapes_pipeline(painter: &Painter) -> wgpu::RenderPipeline {
+fn shapes_pipeline(plotter: &Plotter<'_>) -> wgpu::RenderPipeline {
     let attributes = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32, 3 => Uint32, 4 => Unorm8x4];
     let entry_points = ["vertex_shape", "fragment_shape"];
-    painter.pipeline::<Shape>("plot: shapes", SHAPES, entry_points, &attributes, Target::Picture)
+    plotter.pipeline::<Shape>("plot: shapes", SHAPES, entry_points, &attributes, Target::Picture)
 }

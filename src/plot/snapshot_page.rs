@@ -31,43 +31,35 @@ pub(super) fn check(
 
 /// What the colours of a picture mean.
 pub(super) enum Key<'a> {
-    Species {
-        names: &'a [String],
-        counts: Vec<u64>,
-        colours: Vec<Colour>,
-    },
-    /// Values on a scale, and whether some lie beyond its lower and its upper end.
-    Scale {
-        name: &'a str,
-        map: AxisMap,
-        beyond: [bool; 2],
-    },
+    /// The species of each particle or cell, by name.
+    Species { names: &'a [String], species: &'a [u32], counts: Vec<u64>, colours: Vec<Colour> },
+    /// The value of each on a scale, and whether some lie beyond its lower and its upper end.
+    Scale { name: &'a str, values: &'a [f64], map: AxisMap, beyond: [bool; 2] },
 }
 
 impl<'a> Key<'a> {
-    /// The species of particles, by name.
-    pub(super) fn species(names: &'a [String], species: &[u32], inks: &Inks) -> Self {
+    pub(super) fn species(names: &'a [String], species: &'a [u32], inks: &Inks) -> Self {
         let mut counts = vec![0; names.len()];
         for species in species {
             counts[*species as usize] += 1;
         }
-        Self::Species { names, counts, colours: species_colours(inks, names.len()) }
+        Self::Species { names, species, counts, colours: species_colours(inks, names.len()) }
     }
 
     /// Values on a scale from the first to the second end of a range.
-    pub(super) fn scale(name: &'a str, [low, high]: [f64; 2], values: &[f64]) -> Self {
+    pub(super) fn scale(name: &'a str, [low, high]: [f64; 2], values: &'a [f64]) -> Self {
         let any = |outside: &dyn Fn(f64) -> bool| values.iter().any(|value| value.is_finite() && outside(*value));
         // What an end rounds to does not lie beyond it.
         let slack = 1e-9 * (high - low);
         let beyond = [any(&|value| value < low - slack), any(&|value| value > high + slack)];
-        Self::Scale { name, map: AxisMap { scale: Scale::Linear, low, high }, beyond }
+        Self::Scale { name, values, map: AxisMap { scale: Scale::Linear, low, high }, beyond }
     }
 
-    /// The colour of a species; on a scale, that of its lower end.
-    pub(super) fn colour_of(&self, species: u32) -> Colour {
+    /// The colour of a particle or a cell; what has no place on a scale has that of its lower end.
+    pub(super) fn colour(&self, index: usize) -> Colour {
         match self {
-            Self::Species { colours, .. } => colours[species as usize % colours.len()],
-            Self::Scale { .. } => scale_colour(0.0),
+            Self::Species { species, colours, .. } => colours[species[index] as usize % colours.len()],
+            Self::Scale { values, map, .. } => scale_colour(map.fraction(values[index]).unwrap_or(0.0)),
         }
     }
 }
@@ -268,7 +260,7 @@ impl Page {
         let top = self.height - self.margin - self.footer_height(canvas, key) + self.gap;
         let style = self.text(inks.ink);
         match key {
-            Key::Species { names, counts, colours } => {
+            Key::Species { names, counts, colours, .. } => {
                 let mut species = 0;
                 let (size, rows) = self.legend(canvas, names, counts);
                 let style = Type { size, ..style };
@@ -286,7 +278,7 @@ impl Page {
                     }
                 }
             }
-            Key::Scale { name, map, beyond } => self.colour_bar(canvas, (name, map, *beyond), top, style),
+            Key::Scale { name, map, beyond, .. } => self.colour_bar(canvas, (name, map, *beyond), top, style),
         }
         self.scale_bar(canvas, top, outline, pixels_per_length, style);
     }

@@ -96,7 +96,7 @@ pub(super) struct Pictures<'a> {
     scene: &'a Scene,
     run: Id,
     ranges: ColourRanges,
-    plotter: Option<Plotter>,
+    plotter: Option<Plotter<'a>>,
     /// Names of the files written so far.
     written: Vec<String>,
     /// Arrays of the run so far; none where pictures alone are drawn again.
@@ -367,11 +367,11 @@ impl<'a> Pictures<'a> {
     fn draw(
         &mut self,
         name: &str,
-        draw: impl FnOnce(&Plotter) -> Result<RgbaImage, PlotError>,
+        draw: impl FnOnce(&Plotter<'_>) -> Result<RgbaImage, PlotError>,
     ) -> Result<(), RunError> {
         let plotter = match self.plotter.take() {
             Some(plotter) => Ok(plotter),
-            None => Plotter::new(self.gpu.device(), self.gpu.queue()),
+            None => Plotter::new(self.gpu),
         };
         let drawn = plotter.and_then(|plotter| draw(self.plotter.insert(plotter)));
         save(self.directory, name, self.run, drawn)?;

@@ -267,7 +267,7 @@ fn draw<R: Record>(
     proceed: &dyn Fn() -> Result<(), StudyError>,
 ) -> Result<Vec<String>, StudyError> {
     let charts = record.charts(request, place)?;
-    let plotter = Plotter::new(gpu.device(), gpu.queue());
+    let plotter = Plotter::new(gpu);
     let plotter = plotter.map_err(|source| RunError::Plot { name: "*.png".to_owned(), source })?;
     let mut written = Vec::new();
     for (name, chart) in charts {

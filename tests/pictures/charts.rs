@@ -536,7 +536,7 @@ fn a_picture_larger_than_a_tile_has_no_seams() {
 fn starting_cold_is_quick_enough_to_go_unnoticed() {
     let gpu = gpu();
     let start = Instant::now();
-    let plotter = Plotter::new(gpu.device(), gpu.queue()).unwrap();
+    let plotter = Plotter::new(gpu).unwrap();
     let built = start.elapsed();
     let chart = panel_chart(Panel::new("x", "y").with(Series::line("line", vec![[0.0, 0.0], [1.0, 1.0]])));
     let picture = plotter.draw_chart(&chart, &PlotStyle::default()).unwrap();

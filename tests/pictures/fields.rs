@@ -124,7 +124,7 @@ fn a_front_as_it_is_published() {
     };
     let light = draw("front", &picture, &PlotStyle::default());
     assert_eq!(light, plotter().draw_field(&picture, &PlotStyle::default()).unwrap(), "the same bytes twice");
-    let another = Plotter::new(gpu().device(), gpu().queue()).unwrap();
+    let another = Plotter::new(gpu()).unwrap();
     assert_eq!(light, another.draw_field(&picture, &PlotStyle::default()).unwrap());
     assert!((frames(&light).aspect() - 1.0).abs() < 2e-3);
     let margins = |picture: &RgbaImage| {

@@ -7,8 +7,8 @@ use mesoscope::plot::Plotter;
 
 use super::gpu;
 
-pub fn plotter() -> &'static Plotter {
-    static PLOTTER: LazyLock<Plotter> = LazyLock::new(|| Plotter::new(gpu().device(), gpu().queue()).unwrap());
+pub fn plotter() -> &'static Plotter<'static> {
+    static PLOTTER: LazyLock<Plotter<'static>> = LazyLock::new(|| Plotter::new(gpu()).unwrap());
     &PLOTTER
 }
 
