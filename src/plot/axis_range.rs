@@ -1,12 +1,9 @@
 //! From the data of panels to the ranges of their axes.
 
 use super::chart::{Axis, AxisFit, Panel, Scale, Series, SeriesStyle};
-use super::ticks::AxisMap;
+use super::ticks::{AxisMap, LARGEST, SMALLEST};
 use crate::numbers::short;
 
-/// Values beyond this cannot be distinguished from infinity once margins are added.
-const LARGEST: f64 = 1e300;
-const SMALLEST: f64 = 1e-300;
 /// Part of a panel at its start whose values do not set the range of a settled axis.
 const START: f64 = 0.1;
 /// Part of the settled values of a series at each end that may be outliers.
@@ -59,7 +56,7 @@ pub(super) fn prepare(panels: &[Panel]) -> Vec<Prepared<'_>> {
             let points = || panel.series.iter().flat_map(|series| &series.points);
             let settled = settled(panel);
             let y = match settled {
-                Some((range, _)) => AxisMap { scale: Scale::Linear, low: range[0], high: range[1] },
+                Some((range, _)) => AxisMap::linear(range[0], range[1]),
                 None => axis_map(&panel.y, y_values(panel), 0.05),
             };
             prepared.push(Prepared {
@@ -144,41 +141,24 @@ fn settled(panel: &Panel) -> Option<([f64; 2], [Option<f64>; 2])> {
 
 /// The range of an axis: as given, or from the data with a margin.
 fn axis_map(axis: &Axis, values: impl Iterator<Item = f64>, margin: f64) -> AxisMap {
+    if let Some(given) = AxisMap::given(axis.scale, axis.range) {
+        return given;
+    }
     let log = axis.scale == Scale::Log;
-    if let Some([low, high]) = axis.range
-        && low.abs() <= LARGEST
-        && high.abs() <= LARGEST
-        && high - low > 1e-12 * low.abs().max(high.abs())
-        && (!log || low >= SMALLEST)
-    {
-        return AxisMap { scale: axis.scale, low, high };
+    let (smallest, without_values) = if log { (SMALLEST, [1.0, 10.0]) } else { (-LARGEST, [0.0, 1.0]) };
+    let placed = values.filter(|value| value.is_finite() && (!log || *value > 0.0));
+    let extent = extent(placed.map(|value| value.clamp(smallest, LARGEST)));
+    if let (Some(extent), Scale::Linear) = (extent, axis.scale) {
+        return AxisMap::around(extent, margin);
     }
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for value in values.filter(|value| value.is_finite() && (!log || *value > 0.0)) {
-        let value = if log { value.clamp(SMALLEST, LARGEST) } else { value.clamp(-LARGEST, LARGEST) };
-        low = low.min(value);
-        high = high.max(value);
-    }
-    if low > high {
-        (low, high) = if log { (1.0, 10.0) } else { (0.0, 1.0) };
-    } else if log {
-        let ratio = high / low;
-        let grow = if ratio < 1.0 + 1e-9 { 2.0 } else { ratio.powf(margin) };
-        (low, high) = (low / grow, high * grow);
-    } else {
-        // A constant series gets a range in proportion to its value, so that its noise in the last digit stays invisible.
-        let span = high - low;
-        let constant = span <= 1e-11 * low.abs().max(high.abs()) || span < SMALLEST;
-        let grow = if !constant {
-            margin * span
-        } else if low.abs() < SMALLEST {
-            1.0
-        } else {
-            0.1 * low.abs()
-        };
-        (low, high) = (low - grow, high + grow);
-    }
-    AxisMap { scale: axis.scale, low, high }
+    let [low, high] = extent.unwrap_or(without_values);
+    let ratio = high / low;
+    let grow = match extent {
+        None => 1.0,
+        Some(_) if ratio < 1.0 + 1e-9 => 2.0,
+        Some(_) => ratio.powf(margin),
+    };
+    AxisMap { scale: axis.scale, low: low / grow, high: high * grow }
 }
 
 #[cfg(test)]

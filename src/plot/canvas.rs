@@ -1,8 +1,9 @@
 //! The list of shapes that make up a picture, in the order in which they are painted. Pure data: no device needed.
 
 use super::error::PlotError;
-use super::palette::{Colour, Inks};
+use super::palette::{Colour, Inks, inks};
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Typesetter, Weight};
+use crate::scene::Theme;
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
 
@@ -98,7 +99,7 @@ pub(super) struct Batch {
 pub(super) struct Canvas {
     pub width: u32,
     pub height: u32,
-    pub paper: Colour,
+    pub inks: Inks,
     pub shapes: Vec<Shape>,
     pub batches: Vec<Batch>,
     /// Batches painted before the particles of a snapshot or the image of a field.
@@ -109,10 +110,10 @@ pub(super) struct Canvas {
 impl Canvas {
     /// # Errors
     /// [`PlotError::Font`] if an embedded font cannot be read.
-    pub(super) fn new(width: u32, height: u32, paper: Colour) -> Result<Self, PlotError> {
+    pub(super) fn new(width: u32, height: u32, theme: Theme) -> Result<Self, PlotError> {
         let typesetter = Typesetter::new()?;
         let batches = vec![Batch { shapes: 0..0, clip: None }];
-        Ok(Self { width, height, paper, shapes: Vec::new(), batches, background: 0, typesetter })
+        Ok(Self { width, height, inks: inks(theme), shapes: Vec::new(), batches, background: 0, typesetter })
     }
 
     /// What follows is painted only inside this area.
@@ -194,16 +195,20 @@ impl Canvas {
         self.text(text, [at[0], at[1] + 0.5 * CAPITAL_HEIGHT * style.size], anchor, style);
     }
 
-    /// The headings of a page in lines of a width: a title of two lines at most, and notes below it of so many, of these sizes.
+    /// The headings of a page in lines of a width: a title of two lines at most, and notes below it; `sizes` are those of the
+    /// two, `most` is the number of lines that notes may take.
     pub(super) fn headings(
         &self,
-        (title, title_size): (&str, f64),
-        (notes, size, most): (&str, f64, usize),
-        inks: &Inks,
+        title: &str,
+        mut notes: Vec<String>,
+        sizes: [f64; 2],
+        most: usize,
         width: f64,
     ) -> Vec<Heading> {
-        let title = (title, Type { size: title_size, weight: Weight::SemiBold, colour: inks.ink }, 2);
-        let notes = (notes, Type { size, weight: Weight::Regular, colour: inks.muted }, most);
+        notes.retain(|note| !note.is_empty());
+        let title = (title, Type { size: sizes[0], weight: Weight::SemiBold, colour: self.inks.ink }, 2);
+        let notes =
+            (&*notes.join("; "), Type { size: sizes[1], weight: Weight::Regular, colour: self.inks.muted }, most);
         let lines = |(text, style, most): (&str, Type, usize)| {
             let lines = self.typesetter.wrap(text, style.weight, style.size, width, most);
             lines.into_iter().map(move |text| Heading { text, style })

@@ -1,7 +1,7 @@
 //! The charts of Voronoi DPD, made from the tables of a run.
 
 use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
-use super::points::{pairs, since_first, steps};
+use super::points::{highest, pairs, since_first, steps};
 use super::quantities::{Averages, TEMPERATURE, TIME, panel, series};
 use crate::table::Table;
 
@@ -51,7 +51,6 @@ pub fn energetic_cells_chart(title: &str, table: &Table, particle_count: u64, av
 pub fn neighbours_chart(title: &str, table: &Table) -> Chart {
     let [numbers, fractions, errors, random] =
         ["neighbours", "fraction", "fraction_error", "random_points"].map(|name| table.values(name));
-    let highest = fractions.iter().chain(&random).copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
     let mut outline = steps(numbers.iter().zip(&fractions).map(|(n, f)| ([n - 0.5, n + 0.5], *f)));
     // From the axis and back to it.
     if let (Some([left, _]), Some([right, _])) = (outline.first().copied(), outline.last().copied()) {
@@ -69,7 +68,7 @@ pub fn neighbours_chart(title: &str, table: &Table) -> Chart {
             .with_ink(SeriesInk::Ink { pattern: 0 });
         panel.series.push(bars);
     }
-    let top = 1.08 * highest.max(1e-9);
+    let top = 1.08 * highest(fractions.iter().chain(&random).copied()).max(1e-9);
     panel.series.push(Series::compared("mean of every tessellation, 6", vec![[6.0, 0.0], [6.0, top]]));
     panel.y.range = Some([0.0, top]);
     let subtitle = format!("mean {mean:.4}, variance {:.3}; 1.78 for random points", square - mean * mean);
@@ -100,17 +99,15 @@ pub fn shear_wave_chart(title: &str, subtitle: &str, fit_name: &str, table: &Tab
     let magnitude = amplitude.iter().map(|[time, value]| [*time, value.abs()]).collect();
     let mut panels = Vec::new();
     for (label, points) in [("Amplitude of the velocity (length units/time unit)", amplitude), (MAGNITUDE, magnitude)] {
-        // One legend is enough.
-        let name = |name: &str| if panels.is_empty() { name.to_owned() } else { String::new() };
-        let mut panel = Panel::new(TIME, label).with(Series::line(&name("measured"), points));
+        let mut panel = Panel::new(TIME, label).with(Series::line("measured", points));
         if fitted {
-            panel.series.push(Series::compared(&name(fit_name), fit.clone()));
+            panel.series.push(Series::compared(fit_name, fit.clone()));
         }
         panels.push(panel);
     }
     panels[0].references.push(super::chart::ReferenceLine { label: String::new(), value: 0.0 });
     panels[1].y = Axis::log(MAGNITUDE);
-    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }
+    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }.with_one_legend()
 }
 
 #[cfg(test)]

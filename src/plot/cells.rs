@@ -1,9 +1,8 @@
 //! Pictures of Voronoi cells: what is shown, and its layout around the view of the box.
 
 use super::canvas::{Area, Canvas};
-use super::color_map::{ColorMap, ColorScale};
 use super::error::PlotError;
-use super::palette::inks;
+use super::periodic;
 use super::snapshot_page::{Key, Page, check};
 use crate::scene::{Snapshot, Theme};
 use crate::tessellation::Tessellation;
@@ -56,27 +55,21 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
     let values = picture.shown.map_or(count, |shown| shown.values.len());
     let lists = [(picture.tessellation.cells.len(), "cells"), (picture.species.len(), "species"), (values, "values")];
     check(count, &lists, (picture.species, picture.species_names), &picture.lengths)?;
-    let inks = inks(theme);
     let page = Page::new(style, picture.lengths);
     let [width, height] = page.pixels();
-    let mut canvas = Canvas::new(width, height, inks.paper)?;
-    let (fitting, cut) = picture.shown.map_or(([0.0, 1.0], false), |shown| range(shown.values));
-    let given = style.range.or(cut.then_some(fitting));
-    let scale = ColorScale::new(ColorMap::Sequential, given, Some(fitting));
-    let beyond = |value: &f64| value.is_finite() && !(scale.bar.low..=scale.bar.high).contains(value);
-    let beyond = picture.shown.map_or(0, |shown| shown.values.iter().filter(|value| beyond(value)).count());
-    // In a film this would flicker; the arrowheads of the scale say it there.
-    let subtitle = match (beyond, picture.subtitle) {
-        (0, subtitle) => subtitle.to_owned(),
-        (_, subtitle) if style.range.is_some() => subtitle.to_owned(),
-        (count, "") => format!("{count} cells are beyond the scale"),
-        (count, subtitle) => format!("{subtitle}; {count} cells are beyond the scale"),
-    };
+    let mut canvas = Canvas::new(width, height, theme)?;
     let key = match picture.shown {
-        Some(shown) => Key::scale(shown.label, [scale.bar.low, scale.bar.high], shown.values),
-        None => Key::species(picture.species_names, picture.species, &inks),
+        Some(ShownValues { label, values }) => Key::scale(label, style.range, fitting_range(values), values),
+        None => Key::species(picture.species_names, picture.species, &canvas.inks),
     };
-    let frame = page.frame(&mut canvas, [picture.title, &subtitle], &key, &inks);
+    let mut notes = vec![picture.subtitle.to_owned()];
+    // In a film this would flicker; the arrowheads of the scale say it there.
+    if let (Key::Scale { values, map, .. }, None) = (&key, style.range) {
+        let beyond = |value: &&f64| value.is_finite() && !(map.low..=map.high).contains(*value);
+        let count = values.iter().filter(beyond).count();
+        notes.extend((count > 0).then(|| format!("{count} cells are beyond the scale")));
+    }
+    let frame = page.frame(&mut canvas, picture.title, notes, &key);
     let [width, height] = picture.lengths;
     let rule = page.rule;
     let pixels_per_length =
@@ -87,12 +80,12 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
     canvas.clip(None);
     let corners = outline.corners();
     for (number, from) in corners.iter().enumerate() {
-        canvas.line(*from, corners[(number + 1) % corners.len()], rule, inks.ink);
+        canvas.line(*from, corners[(number + 1) % corners.len()], rule, canvas.inks.ink);
     }
     let corner = [outline.left, outline.bottom];
-    page.edge_length(&mut canvas, ("x", width), [corner, [outline.right, outline.bottom]], &inks);
-    page.edge_length(&mut canvas, ("y", height), [corner, [outline.left, outline.top]], &inks);
-    page.footer(&mut canvas, &key, &inks, outline, pixels_per_length);
+    page.edge_length(&mut canvas, "x", width, [corner, [outline.right, outline.bottom]]);
+    page.edge_length(&mut canvas, "y", height, [corner, [outline.left, outline.top]]);
+    page.footer(&mut canvas, &key, outline, pixels_per_length);
     Ok(canvas)
 }
 
@@ -124,7 +117,7 @@ fn draw(canvas: &mut Canvas, picture: &CellPicture<'_>, origin: [f64; 2], pixels
             let corner = |[x, y]: [f64; 2]| pixel([place[0] + x, place[1] + y]);
             for (number, _) in cell.faces.iter().enumerate().filter(|(_, face)| own(face)) {
                 let next = (number + 1) % cell.corners.len();
-                canvas.line(corner(cell.corners[number]), corner(cell.corners[next]), width, canvas.paper);
+                canvas.line(corner(cell.corners[number]), corner(cell.corners[next]), width, canvas.inks.paper);
             }
         }
     }
@@ -132,29 +125,25 @@ fn draw(canvas: &mut Canvas, picture: &CellPicture<'_>, origin: [f64; 2], pixels
 
 /// The places of all images of a cell of which a part is in the box.
 fn images(picture: &CellPicture<'_>, index: usize) -> Vec<[f64; 2]> {
-    let place = picture.positions[index];
-    let shifts = [0, 1].map(|axis| {
-        let parts = picture.tessellation.cells[index].corners.iter().map(|corner| place[axis] + corner[axis]);
-        let [low, high] =
-            parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], part| [low.min(part), high.max(part)]);
-        let length = picture.lengths[axis];
-        // A cell is no wider than the box.
-        let seen = move |turns: &f64| high + turns * length > 0.0 && low + turns * length < length;
-        [-1.0, 0.0, 1.0].into_iter().filter(seen).map(|turns| turns * length).collect::<Vec<f64>>()
+    let [x, y] = picture.positions[index];
+    let corners = &picture.tessellation.cells[index].corners;
+    let reach = [0, 1].map(|axis| {
+        let parts = corners.iter().map(|corner| picture.positions[index][axis] + corner[axis]);
+        parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], part| [low.min(part), high.max(part)])
     });
-    let [x, y] = &shifts;
-    x.iter().flat_map(|x| y.iter().map(move |y| [place[0] + x, place[1] + y])).collect()
+    // A cell is no wider than the box.
+    periodic::images(reach, picture.lengths).into_iter().map(|shift| [x + shift[0], y + shift[1]]).collect()
 }
 
-/// Ends of the scale for values, and whether some lie beyond.
-fn range(values: &[f64]) -> ([f64; 2], bool) {
+/// Ends of the scale that fits values, a few of which may lie beyond.
+fn fitting_range(values: &[f64]) -> [f64; 2] {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
     sorted.sort_unstable_by(f64::total_cmp);
-    let (Some(low), Some(high)) = (sorted.first(), sorted.last()) else { return ([0.0, 1.0], false) };
+    let (Some(low), Some(high)) = (sorted.first(), sorted.last()) else { return [0.0, 1.0] };
     let left = (BEYOND * sorted.len() as f64) as usize;
     let inner = [sorted[left], sorted[sorted.len() - 1 - left]];
     let cut = left > 0 && high - low > MUCH_LONGER * (inner[1] - inner[0]) && inner[1] > inner[0];
-    (if cut { inner } else { [*low, *high] }, cut)
+    if cut { inner } else { [*low, *high] }
 }
 
 #[cfg(test)]
@@ -215,12 +204,12 @@ mod tests {
     #[test]
     fn a_few_extreme_cells_do_not_set_the_scale() {
         let mut values: Vec<f64> = (0..1000).map(|index| 1.0 + 1e-3 * f64::from(index)).collect();
-        assert_eq!(range(&values), ([1.0, 1.999], false));
+        assert_eq!(fitting_range(&values), [1.0, 1.999]);
         values[3] = 1e6;
-        let (ends, cut) = range(&values);
-        assert!(cut && ends[1] < 2.0 && ends[0] < 1.01, "{ends:?}");
-        assert_eq!(range(&[f64::NAN]), ([0.0, 1.0], false));
-        assert_eq!(range(&[1.0, 1e6]), ([1.0, 1e6], false), "few cells");
+        let ends = fitting_range(&values);
+        assert!(ends[1] < 2.0 && ends[0] < 1.01, "{ends:?}");
+        assert_eq!(fitting_range(&[f64::NAN]), [0.0, 1.0]);
+        assert_eq!(fitting_range(&[1.0, 1e6]), [1.0, 1e6], "few cells");
     }
 
     #[test]

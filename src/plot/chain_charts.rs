@@ -1,7 +1,7 @@
 //! The charts of harmonic chains, made from the tables of a run.
 
 use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
-use super::points::pairs;
+use super::points::{highest, pairs};
 use crate::numbers::short;
 use crate::table::Table;
 
@@ -54,25 +54,19 @@ fn compared(table: &Table, quantity: &str) -> Vec<Series> {
 /// ```
 #[must_use]
 pub fn chain_profile_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
-    let mut chart = Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: Vec::new() };
-    let taus = table.values("tau");
-    let (clusters, all): (Vec<f64>, Vec<Vec<[f64; 2]>>) =
-        (table.values("cluster"), CHAINS.iter().map(|(chain, _)| points(table, "cluster", chain)).collect());
-    let last = clusters.iter().copied().fold(0.0, f64::max);
+    let last = highest(table.values("cluster"));
+    let lines = CHAINS.map(|(chain, name)| (name, points(table, "cluster", chain)));
+    let mut panels = Vec::new();
     let mut first = 0;
-    for moment in taus.chunk_by(|a, b| a == b) {
+    for moment in table.values("tau").chunk_by(|a, b| a == b) {
         let range = first..first + moment.len();
         first = range.end;
         let mut panel = Panel::new("Number of the cluster", &format!("X/X_{{0}} at τ = {}", short(moment[0])));
         panel.x.range = Some([0.0, last]);
-        for (points, (_, name)) in all.iter().zip(CHAINS) {
-            // One legend is enough.
-            let name = if chart.panels.is_empty() { name } else { "" };
-            panel.series.push(Series::line(name, points[range.clone()].to_vec()));
-        }
-        chart.panels.push(panel);
+        panel.series.extend(lines.iter().map(|(name, points)| Series::line(name, points[range.clone()].to_vec())));
+        panels.push(panel);
     }
-    chart
+    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }.with_one_legend()
 }
 
 /// Peak and variance of the halves of a pulse, and the energy of its clusters, over time.
@@ -104,11 +98,7 @@ pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
         panel("energy", "Energy relative to the first"),
     ];
     panels[2].y.range = Some([0.0, 1.1]);
-    // One legend is enough.
-    for series in panels[1..].iter_mut().flat_map(|panel| &mut panel.series) {
-        series.name.clear();
-    }
-    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }
+    Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }.with_one_legend()
 }
 
 /// The autocorrelation of the momentum of a cluster.
@@ -151,21 +141,16 @@ pub fn chain_correlation_chart(title: &str, subtitle: &str, table: &Table) -> Ch
 /// ```
 #[must_use]
 pub fn chain_memory_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
-    let label = "Running integral (n/2) ∫ K as a friction γ*";
-    let mut panel = Panel::new("ω_{0}t", label);
+    let mut panel = Panel::new("", "Running integral (n/2) ∫ K as a friction γ*");
     panel.x = Axis::log("Time ω_{0}t");
-    let sizes: Vec<&str> = table.columns.iter().filter_map(|name| name.strip_prefix("running_friction_")).collect();
-    for size in &sizes {
-        let line = points(table, "time", &format!("running_friction_{size}"));
-        let line = line.into_iter().filter(|point| point[0] > 0.0).collect();
-        panel.series.push(Series::line(&format!("n = {size}"), line));
+    let line = |column: &str| points(table, "time", column).into_iter().filter(|point| point[0] > 0.0).collect();
+    for (column, size) in table.columns.iter().filter_map(|name| Some((name, name.strip_prefix("running_friction_")?)))
+    {
+        panel.series.push(Series::line(&format!("n = {size}"), line(column)));
     }
-    for name in table.columns.iter().filter(|name| name.starts_with("plateau_")) {
-        let line = points(table, "time", name);
-        let height = line.first().map_or(f64::NAN, |point| point[1]);
-        let line = line.into_iter().filter(|point| point[0] > 0.0).collect();
-        let name = format!("plateau, from γ* = {height:.3}");
-        panel.series.push(Series::compared(&name, line));
+    for column in table.columns.iter().filter(|name| name.starts_with("plateau_")) {
+        let height = table.values(column).first().copied().unwrap_or(f64::NAN);
+        panel.series.push(Series::compared(&format!("plateau, from γ* = {height:.3}"), line(column)));
     }
     let panel = panel.with_reference("γ* = ½", 0.5).with_reference("over all times: 0", 0.0);
     Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel] }
@@ -197,8 +182,6 @@ pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &Table) -> Ch
     let momenta = momenta.with_reference("exact", 1.0);
     let mut separations = Panel::new(REDUCED_TIME, "var(X_{μ+1} − X_{μ}) κ/nkT");
     separations.series = lines("separation_variance");
-    // One legend is enough.
-    separations.series.iter_mut().for_each(|series| series.name.clear());
     for (chain, name) in [("micro", "exact, beads"), ("dpd", "exact, clusters")] {
         let exact = table.values(&format!("{chain}_exact_separation_variance"));
         if let Some(value) = exact.first() {
@@ -206,6 +189,7 @@ pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &Table) -> Ch
         }
     }
     Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![momenta, separations] }
+        .with_one_legend()
 }
 
 #[cfg(test)]

@@ -14,6 +14,22 @@ pub struct Chart {
     pub panels: Vec<Panel>,
 }
 
+impl Chart {
+    /// A chart of those panels that have a series.
+    pub(super) fn of_found(title: &str, subtitle: &str, panels: impl IntoIterator<Item = Panel>) -> Self {
+        let panels = panels.into_iter().filter(|panel| !panel.series.is_empty()).collect();
+        Self { title: title.to_owned(), subtitle: subtitle.to_owned(), panels }
+    }
+
+    /// The chart with a legend in its first panel alone, where all have the same.
+    pub(super) fn with_one_legend(mut self) -> Self {
+        for series in self.panels.iter_mut().skip(1).flat_map(|panel| &mut panel.series) {
+            series.name.clear();
+        }
+        self
+    }
+}
+
 /// One coordinate system.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Panel {
@@ -34,6 +50,12 @@ impl Panel {
     #[must_use]
     pub fn new(x: &str, y: &str) -> Self {
         Self { x: Axis::linear(x), y: Axis::linear(y), ..Self::default() }
+    }
+
+    /// The panel with a y axis for what its series come to after the start.
+    pub(super) fn settled(mut self) -> Self {
+        self.y.fit = AxisFit::Settled;
+        self
     }
 
     /// The panel with one more series.

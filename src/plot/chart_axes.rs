@@ -44,7 +44,7 @@ impl Layout<'_> {
     pub(super) fn grid(&mut self, place: &Placed) {
         let area = place.area;
         let rule = 0.7 * self.sizes.rule;
-        let grid = self.inks.grid;
+        let grid = self.canvas.inks.grid;
         for (value, _) in &place.x_ticks.major {
             if let Some(x) = place.x_pixel(*value) {
                 self.canvas.vertical_rule(x, area.top, area.bottom, rule, grid);
@@ -59,7 +59,7 @@ impl Layout<'_> {
 
     pub(super) fn axes(&mut self, index: usize, place: &Placed) {
         let Sizes { label, gap, rule, .. } = self.sizes;
-        let (area, ink) = (place.area, self.inks.ink);
+        let (area, ink) = (place.area, self.canvas.inks.ink);
         let style = self.text_style(ink);
         let half = 0.5 * rule;
         self.canvas.vertical_rule(area.left, area.top, area.bottom + half, rule, ink);
@@ -106,7 +106,7 @@ impl Layout<'_> {
             self.canvas.text(&shortened, [x, baseline], Anchor::Middle, style);
         }
         if !self.prepared[index].has_data {
-            let style = self.text_style(self.inks.muted);
+            let style = self.text_style(self.canvas.inks.muted);
             // Without data a reference is in the middle; between it and the next rule there is room.
             let below = if self.prepared[index].panel.references.is_empty() { 0.0 } else { 0.125 * area.height() };
             let [x, y] = area.centre();
@@ -117,7 +117,7 @@ impl Layout<'_> {
     pub(super) fn y_labels(&mut self, placed: &[Placed], margin: f64) {
         // All panels are of one height.
         let size = placed.first().map_or(self.sizes.label, |place| self.y_label_size(place.area.height()));
-        let style = Type { size, ..self.text_style(self.inks.ink) };
+        let style = Type { size, ..self.text_style(self.canvas.inks.ink) };
         let line = LINE_HEIGHT * style.size;
         let most = placed
             .iter()

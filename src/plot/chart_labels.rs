@@ -27,9 +27,8 @@ impl Layout<'_> {
             .filter_map(|point| place.pixel(*point))
             .filter(|point| place.area.contains(*point))
             .collect();
-        let square =
-            |[x, y]: [f64; 2]| Area { left: x - radius, top: y - radius, right: x + radius, bottom: y + radius };
-        let mut taken: Vec<Area> = points.iter().copied().map(square).chain(legend).collect();
+        let square = |point: &[f64; 2]| Area::around(*point, [2.0 * radius; 2]);
+        let mut taken: Vec<Area> = points.iter().map(square).chain(legend).collect();
         let mut lines = self.obstacles(index, place);
         let size = SIZE * self.sizes.label;
         for (number, series) in panel.series.iter().enumerate() {
@@ -69,48 +68,28 @@ fn free_spot(
     inside: &Area,
 ) -> Option<(Area, Option<Segment>)> {
     let is_free = |spot: &Area| {
-        let within = spot.left >= inside.left
-            && spot.right <= inside.right
-            && spot.top >= inside.top
-            && spot.bottom <= inside.bottom;
+        let within = inside.contains([spot.left, spot.top]) && inside.contains([spot.right, spot.bottom]);
         let crossed = || lines.iter().any(|(from, to)| clipped(*from, *to, spot).is_some());
         within && !taken.iter().any(|other| overlap(spot, other)) && !crossed()
     };
-    let beside = beside(at, [width, height], radius).into_iter().find(is_free).map(|spot| (spot, None));
+    let [wide, high] = [radius + 0.5 * width, radius + 0.5 * height];
+    let corners = [[wide, -radius], [wide, radius], [-wide, -radius], [-wide, radius]];
+    let beside = [[wide, 0.0], [-wide, 0.0], [0.0, -high], [0.0, high]].into_iter().chain(corners);
+    let at_offset = |[x, y]: [f64; 2]| Area::around([at[0] + x, at[1] + y], [width, height]);
+    let beside = beside.map(at_offset).find(is_free).map(|spot| (spot, None));
     let away = || {
         (1..=FARTHEST).flat_map(|distance| (0..DIRECTIONS).map(move |turn| (distance, turn))).find_map(
             |(distance, turn)| {
                 let (sine, cosine) = (std::f64::consts::TAU * f64::from(turn) / f64::from(DIRECTIONS)).sin_cos();
                 let reach = radius + height * f64::from(distance);
-                let centre = [at[0] + cosine * (reach + 0.5 * width), at[1] + sine * (reach + 0.5 * height)];
-                let [left, top] = [centre[0] - 0.5 * width, centre[1] - 0.5 * height];
-                let spot = Area { left, top, right: left + width, bottom: top + height };
+                let spot = at_offset([cosine * (reach + 0.5 * width), sine * (reach + 0.5 * height)]);
                 let end = [at[0].clamp(spot.left, spot.right), at[1].clamp(spot.top, spot.bottom)];
-                let leader = (at, end);
                 let is_clear = || taken.iter().all(|other| other.contains(at) || clipped(at, end, other).is_none());
-                (is_free(&spot) && is_clear()).then_some((spot, Some(leader)))
+                (is_free(&spot) && is_clear()).then_some((spot, Some((at, end))))
             },
         )
     };
     beside.or_else(away)
-}
-
-/// The places that touch a point: right, left, above, below and between.
-fn beside([x, y]: [f64; 2], [width, height]: [f64; 2], radius: f64) -> [Area; 8] {
-    let area = |left: f64, top: f64| Area { left, top, right: left + width, bottom: top + height };
-    let (middle, centre) = (y - 0.5 * height, x - 0.5 * width);
-    let [higher, lower] = [y - radius - 0.5 * height, y + radius - 0.5 * height];
-    let [right, left] = [x + radius, x - radius - width];
-    [
-        area(right, middle),
-        area(left, middle),
-        area(centre, y - radius - height),
-        area(centre, y + radius),
-        area(right, higher),
-        area(right, lower),
-        area(left, higher),
-        area(left, lower),
-    ]
 }
 
 fn overlap(a: &Area, b: &Area) -> bool {

@@ -2,14 +2,14 @@
 
 use super::axis_range::{Prepared, prepare};
 use super::canvas::{Anchor, Area, Canvas, Type};
-use super::chart::{Chart, Scale, SeriesStyle};
+use super::chart::{Chart, SeriesStyle};
 use super::error::PlotError;
-use super::palette::{Colour, Inks, inks};
+use super::palette::Colour;
 use super::series_path::{length, runs, thinned};
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
 use super::ticks::{AxisMap, Ticks, ticks, ticks_along};
 use crate::numbers::grouped;
-use crate::scene::{PlotStyle, Theme};
+use crate::scene::PlotStyle;
 
 /// Sizes in pixels, all in proportion to the picture.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +49,7 @@ pub(super) struct Placed {
 impl Placed {
     /// An area without a coordinate system.
     pub(super) fn empty(area: Area) -> Self {
-        let unit = AxisMap { scale: Scale::Linear, low: 0.0, high: 1.0 };
+        let unit = AxisMap::linear(0.0, 1.0);
         Self { area, x: unit, y: unit, x_ticks: Ticks::default(), y_ticks: Ticks::default() }
     }
 
@@ -88,11 +88,8 @@ pub(super) fn lay_out(chart: &Chart, style: &PlotStyle) -> Result<Canvas, PlotEr
             return Err(PlotError::Input(format!("series `{}` has {points} points but {errors} errors", series.name)));
         }
     }
-    let inks = inks(style.theme);
     let mut layout = Layout {
-        canvas: Canvas::new(style.width, style.height(), inks.paper)?,
-        inks,
-        theme: style.theme,
+        canvas: Canvas::new(style.width, style.height(), style.theme)?,
         sizes: Sizes::new(style, chart.panels.len()),
         prepared: prepare(&chart.panels),
         rough: false,
@@ -104,8 +101,6 @@ pub(super) fn lay_out(chart: &Chart, style: &PlotStyle) -> Result<Canvas, PlotEr
 
 pub(super) struct Layout<'a> {
     pub(super) canvas: Canvas,
-    pub(super) inks: Inks,
-    pub(super) theme: Theme,
     pub(super) sizes: Sizes,
     pub(super) prepared: Vec<Prepared<'a>>,
     /// Lines of the chart are too jagged for dashes; known once the panels have their places.
@@ -123,7 +118,7 @@ impl Layout<'_> {
         let (width, height) = (f64::from(self.canvas.width), f64::from(self.canvas.height));
         let frame = Area { left: margin, top, right: width - margin, bottom: height - margin };
         if self.prepared.is_empty() {
-            let style = self.text_style(self.inks.muted);
+            let style = self.text_style(self.canvas.inks.muted);
             self.canvas.text_centred("no data", frame.centre(), Anchor::Middle, style);
             return;
         }
@@ -131,7 +126,7 @@ impl Layout<'_> {
         let mut placed = self.place(frame);
         let mut corners: Vec<Option<Area>> =
             (0..self.prepared.len()).map(|index| self.legend_spot(index, &placed[index])).collect();
-        let above = (0..self.prepared.len()).any(|index| self.has_legend(index) && corners[index].is_none());
+        let above = (0..self.prepared.len()).any(|index| !self.entries(index).is_empty() && corners[index].is_none());
         if above {
             self.legends_above = true;
             placed = self.place(frame);
@@ -155,22 +150,19 @@ impl Layout<'_> {
 
     /// Title and subtitle; returns where the panels may start.
     fn headings(&mut self, chart: &Chart, margin: f64) -> f64 {
-        let mut notes = chart.subtitle.clone();
+        let mut notes = vec![chart.subtitle.clone()];
         let left_out: usize = self.prepared.iter().map(|prepared| prepared.left_out).sum();
         if left_out > 0 {
-            let plural = if left_out == 1 { "value" } else { "values" };
-            let separator = if notes.is_empty() { "" } else { "; " };
-            let count = grouped(left_out as u64);
-            notes = format!("{notes}{separator}{count} {plural} ≤ 0 left out of a logarithmic axis");
+            let (count, plural) = (grouped(left_out as u64), if left_out == 1 { "value" } else { "values" });
+            notes.push(format!("{count} {plural} ≤ 0 left out of a logarithmic axis"));
         }
         let beyond: Vec<String> = self.prepared.iter().filter_map(Prepared::beyond_note).collect();
         if !beyond.is_empty() {
-            let separator = if notes.is_empty() { "" } else { "; " };
-            notes = format!("{notes}{separator}off the scale: {}", beyond.join(", "));
+            notes.push(format!("off the scale: {}", beyond.join(", ")));
         }
         let Sizes { title, label, gap, .. } = self.sizes;
         let width = f64::from(self.canvas.width) - 2.0 * margin;
-        let headings = self.canvas.headings((&chart.title, title), (&notes, label, 3), &self.inks, width);
+        let headings = self.canvas.headings(&chart.title, notes, [title, label], 3, width);
         self.canvas.write_headings(&headings, [margin; 2]) + gap
     }
 
@@ -203,9 +195,11 @@ impl Layout<'_> {
             .map(|(index, prepared)| below(prepared) + rows(index, &rough[index]))
             .sum();
         let height = ((frame.height() - fixed) / count).max(4.0);
-        let named = |names: &[String], room: f64| Ticks {
-            major: names.iter().enumerate().map(|(at, name)| (at as f64, shortened(name, room, &text_width))).collect(),
-            ..Ticks::default()
+        let named = |names: &[String], room: f64| {
+            let shortened = names.iter().map(|name| setter.shorten(name, Weight::Regular, label, room));
+            // Where there is no room for an ellipsis either, there is no name.
+            let shown = shortened.map(|name| if text_width(&name) <= room { name } else { String::new() });
+            Ticks { major: shown.enumerate().map(|(at, name)| (at as f64, name)).collect(), ..Ticks::default() }
         };
         let of_y = |prepared: &Prepared<'_>| match prepared.panel.y.categories.as_slice() {
             [] => ticks(&prepared.y, y_count(height)),
@@ -252,21 +246,6 @@ impl Layout<'_> {
         }
         placed
     }
-}
-
-/// A name cut to a width, with an ellipsis where something is missing.
-fn shortened(name: &str, room: f64, width: &dyn Fn(&str) -> f64) -> String {
-    if width(name) <= room {
-        return name.to_owned();
-    }
-    let mut kept: String = name.to_owned();
-    while kept.pop().is_some() {
-        let text = format!("{}…", kept.trim_end());
-        if width(&text) <= room {
-            return text;
-        }
-    }
-    String::new()
 }
 
 /// Whether a line of the panel goes up and down so much that dashes could not be distinguished from noise.

@@ -31,6 +31,7 @@ fn entry_text(series: &Series) -> String {
 }
 
 impl Layout<'_> {
+    /// The legend of a panel, which may need none.
     pub(super) fn entries(&self, index: usize) -> Vec<Entry> {
         let panel = self.prepared[index].panel;
         let series = panel.series.iter().enumerate().map(|(number, series)| Entry {
@@ -41,15 +42,12 @@ impl Layout<'_> {
         let references = panel.references.iter().enumerate().map(|(number, reference)| Entry {
             text: reference.label.clone(),
             style: None,
-            look: reference_look(number, panel, &self.inks),
+            look: reference_look(number, panel, &self.canvas.inks),
         });
-        series.chain(references).filter(|entry| !entry.text.is_empty()).collect()
-    }
-
-    /// A legend of one entry says no more than the axis, unless it holds a mean.
-    pub(super) fn has_legend(&self, index: usize) -> bool {
-        let means = self.prepared[index].panel.series.iter().any(|series| series.mean.is_some());
-        self.entries(index).len() > usize::from(!means)
+        let entries: Vec<Entry> = series.chain(references).filter(|entry| !entry.text.is_empty()).collect();
+        // A legend of one entry says no more than the axis, unless it holds a mean.
+        let means = panel.series.iter().any(|series| series.mean.is_some());
+        if entries.len() > usize::from(!means) { entries } else { Vec::new() }
     }
 
     fn sample_width(&self) -> f64 {
@@ -68,7 +66,7 @@ impl Layout<'_> {
     /// The emptiest place inside a panel that its legend fits into without touching data; corners are preferred.
     pub(super) fn legend_spot(&self, index: usize, place: &Placed) -> Option<Area> {
         let entries = self.entries(index);
-        if !self.has_legend(index) {
+        if entries.is_empty() {
             return None;
         }
         let gap = self.sizes.gap;
@@ -121,30 +119,28 @@ impl Layout<'_> {
 
     pub(super) fn legend_inside(&mut self, index: usize, spot: Area) {
         let gap = self.sizes.gap;
-        self.canvas.rectangle(spot, with_alpha(self.inks.paper, 215));
-        for number in 0..self.entries(index).len() {
+        self.canvas.rectangle(spot, with_alpha(self.canvas.inks.paper, 215));
+        for (number, entry) in self.entries(index).into_iter().enumerate() {
             let y = spot.top + 0.5 * gap + (number as f64 + 0.5) * self.legend_line();
-            self.legend_entry(index, number, [spot.left + 0.8 * gap, y]);
+            self.legend_entry(index, entry, [spot.left + 0.8 * gap, y]);
         }
     }
 
-    /// How many entries go into each row of a legend of this width.
-    pub(super) fn legend_rows(&self, index: usize, width: f64) -> Vec<usize> {
-        let entries = self.entries(index);
-        let mut rows = Vec::new();
-        if !self.has_legend(index) {
-            return rows;
-        }
+    /// The entries of a legend, in rows of this width.
+    pub(super) fn legend_rows(&self, index: usize, width: f64) -> Vec<Vec<Entry>> {
+        let mut rows: Vec<Vec<Entry>> = Vec::new();
         let mut used = f64::INFINITY;
-        for entry in &entries {
-            let needed = self.entry_width(entry) + 2.0 * self.sizes.gap;
-            if used + needed > width {
-                rows.push(0);
-                used = 0.0;
-            }
-            used += needed;
-            if let Some(last) = rows.last_mut() {
-                *last += 1;
+        for entry in self.entries(index) {
+            let needed = self.entry_width(&entry) + 2.0 * self.sizes.gap;
+            match rows.last_mut().filter(|_| used + needed <= width) {
+                Some(row) => {
+                    row.push(entry);
+                    used += needed;
+                }
+                None => {
+                    rows.push(vec![entry]);
+                    used = needed;
+                }
             }
         }
         rows
@@ -153,26 +149,21 @@ impl Layout<'_> {
     pub(super) fn legend_above(&mut self, index: usize, area: Area) {
         let Sizes { label, gap, .. } = self.sizes;
         let rows = self.legend_rows(index, (f64::from(self.canvas.width) - 3.2 * gap) * 0.8);
-        let mut number = 0;
-        for (row, count) in rows.iter().enumerate() {
-            let widths: Vec<f64> =
-                self.entries(index)[number..number + count].iter().map(|entry| self.entry_width(entry)).collect();
-            let total = widths.iter().sum::<f64>() + 2.0 * gap * (count.saturating_sub(1)) as f64;
-            let from_below = (rows.len() - row) as f64 - 0.5;
-            let y = area.top - from_below * LINE_HEIGHT * label - 0.2 * gap;
+        for (from_below, entries) in rows.into_iter().rev().enumerate() {
+            let widths: Vec<f64> = entries.iter().map(|entry| self.entry_width(entry)).collect();
+            let total = widths.iter().sum::<f64>() + 2.0 * gap * (widths.len() - 1) as f64;
+            let y = area.top - (from_below as f64 + 0.5) * LINE_HEIGHT * label - 0.2 * gap;
             let mut x = area.right - total;
-            for width in widths {
-                self.legend_entry(index, number, [x, y]);
+            for (entry, width) in entries.into_iter().zip(widths) {
+                self.legend_entry(index, entry, [x, y]);
                 x += width + 2.0 * gap;
-                number += 1;
             }
         }
     }
 
     /// A sample of the line and its name; `at` is the middle of the left edge.
-    fn legend_entry(&mut self, index: usize, number: usize, at: [f64; 2]) {
+    fn legend_entry(&mut self, index: usize, Entry { text, style, look }: Entry, at: [f64; 2]) {
         let several = self.prepared[index].panel.series.len() > 1;
-        let Some(Entry { text, style, look }) = self.entries(index).into_iter().nth(number) else { return };
         let width = self.sample_width();
         let middle = [at[0] + 0.5 * width, at[1]];
         let run = [at, [at[0] + width, at[1]]];
@@ -196,7 +187,7 @@ impl Layout<'_> {
                 }
             }
         }
-        let style = self.text_style(self.inks.ink);
+        let style = self.text_style(self.canvas.inks.ink);
         let x = at[0] + width + 0.7 * self.sizes.gap;
         self.canvas.text_centred(&text, [x, at[1]], Anchor::Start, style);
     }

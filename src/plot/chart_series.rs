@@ -20,7 +20,7 @@ const MOST_EXITS: usize = 4;
 impl Layout<'_> {
     /// How the series with this number in its panel looks.
     pub(super) fn look(&self, number: usize, series: &Series) -> Look {
-        look(number, series, &self.inks, self.theme)
+        look(number, series, &self.canvas.inks)
     }
 
     /// Draws the data of a panel, clipped to it.
@@ -60,7 +60,7 @@ impl Layout<'_> {
         for (number, reference) in panel.references.iter().enumerate() {
             if let Some(y) = place.y_pixel(reference.value) {
                 let run = [[place.area.left, y], [place.area.right, y]];
-                let look = reference_look(number, panel, &self.inks);
+                let look = reference_look(number, panel, &self.canvas.inks);
                 self.stroke(&run, place, look.dashes, look.colour, 0.75 * self.sizes.line);
             }
         }
@@ -90,7 +90,7 @@ impl Layout<'_> {
         let Some(end) = panel.averaged_from.and_then(|from| place.x_pixel(from)) else { return };
         let right = end.min(place.area.right).round();
         if has_data && right > place.area.left {
-            self.canvas.rectangle(Area { right, ..place.area }, with_alpha(self.inks.muted, 30));
+            self.canvas.rectangle(Area { right, ..place.area }, with_alpha(self.canvas.inks.muted, 30));
         }
     }
 
@@ -138,7 +138,7 @@ impl Layout<'_> {
             let (y, quarter_turns) =
                 if up { (area.top + 1.2 * radius, -1.0) } else { (area.bottom - 1.2 * radius, 1.0) };
             let angle = quarter_turns * std::f64::consts::FRAC_PI_2;
-            self.canvas.polygon([x, y], 1.5 * radius, 3, angle, self.inks.paper);
+            self.canvas.polygon([x, y], 1.5 * radius, 3, angle, self.canvas.inks.paper);
             self.canvas.polygon([x, y], 1.1 * radius, 3, angle, colour);
         }
     }
@@ -170,13 +170,13 @@ impl Layout<'_> {
         let rim = 0.45 * self.sizes.line;
         match shape {
             None => {
-                self.canvas.disc(at, radius + rim, self.inks.paper);
+                self.canvas.disc(at, radius + rim, self.canvas.inks.paper);
                 self.canvas.disc(at, radius, look.colour);
             }
             Some((sides, quarter_turns, size)) => {
                 let angle = quarter_turns * std::f64::consts::FRAC_PI_2;
                 let corner = 1.0 / (std::f64::consts::PI / f64::from(sides)).cos();
-                self.canvas.polygon(at, radius * size + rim * corner, sides, angle, self.inks.paper);
+                self.canvas.polygon(at, radius * size + rim * corner, sides, angle, self.canvas.inks.paper);
                 self.canvas.polygon(at, radius * size, sides, angle, look.colour);
             }
         }
@@ -260,15 +260,11 @@ impl Layout<'_> {
                     let step = low[0] - last_low[0];
                     let first = (last_low[0] - place.area.left).floor().max(-1.0) + 1.0;
                     let last = (low[0] - place.area.left).floor().min(columns as f64);
-                    let mut column = first;
-                    while column < last {
+                    for column in first as usize..last as usize {
+                        let column = column as f64;
                         let t = ((place.area.left + column + 0.5 - last_low[0]) / step).clamp(0.0, 1.0);
-                        cover(
-                            column,
-                            last_low[1] + t * (low[1] - last_low[1]),
-                            last_high[1] + t * (high[1] - last_high[1]),
-                        );
-                        column += 1.0;
+                        let between = |from: [f64; 2], to: [f64; 2]| from[1] + t * (to[1] - from[1]);
+                        cover(column, between(last_low, low), between(last_high, high));
                     }
                 }
             }

@@ -1,12 +1,9 @@
 //! From the values of a field to colours.
 
 use super::palette::{Colour, linear, scale_colour};
-use super::ticks::AxisMap;
+use super::ticks::{AxisMap, LARGEST};
 use crate::plot::Scale;
 
-/// Values beyond this cannot be distinguished from infinity once differences are taken.
-const LARGEST: f64 = 1e300;
-const SMALLEST: f64 = 1e-300;
 /// Colours of a map: neighbours differ by less than can be seen.
 const COLOURS: usize = 1024;
 
@@ -38,28 +35,20 @@ impl ColorScale {
     /// The scale for values between these extrema, or for a given range; one that is empty or not finite counts as
     /// left out.
     pub(super) fn new(map: ColorMap, range: Option<[f64; 2]>, extrema: Option<[f64; 2]>) -> Self {
-        let given = range.filter(|[low, high]| {
-            low.abs() <= LARGEST && high.abs() <= LARGEST && high - low > 1e-12 * low.abs().max(high.abs())
-        });
+        let given = AxisMap::given(Scale::Linear, range);
         let extrema = extrema.map(|extrema| extrema.map(|value| value.clamp(-LARGEST, LARGEST)));
         match map {
             ColorMap::Sequential => {
-                let [low, high] = given.unwrap_or_else(|| widened(extrema.unwrap_or([0.0, 1.0])));
-                let bar = linear_map(low, high);
+                let bar = given.unwrap_or_else(|| AxisMap::around(extrema.unwrap_or([0.0, 1.0]), 0.0));
                 Self { bar, map: bar, colours: table(scale_colour) }
             }
             ColorMap::Diverging { centre } => {
                 let centre = if centre.is_finite() { centre.clamp(-LARGEST, LARGEST) } else { 0.0 };
-                let [low, high] = given.or(extrema).unwrap_or([centre - 1.0, centre + 1.0]);
+                let ends = given.map(|given| [given.low, given.high]).or(extrema);
+                let [low, high] = ends.unwrap_or([centre - 1.0, centre + 1.0]);
                 let reach = (high - centre).abs().max((low - centre).abs());
-                let [low_end, high_end] = if reach <= 1e-11 * centre.abs() || reach < SMALLEST {
-                    widened([centre; 2])
-                } else {
-                    [centre - reach, centre + reach]
-                };
-                let map = linear_map(low_end, high_end);
-                let bar = given.map_or(map, |[low, high]| linear_map(low, high));
-                Self { bar, map, colours: table(diverging_colour) }
+                let map = AxisMap::around([centre - reach, centre + reach], 0.0);
+                Self { bar: given.unwrap_or(map), map, colours: table(diverging_colour) }
             }
         }
     }
@@ -85,20 +74,6 @@ impl ColorScale {
     pub(super) fn colours(&self) -> &[Colour] {
         &self.colours
     }
-}
-
-fn linear_map(low: f64, high: f64) -> AxisMap {
-    AxisMap { scale: Scale::Linear, low, high }
-}
-
-/// A range around a constant, in proportion to it, so that its noise in the last digit stays invisible.
-fn widened([low, high]: [f64; 2]) -> [f64; 2] {
-    let largest = low.abs().max(high.abs());
-    if high - low > (1e-11 * largest).max(SMALLEST) {
-        return [low, high];
-    }
-    let grow = if largest < SMALLEST { 1.0 } else { 0.1 * largest };
-    [low - grow, high + grow]
 }
 
 fn table(colour: fn(f64) -> Colour) -> Vec<Colour> {

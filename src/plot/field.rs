@@ -1,13 +1,12 @@
 //! Pictures of a field: what is shown, and its layout: the image of the box with axes, and the colour bar.
 
 use super::canvas::{Anchor, Area, Canvas, Heading, Type};
-use super::chart::Scale;
 use super::chart_layout::Sizes;
 use super::color_map::{ColorMap, ColorScale};
 use super::error::PlotError;
 use super::field_renderer::{FieldScene, Image};
-use super::palette::{Colour, Inks, inks, linear};
-use super::periodic_curve::segments;
+use super::palette::{Colour, linear};
+use super::periodic::segments;
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
 use super::ticks::{AxisMap, Ticks, ticks, ticks_along};
 use crate::measure::Field;
@@ -98,14 +97,12 @@ pub(super) fn lay_out(picture: &FieldPicture<'_>, style: &PlotStyle) -> Result<(
     let field = picture.field;
     field.check().map_err(|error| PlotError::Input(error.to_string()))?;
     let scale = ColorScale::new(picture.map, picture.range, field.extrema());
-    let inks = inks(style.theme);
     let style = &PlotStyle { height: Some(page_height(style, field.lengths)), ..style.clone() };
     let mut layout = Layout {
-        canvas: Canvas::new(style.width, style.height(), inks.paper)?,
+        canvas: Canvas::new(style.width, style.height(), style.theme)?,
         picture,
-        inks,
         sizes: Sizes::new(style, 1),
-        axes: field.lengths.map(|high| AxisMap { scale: Scale::Linear, low: 0.0, high }),
+        axes: field.lengths.map(|high| AxisMap::linear(0.0, high)),
         scale,
     };
     let place = layout.draw();
@@ -130,7 +127,6 @@ fn page_height(style: &PlotStyle, [wide, high]: [f64; 2]) -> u32 {
 struct Layout<'a> {
     canvas: Canvas,
     picture: &'a FieldPicture<'a>,
-    inks: Inks,
     sizes: Sizes,
     axes: [AxisMap; 2],
     scale: ColorScale,
@@ -158,7 +154,7 @@ struct Place {
 
 impl Layout<'_> {
     fn text_style(&self) -> Type {
-        Type { size: self.sizes.label, weight: Weight::Regular, colour: self.inks.ink }
+        Type { size: self.sizes.label, weight: Weight::Regular, colour: self.canvas.inks.ink }
     }
 
     fn width(&self, text: &str) -> f64 {
@@ -184,16 +180,15 @@ impl Layout<'_> {
     }
 
     fn headings(&self, margin: f64) -> Vec<Heading> {
-        let mut notes = self.picture.subtitle.to_owned();
+        let mut notes = vec![self.picture.subtitle.to_owned()];
         let missing = self.picture.field.values.iter().filter(|value| !value.is_finite()).count();
         if missing > 0 {
-            let separator = if notes.is_empty() { "" } else { "; " };
             let (nodes, are) = if missing == 1 { ("node", "is") } else { ("nodes", "are") };
-            notes = format!("{notes}{separator}{} {nodes} without a value {are} grey", grouped(missing as u64));
+            notes.push(format!("{} {nodes} without a value {are} grey", grouped(missing as u64)));
         }
         let width = f64::from(self.canvas.width) - 2.0 * margin;
         let Sizes { title, label, .. } = self.sizes;
-        self.canvas.headings((self.picture.title, title), (&notes, label, 3), &self.inks, width)
+        self.canvas.headings(self.picture.title, notes, [title, label], 3, width)
     }
 
     fn ticks(&self, image: [f64; 2], bar_height: f64) -> AllTicks {
@@ -317,10 +312,10 @@ impl Layout<'_> {
         let around = area.grown(0.5 * rule);
         let ends = area.grown(rule);
         for x in [around.left, around.right] {
-            self.canvas.vertical_rule(x, ends.top, ends.bottom, rule, self.inks.ink);
+            self.canvas.vertical_rule(x, ends.top, ends.bottom, rule, self.canvas.inks.ink);
         }
         for y in [around.top, around.bottom] {
-            self.canvas.horizontal_rule(ends.left, ends.right, y, rule, self.inks.ink);
+            self.canvas.horizontal_rule(ends.left, ends.right, y, rule, self.canvas.inks.ink);
         }
     }
 
@@ -438,7 +433,7 @@ impl Layout<'_> {
             let radius = bar.width() / 3.0_f64.sqrt();
             let centre = [bar.centre()[0], base + direction * 0.5 * radius];
             let angle = direction * std::f64::consts::FRAC_PI_2;
-            self.canvas.polygon(centre, radius + 2.0 * self.rule(), 3, angle, self.inks.ink);
+            self.canvas.polygon(centre, radius + 2.0 * self.rule(), 3, angle, self.canvas.inks.ink);
             self.canvas.polygon(centre, radius, 3, angle, self.scale.bar_colour(fraction));
         }
     }

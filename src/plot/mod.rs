@@ -45,7 +45,7 @@ mod field_renderer;
 mod overlay;
 mod palette;
 mod particles;
-mod periodic_curve;
+mod periodic;
 mod pipelines;
 mod points;
 mod presets;

@@ -1,6 +1,6 @@
 //! One quantity of several runs in one chart.
 
-use super::chart::{AxisFit, Chart, Panel, Series, SeriesInk};
+use super::chart::{Chart, Panel, Series, SeriesInk};
 use super::quantities::{TIME, quantity_label};
 
 /// One quantity of one run over time.
@@ -33,8 +33,7 @@ const MOST_NAMES: usize = 12;
 /// ```
 #[must_use]
 pub fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool, curves: Vec<Curve>) -> Chart {
-    let mut panel = Panel::new(TIME, &quantity_label(quantity, relative));
-    panel.y.fit = AxisFit::Settled;
+    let mut panel = Panel::new(TIME, &quantity_label(quantity, relative)).settled();
     let scaled = |curve: &Curve| matches!(curve.ink, SeriesInk::Scale { .. });
     let on_scale = curves.iter().filter(|curve| scaled(curve)).count();
     let mut place = 0;

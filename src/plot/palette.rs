@@ -19,6 +19,8 @@ pub(super) struct Inks {
     pub series: [Colour; 7],
     /// The first species of a snapshot; areas bear lighter colours than lines do.
     pub species: [Colour; 8],
+    /// The part of the scale that lines take: its other end would be lost on the paper.
+    pub line_scale: [f64; 2],
 }
 
 const fn rgb(hex: u32) -> Colour {
@@ -47,6 +49,7 @@ pub(super) fn inks(theme: Theme) -> Inks {
             faint: rgb(0x00AD_ADAD),
             series: [BLUE, VERMILION, rgb(0x001A_1A1A), GREEN, PURPLE, ORANGE, SKY],
             species,
+            line_scale: [0.0, 0.86],
         },
         Theme::Dark => Inks {
             paper: rgb(0x0014_161A),
@@ -56,6 +59,7 @@ pub(super) fn inks(theme: Theme) -> Inks {
             faint: rgb(0x0069_6E77),
             series: [SKY, ORANGE, rgb(0x00EC_ECEC), GREEN, PURPLE, YELLOW, VERMILION],
             species: [SKY, ORANGE, GREEN, PURPLE, BLUE, VERMILION, YELLOW, GREY],
+            line_scale: [0.28, 1.0],
         },
     }
 }
@@ -88,15 +92,6 @@ pub(super) fn scale_colour(fraction: f64) -> Colour {
         (SPEED_KNOTS[knot][index] + weight * (SPEED_KNOTS[knot + 1][index] - SPEED_KNOTS[knot][index])).round() as u8
     };
     [channel(0), channel(1), channel(2), 255]
-}
-
-/// Colour of a line at a place on the scale, 0 to 1, without the end that would be lost on the paper.
-pub(super) fn line_colour(theme: Theme, place: f64) -> Colour {
-    let [first, last] = match theme {
-        Theme::Light => [0.0, 0.86],
-        Theme::Dark => [0.28, 1.0],
-    };
-    scale_colour(first + (last - first) * place.clamp(0.0, 1.0))
 }
 
 /// Linear-light value of an sRGB channel.

@@ -2,7 +2,8 @@
 
 use super::canvas::{Area, Canvas};
 use super::error::PlotError;
-use super::palette::{Colour, inks, linear};
+use super::palette::{Colour, linear};
+use super::periodic;
 use super::snapshot_page::{self, Key, Page};
 use super::sphere_renderer::{Camera, SphereScene};
 use crate::scene::{Snapshot, SnapshotColor, Theme};
@@ -123,22 +124,21 @@ pub(super) fn lay_out(
     theme: Theme,
 ) -> Result<(Canvas, SphereScene), PlotError> {
     check(picture, style)?;
-    let inks = inks(theme);
     let [right, up, toward] = view(picture.dimension);
     let lengths = visible(picture.dimension, picture.lengths);
     let extent = |axis| extent(axis, lengths);
     let page = Page::new(style, [extent(right), extent(up)]);
     let [width, height] = page.pixels();
-    let mut canvas = Canvas::new(width, height, inks.paper)?;
+    let mut canvas = Canvas::new(width, height, theme)?;
     let key = match (style.color, picture.speeds) {
         (SnapshotColor::Speed, Some(speeds)) => {
             let fastest = speeds.iter().copied().filter(|speed| speed.is_finite()).fold(0.0, f64::max);
             let fitting = [0.0, if fastest > 0.0 { fastest } else { 1.0 }];
-            Key::scale("speed (length/time)", style.range.unwrap_or(fitting), speeds)
+            Key::scale("speed (length/time)", style.range, fitting, speeds)
         }
-        _ => Key::species(picture.species_names, picture.species, &inks),
+        _ => Key::species(picture.species_names, picture.species, &canvas.inks),
     };
-    let frame = page.frame(&mut canvas, [picture.title, picture.subtitle], &key, &inks);
+    let frame = page.frame(&mut canvas, picture.title, vec![picture.subtitle.to_owned()], &key);
 
     // Spheres may stand out of a three-dimensional box; discs of a flat one are cut off at its edge.
     let overhang = if picture.dimension == 3 { 2.0 * picture.radius.min(0.1 * extent(right)) } else { 0.0 };
@@ -155,17 +155,17 @@ pub(super) fn lay_out(
 
     let edges = box_edges(picture.dimension, toward);
     for (from, to, _) in edges.iter().filter(|(_, _, front)| !front) {
-        canvas.line(project(*from), project(*to), 0.8 * rule, inks.muted);
+        canvas.line(project(*from), project(*to), 0.8 * rule, canvas.inks.muted);
     }
     canvas.end_of_background();
     for (from, to, _) in edges.iter().filter(|(_, _, front)| *front) {
-        canvas.line(project(*from), project(*to), rule, inks.ink);
+        canvas.line(project(*from), project(*to), rule, canvas.inks.ink);
     }
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate().take(picture.dimension as usize) {
         let [from, to] = measured_edge(axis, picture.dimension).map(project);
-        page.edge_length(&mut canvas, (name, lengths[axis]), [from, to], &inks);
+        page.edge_length(&mut canvas, name, lengths[axis], [from, to]);
     }
-    page.footer(&mut canvas, &key, &inks, outline, pixels_per_length);
+    page.footer(&mut canvas, &key, outline, pixels_per_length);
 
     // A particle smaller than a pixel is drawn as large as one.
     let radius = picture.radius.max(0.7 / pixels_per_length);
@@ -177,7 +177,7 @@ pub(super) fn lay_out(
     let scale = pixels_per_length * f64::from(samples);
     let flat = picture.dimension == 2;
     let [lighting, rim, fog] = if flat { [0.3, 0.35, 0.0] } else { [1.0, 0.12, 0.4] };
-    let paper = [0, 1, 2].map(|channel| f64::from(linear(inks.paper[channel]).sqrt()));
+    let paper = [0, 1, 2].map(|channel| f64::from(linear(canvas.inks.paper[channel]).sqrt()));
     let with = |[x, y, z]: [f64; 3], last: f64| [x, y, z, last].map(|value| value as f32);
     let camera = Camera {
         right: with(right, scale),
@@ -229,29 +229,16 @@ fn instances(picture: &ParticlePicture<'_>, key: &Key<'_>, lengths: [f64; 3], ra
             continue;
         }
         let colour = key.colour(index);
-        let mut relative = [0, 1, 2].map(|axis| position[axis] - 0.5 * lengths[axis]);
+        let relative = [0, 1, 2].map(|axis| position[axis] - 0.5 * lengths[axis]);
         if picture.dimension == 3 {
             instances.push(ParticleInstance { position: relative.map(|x| x as f32), colour });
             continue;
         }
-        relative[2] = 0.0;
         // A disc that crosses an edge comes in again on the other side.
-        let images = [0, 1].map(|axis| {
-            let shift = lengths[axis];
-            let beyond = 0.5 * shift - radius;
-            if relative[axis] > beyond {
-                vec![0.0, -shift]
-            } else if relative[axis] < -beyond {
-                vec![0.0, shift]
-            } else {
-                vec![0.0]
-            }
-        });
-        for x in &images[0] {
-            for y in &images[1] {
-                let position = [(relative[0] + x) as f32, (relative[1] + y) as f32, 0.0];
-                instances.push(ParticleInstance { position, colour });
-            }
+        let reach = [position[0], position[1]].map(|centre| [centre - radius, centre + radius]);
+        for [x, y] in periodic::images(reach, [lengths[0], lengths[1]]) {
+            let position = [(relative[0] + x) as f32, (relative[1] + y) as f32, 0.0];
+            instances.push(ParticleInstance { position, colour });
         }
     }
     instances

@@ -15,3 +15,8 @@ pub(super) fn since_first(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let first = points.first().map_or(f64::NAN, |point| point[1]);
     points.iter().map(|[time, value]| [*time, value - first]).collect()
 }
+
+/// The largest of finite values, zero without one that is positive.
+pub(super) fn highest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().filter(|value| value.is_finite()).fold(0.0, f64::max)
+}

@@ -1,7 +1,7 @@
 //! The charts a run writes, made from its tables.
 
 use super::chart::{Chart, Panel, Series, SeriesInk, SeriesStyle};
-use super::points::{pairs, since_first, steps};
+use super::points::{highest, pairs, since_first, steps};
 use super::quantities::{
     Averages, TEMPERATURE, TIME, capitalised, panel, pressure_label, series, with_set_temperature,
 };
@@ -33,18 +33,13 @@ pub fn energies_chart(title: &str, table: &Table, particle_count: u64, temperatu
     let energies = ["kinetic_energy", "potential_energy", "total_energy", "bath_energy", "extended_energy"];
     let temperatures = ["temperature", "configurational_temperature"];
     let pressures = ["pressure", "pressure_conservative"];
-    let temperatures = panel(TEMPERATURE, table, &temperatures, 1.0, averages);
     let panels = [
         panel("Energy per particle (energy units)", table, &energies, per_particle, averages),
-        if temperatures.series.is_empty() { temperatures } else { with_set_temperature(temperatures, temperature) },
+        with_set_temperature(panel(TEMPERATURE, table, &temperatures, 1.0, averages), temperature),
         panel(&pressure_label(dimension(table)), table, &pressures, 1.0, averages),
     ];
     let plural = if particle_count == 1 { "particle" } else { "particles" };
-    Chart {
-        title: title.to_owned(),
-        subtitle: format!("{} {plural}", grouped(particle_count)),
-        panels: panels.into_iter().filter(|panel| !panel.series.is_empty()).collect(),
-    }
+    Chart::of_found(title, &format!("{} {plural}", grouped(particle_count)), panels)
 }
 
 /// Dimensions of the box, of which each has a momentum.
@@ -135,10 +130,8 @@ pub fn radial_distribution_chart(title: &str, distances: &[f64], values: &[f64])
     let mut panel = Panel::new("Distance r (length units)", "Radial distribution g(r)")
         .with(Series::line("g(r)", pairs(distances, values)))
         .with_reference("ideal gas", 1.0);
-    let highest = values.iter().copied().filter(|value| value.is_finite()).fold(1.0_f64, f64::max);
-    panel.y.range = Some([0.0, 1.1 * highest]);
-    let farthest = distances.iter().copied().filter(|distance| distance.is_finite()).fold(0.0, f64::max);
-    panel.x.range = Some([0.0, farthest]);
+    panel.y.range = Some([0.0, 1.1 * highest(values.iter().copied()).max(1.0)]);
+    panel.x.range = Some([0.0, highest(distances.iter().copied())]);
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
 }
 
@@ -207,8 +200,7 @@ pub fn histogram_chart(
     let bins = edges.windows(2).zip(densities).map(|(edges, density)| ([edges[0], edges[1]], *density));
     panel.series.push(Series::line("histogram", steps(bins)));
     panel.series.push(Series::compared(name, compared.to_vec()));
-    let heights = densities.iter().copied().chain(compared.iter().map(|point| point[1]));
-    let highest = heights.filter(|value| value.is_finite()).fold(0.0, f64::max);
+    let highest = highest(densities.iter().copied().chain(compared.iter().map(|point| point[1])));
     if highest > 0.0 {
         panel.y.range = Some([0.0, 1.08 * highest]);
     }

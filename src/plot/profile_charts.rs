@@ -1,6 +1,7 @@
 //! Charts of profiles along an axis of the box.
 
-use super::chart::{Axis, AxisFit, Chart, Panel, Series, SeriesInk, SeriesStyle};
+use super::chart::{Chart, Panel, Series, SeriesInk, SeriesStyle};
+use super::points::pairs;
 use super::quantities::{TEMPERATURE, pressure_label};
 use crate::numbers::short;
 use crate::table::Table;
@@ -46,41 +47,31 @@ pub fn profiles_chart(
     let few = positions.len() <= MOST_MARKERS;
     let series = |column: &str, name: &str| {
         let values = table.column(column)?;
-        let points = positions.iter().zip(values).map(|(x, y)| [*x, y]).collect();
+        let points = pairs(&positions, &values);
         let style = if few { SeriesStyle::LineMarkers } else { SeriesStyle::Band };
         let series = Series { style, ..Series::line(name, points) };
         Some(series.with_known_errors(table.values(&format!("{column}_error"))))
     };
     let along = format!("Position along {axis} (length units)");
     let panel = |label: &str, columns: &[(&str, &str)]| {
-        let mut panel = Panel::new(&along, label);
-        panel.series = columns.iter().filter_map(|(column, name)| series(column, name)).collect();
-        panel
+        let found = columns.iter().filter_map(|(column, name)| series(column, name)).enumerate();
+        let series = found.map(|(number, series)| series.with_ink(SeriesInk::Numbered(number))).collect();
+        Panel { series, ..Panel::new(&along, label) }
     };
     let mut densities: Vec<(&str, &str)> = vec![("number_density", "all particles")];
     densities.extend(species.iter().map(|species| (species.column.as_str(), species.name.as_str())));
     let density = panel("Number density (particles/unit volume)", &densities);
     let velocities = [("velocity_x", "v_{x}"), ("velocity_y", "v_{y}"), ("velocity_z", "v_{z}")];
     let velocity = panel("Velocity (length units/time unit)", &velocities);
-    let mut thermal = panel(TEMPERATURE, &[("temperature", "about the velocity of the bin")]);
-    thermal.y = Axis { fit: AxisFit::Settled, ..Axis::linear(TEMPERATURE) };
+    let mut thermal = panel(TEMPERATURE, &[("temperature", "about the velocity of the bin")]).settled();
     if let Some(temperature) = temperature {
         thermal = thermal.with_reference(&format!("kT = {}", short(temperature)), temperature);
     }
     let normal = [("pressure_xx", "P_{xx}"), ("pressure_yy", "P_{yy}"), ("pressure_zz", "P_{zz}")];
     let dimension = if table.column("pressure_zz").is_some() { 3 } else { 2 };
     let pressure = panel(&pressure_label(dimension), &normal);
-    let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
-    for mut panel in [density, velocity, thermal, pressure] {
-        if !panel.series.is_empty() {
-            for (number, series) in panel.series.iter_mut().enumerate() {
-                series.ink = SeriesInk::Numbered(number);
-            }
-            chart.panels.push(panel);
-        }
-    }
-    "means over time after equilibration, with standard errors".clone_into(&mut chart.subtitle);
-    chart
+    let subtitle = "means over time after equilibration, with standard errors";
+    Chart::of_found(title, subtitle, [density, velocity, thermal, pressure])
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What the quantities of a run are called, what they are measured in, and how they look, wherever they are shown.
 
-use super::chart::{Axis, AxisFit, Mean, Panel, Series, SeriesInk};
+use super::chart::{Mean, Panel, Series, SeriesInk};
 use crate::numbers::short;
 use crate::table::Table;
 
@@ -57,8 +57,7 @@ pub(super) fn series(column: &str, points: Vec<[f64; 2]>) -> Series {
 
 /// A panel over time of those columns that a table has, over a divisor, with their means; one without any is empty.
 pub(super) fn panel(label: &str, table: &Table, columns: &[&str], divisor: f64, averages: &Averages) -> Panel {
-    let mut panel = Panel::new(TIME, label);
-    panel.y = Axis { fit: AxisFit::Settled, ..Axis::linear(label) };
+    let mut panel = Panel::new(TIME, label).settled();
     panel.averaged_from = averages.from;
     for column in columns {
         if let Some(points) = table.over_time(column, divisor) {
@@ -86,11 +85,8 @@ pub fn averages_note(averages: &Averages) -> String {
     let few = if few { format!(", {FEW_SAMPLES} from few samples") } else { String::new() };
     let way = averages.means.iter().any(|(_, mean)| mean.unequilibrated);
     let way = if way { format!(", {UNEQUILIBRATED} with the way to equilibrium") } else { String::new() };
-    let few = few + &way;
-    match averages.from {
-        Some(_) => format!("means ± errors after equilibration (shaded){few}"),
-        None => format!("means ± errors of the whole run{few}"),
-    }
+    let part = if averages.from.is_some() { "after equilibration (shaded)" } else { "of the whole run" };
+    format!("means ± errors {part}{few}{way}")
 }
 
 pub(super) fn capitalised(word: &str) -> String {
@@ -98,18 +94,10 @@ pub(super) fn capitalised(word: &str) -> String {
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
-/// A power of a unit of length: nothing, the unit, its square, its cube.
-fn per_volume(dimension: usize) -> &'static str {
-    match dimension {
-        1 => "/length unit",
-        2 => "/length unit²",
-        _ => "/length unit³",
-    }
-}
-
 /// The label of an axis of pressures in a number of dimensions.
 pub(super) fn pressure_label(dimension: usize) -> String {
-    format!("Pressure (energy units{})", per_volume(dimension))
+    let power = ["", "²", "³"][dimension.clamp(1, 3) - 1];
+    format!("Pressure (energy units/length unit{power})")
 }
 
 /// The label of an axis for a column of the table of energies, with its unit.

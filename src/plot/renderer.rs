@@ -178,7 +178,7 @@ impl<'g> Plotter<'g> {
                 }
             });
         };
-        let [r, g, b] = [0, 1, 2].map(|channel| f64::from(linear(canvas.paper[channel])));
+        let [r, g, b] = [0, 1, 2].map(|channel| f64::from(linear(canvas.inks.paper[channel])));
         let (under, over) = canvas.batches.split_at(canvas.background);
         self.checked("background", || shapes(under, Some(wgpu::Color { r, g, b, a: 1.0 })))?;
         if let Some(content) = content

@@ -3,8 +3,7 @@
 #[cfg(test)]
 use super::chart::SeriesStyle;
 use super::chart::{Panel, Series, SeriesInk};
-use super::palette::{Colour, Inks, line_colour};
-use crate::scene::Theme;
+use super::palette::{Colour, Inks, scale_colour};
 
 /// How a series is distinguished from the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,7 +32,7 @@ const REFERENCE_DASHES: [&[f64]; 4] =
     [&[3.5, 3.0], &[0.01, 3.2], &[8.0, 3.2, 0.01, 3.2, 0.01, 3.2, 0.01, 3.2], &[13.0, 4.0]];
 
 /// The look of the series with this number in its panel.
-pub(super) fn look(number: usize, series: &Series, inks: &Inks, theme: Theme) -> Look {
+pub(super) fn look(number: usize, series: &Series, inks: &Inks) -> Look {
     let dashes = |pattern: usize| DASHES[pattern % DASHES.len()];
     let numbered = |number: usize| {
         let count = inks.series.len();
@@ -43,7 +42,9 @@ pub(super) fn look(number: usize, series: &Series, inks: &Inks, theme: Theme) ->
         SeriesInk::Own => numbered(number),
         SeriesInk::Numbered(number) => numbered(number),
         SeriesInk::Scale { place, pattern } => {
-            Look { colour: line_colour(theme, place), dashes: dashes(pattern), marker: None }
+            let [first, last] = inks.line_scale;
+            let colour = scale_colour(first + (last - first) * place.clamp(0.0, 1.0));
+            Look { colour, dashes: dashes(pattern), marker: None }
         }
         SeriesInk::Ink { pattern } => Look { colour: inks.ink, dashes: dashes(pattern), marker: None },
         SeriesInk::Faint => Look { colour: inks.faint, dashes: dashes(0), marker: None },
@@ -71,9 +72,9 @@ pub(super) struct Seen {
 
 /// What a reader sees of every named entry of a panel's legend, where lines are rough and where they are not.
 #[cfg(test)]
-pub(super) fn seen(panel: &Panel, inks: &Inks, theme: Theme, rough: bool) -> Vec<(String, Seen)> {
+pub(super) fn seen(panel: &Panel, inks: &Inks, rough: bool) -> Vec<(String, Seen)> {
     let series = panel.series.iter().enumerate().map(|(number, series)| {
-        let look = look(number, series, inks, theme);
+        let look = look(number, series, inks);
         let own = look.marker.is_some();
         let lined = series.style != SeriesStyle::Markers;
         let marked = !matches!(series.style, SeriesStyle::Line | SeriesStyle::Band) || rough && own;
@@ -94,10 +95,11 @@ pub(super) fn seen(panel: &Panel, inks: &Inks, theme: Theme, rough: bool) -> Vec
 #[cfg(test)]
 pub(super) fn assert_all_told_apart(chart: &super::chart::Chart) {
     use super::palette::inks;
+    use crate::scene::Theme;
     for theme in [Theme::Light, Theme::Dark] {
         for panel in &chart.panels {
             for rough in [false, true] {
-                let seen = seen(panel, &inks(theme), theme, rough);
+                let seen = seen(panel, &inks(theme), rough);
                 for (index, (name, look)) in seen.iter().enumerate() {
                     let alike = seen[..index].iter().find(|(_, other)| other == look);
                     assert!(alike.is_none(), "`{name}` looks like `{}` in {}", alike.map_or("", |a| &a.0), chart.title);
@@ -137,8 +139,8 @@ mod tests {
 
     #[test]
     fn a_number_looks_the_same_wherever_it_stands() {
-        let inks = super::super::palette::inks(Theme::Light);
+        let inks = super::super::palette::inks(crate::scene::Theme::Light);
         let third = Series::line("total", vec![]).with_ink(SeriesInk::Numbered(2));
-        assert_eq!(look(0, &third, &inks, Theme::Light), look(2, &Series::default(), &inks, Theme::Light));
+        assert_eq!(look(0, &third, &inks), look(2, &Series::default(), &inks));
     }
 }

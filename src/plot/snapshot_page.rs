@@ -46,13 +46,15 @@ impl<'a> Key<'a> {
         Self::Species { names, species, counts, colours: species_colours(inks, names.len()) }
     }
 
-    /// Values on a scale from the first to the second end of a range.
-    pub(super) fn scale(name: &'a str, [low, high]: [f64; 2], values: &'a [f64]) -> Self {
+    /// Values on a scale with these ends, or where they are left out with those that fit.
+    pub(super) fn scale(name: &'a str, given: Option<[f64; 2]>, fitting: [f64; 2], values: &'a [f64]) -> Self {
+        let map = AxisMap::given(Scale::Linear, given).unwrap_or_else(|| AxisMap::around(fitting, 0.0));
+        let AxisMap { low, high, .. } = map;
         let any = |outside: &dyn Fn(f64) -> bool| values.iter().any(|value| value.is_finite() && outside(*value));
         // What an end rounds to does not lie beyond it.
         let slack = 1e-9 * (high - low);
         let beyond = [any(&|value| value < low - slack), any(&|value| value > high + slack)];
-        Self::Scale { name, values, map: AxisMap { scale: Scale::Linear, low, high }, beyond }
+        Self::Scale { name, values, map, beyond }
     }
 
     /// The colour of a particle or a cell; what has no place on a scale has that of its lower end.
@@ -110,12 +112,14 @@ impl Page {
     }
 
     /// Writes the headings; returns the place of the box between them and the footer.
-    pub(super) fn frame(&self, canvas: &mut Canvas, headings: [&str; 2], key: &Key<'_>, inks: &Inks) -> Area {
+    pub(super) fn frame(&self, canvas: &mut Canvas, title: &str, notes: Vec<String>, key: &Key<'_>) -> Area {
         if !self.captioned {
             let [right, bottom] = [self.width, self.height].map(|side| side - self.margin);
             return Area { left: self.margin, top: self.margin, right, bottom };
         }
-        let top = self.headings(canvas, headings, inks);
+        let headings = canvas.headings(title, notes, [self.title, self.label], 2, self.width - 2.0 * self.margin);
+        let end = canvas.write_headings(&headings, [self.margin; 2]);
+        let top = if headings.is_empty() { end } else { end + 0.5 * self.gap };
         let bottom = self.height - self.margin - self.footer_height(canvas, key) - self.beside();
         let aside = self.margin + self.beside();
         Area { left: aside, top, right: self.width - aside, bottom }
@@ -128,17 +132,11 @@ impl Page {
 
     /// Writes the length of an edge of the box outside it, at its middle: below an edge that leads down from the view, else to
     /// its left.
-    pub(super) fn edge_length(
-        &self,
-        canvas: &mut Canvas,
-        (name, length): (&str, f64),
-        [from, to]: [[f64; 2]; 2],
-        inks: &Inks,
-    ) {
+    pub(super) fn edge_length(&self, canvas: &mut Canvas, name: &str, length: f64, [from, to]: [[f64; 2]; 2]) {
         if !self.captioned {
             return;
         }
-        let style = Type { size: 0.85 * self.label, ..self.text(inks.muted) };
+        let style = Type { size: 0.85 * self.label, ..self.text(canvas.inks.muted) };
         let text = format!("L_{{{name}}} = {}", short(format!("{length:.4e}").parse().unwrap_or(length)));
         let middle = [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])];
         let off = 0.45 * self.label;
@@ -160,13 +158,6 @@ impl Page {
     /// Width and height in pixels.
     pub(super) fn pixels(&self) -> [u32; 2] {
         [self.width, self.height].map(|side| side.round() as u32)
-    }
-
-    fn headings(&self, canvas: &mut Canvas, [title, subtitle]: [&str; 2], inks: &Inks) -> f64 {
-        let width = self.width - 2.0 * self.margin;
-        let headings = canvas.headings((title, self.title), (subtitle, self.label, 2), inks, width);
-        let end = canvas.write_headings(&headings, [self.margin; 2]);
-        if end > self.margin { end + 0.5 * self.gap } else { end }
     }
 
     fn line(&self) -> f64 {
@@ -246,19 +237,12 @@ impl Page {
     }
 
     /// Draws the key to the colours and a scale bar below a box with this outline.
-    pub(super) fn footer(
-        &self,
-        canvas: &mut Canvas,
-        key: &Key<'_>,
-        inks: &Inks,
-        outline: Area,
-        pixels_per_length: f64,
-    ) {
+    pub(super) fn footer(&self, canvas: &mut Canvas, key: &Key<'_>, outline: Area, pixels_per_length: f64) {
         if !self.captioned {
             return;
         }
         let top = self.height - self.margin - self.footer_height(canvas, key) + self.gap;
-        let style = self.text(inks.ink);
+        let style = self.text(canvas.inks.ink);
         match key {
             Key::Species { names, counts, colours, .. } => {
                 let mut species = 0;
@@ -397,7 +381,7 @@ mod tests {
         for [width, height] in [[1200, 1200], [640, 640], [300, 900]] {
             let style = Snapshot { width: Some(width), height: Some(height), ..Snapshot::default() };
             let page = Page::new(&style, [1.0, 1.0]);
-            let Ok(canvas) = Canvas::new(width, height, [255; 4]) else { continue };
+            let Ok(canvas) = Canvas::new(width, height, crate::scene::Theme::Light) else { continue };
             let (size, rows) = page.legend(&canvas, &names, &counts);
             let found: Vec<String> = rows.iter().flatten().map(|(text, _)| text.clone()).collect();
             let expected: Vec<String> = names.iter().map(|name| format!("{name} (1234)")).collect();

@@ -1,6 +1,6 @@
 //! Charts of the pressure tensor.
 
-use super::chart::{Axis, AxisFit, Chart, Mean, Panel, Series, SeriesInk, SeriesStyle};
+use super::chart::{Chart, Mean, Panel, Series, SeriesInk, SeriesStyle};
 use super::quantities::{TIME, pressure_label};
 use super::transport_charts::Found;
 use crate::numbers::with_error;
@@ -28,9 +28,7 @@ pub fn stress_chart(title: &str, table: &Table, means: &dyn Fn(&str) -> Option<M
     let unit = pressure_label(dimension);
     let unit = unit.trim_start_matches("Pressure ");
     let panel = |name: &str, components: &[&str]| {
-        let label = format!("{name} {unit}");
-        let mut panel = Panel::new(TIME, &label);
-        panel.y = Axis { fit: AxisFit::Settled, ..Axis::linear(&label) };
+        let mut panel = Panel::new(TIME, &format!("{name} {unit}")).settled();
         for (number, component) in components.iter().enumerate() {
             if let Some(points) = table.over_time(&format!("pressure_{component}"), 1.0) {
                 let series = Series::line(&format!("P_{{{component}}}"), points).with_ink(SeriesInk::Numbered(number));
@@ -40,9 +38,7 @@ pub fn stress_chart(title: &str, table: &Table, means: &dyn Fn(&str) -> Option<M
         panel
     };
     let panels = [panel("Normal pressure", &["xx", "yy", "zz"]), panel("Shear stress", &["xy", "xz", "yz"])];
-    let panels = panels.into_iter().filter(|panel| !panel.series.is_empty()).collect();
-    let subtitle = "pressure tensor, with means ± errors after equilibration".to_owned();
-    Chart { title: title.to_owned(), subtitle, panels }
+    Chart::of_found(title, "pressure tensor, with means ± errors after equilibration", panels)
 }
 
 /// The autocorrelation of the shear stress over the lag, and the viscosity that its sum up to there gives, with errors.
@@ -73,11 +69,8 @@ pub fn stress_correlation_chart(title: &str, table: &Table, viscosity: Option<Fo
         || "sum up to the lag".to_owned(),
         |(value, error)| format!("η = {} at the longest lag", with_error(value, error)),
     );
-    let mut correlation =
-        panel("autocorrelation", "Autocorrelation of the shear stress, times V/kT", "autocorrelation");
-    // Noise of a single step would take the whole axis.
-    correlation.y.fit = AxisFit::Settled;
+    let correlation = panel("autocorrelation", "Autocorrelation of the shear stress, times V/kT", "autocorrelation");
     let sum = panel("viscosity", "Viscosity from its sum (mass units/(length unit · time unit))", &name);
-    let panels = [correlation, sum].into_iter().filter(|panel| !panel.series.is_empty()).collect();
-    Chart { title: title.to_owned(), subtitle: "means over blocks of time, with standard errors".to_owned(), panels }
+    // Noise of a single step would take the whole axis.
+    Chart::of_found(title, "means over blocks of time, with standard errors", [correlation.settled(), sum])
 }

@@ -11,7 +11,38 @@ pub(super) struct AxisMap {
     pub high: f64,
 }
 
+/// Values beyond this cannot be distinguished from infinity once margins are added.
+pub(super) const LARGEST: f64 = 1e300;
+pub(super) const SMALLEST: f64 = 1e-300;
+
 impl AxisMap {
+    pub(super) fn linear(low: f64, high: f64) -> Self {
+        Self { scale: Scale::Linear, low, high }
+    }
+
+    /// The axis of a range that was given; none if that is left out, empty, not finite, or not positive where its logarithm is
+    /// taken.
+    pub(super) fn given(scale: Scale, range: Option<[f64; 2]>) -> Option<Self> {
+        let [low, high] = range?;
+        let has_length = high - low > 1e-12 * low.abs().max(high.abs());
+        let is_finite = low.abs() <= LARGEST && high.abs() <= LARGEST;
+        (has_length && is_finite && (scale == Scale::Linear || low >= SMALLEST)).then_some(Self { scale, low, high })
+    }
+
+    /// The linear axis of values between two ends, with a margin in parts of their distance. A constant gets a range in
+    /// proportion to it, so that its noise in the last digit stays invisible.
+    pub(super) fn around([low, high]: [f64; 2], margin: f64) -> Self {
+        let (span, largest) = (high - low, low.abs().max(high.abs()));
+        let grow = if span > (1e-11 * largest).max(SMALLEST) {
+            margin * span
+        } else if largest < SMALLEST {
+            1.0
+        } else {
+            0.1 * largest
+        };
+        Self::linear(low - grow, high + grow)
+    }
+
     /// Fraction of the axis, 0 at `low` and 1 at `high`; `None` where the axis has no place for the value.
     pub(super) fn fraction(&self, value: f64) -> Option<f64> {
         if !value.is_finite() {
@@ -70,16 +101,9 @@ const SMALLEST_STEP: f64 = 1e-6;
 /// The smallest of 1, 2, 5 times a power of ten that is at least `raw`, and the number of minor intervals in it.
 fn nice_step(raw: f64) -> (f64, u32) {
     let power = 10_f64.powf(raw.log10().floor());
-    let lead = raw / power;
-    if lead <= 1.0 + 1e-9 {
-        (power, 5)
-    } else if lead <= 2.0 + 1e-9 {
-        (2.0 * power, 4)
-    } else if lead <= 5.0 + 1e-9 {
-        (5.0 * power, 5)
-    } else {
-        (10.0 * power, 5)
-    }
+    let fits = |(step, _): &(f64, u32)| raw / power <= step + 1e-9;
+    let (step, parts) = [(1.0, 5), (2.0, 4), (5.0, 5)].into_iter().find(fits).unwrap_or((10.0, 5));
+    (step * power, parts)
 }
 
 fn multiples(low: f64, high: f64, step: f64) -> Vec<f64> {
@@ -183,15 +207,7 @@ fn significant(value: f64, span: f64) -> String {
 /// The largest of 1, 2, 5 times a power of ten that is at most `limit`.
 pub(super) fn nice_length(limit: f64) -> f64 {
     let power = 10_f64.powf(limit.log10().floor());
-    let lead = limit / power;
-    let nice = if lead >= 5.0 {
-        5.0
-    } else if lead >= 2.0 {
-        2.0
-    } else {
-        1.0
-    };
-    nice * power
+    [5.0, 2.0].into_iter().find(|step| limit / power >= *step).unwrap_or(1.0) * power
 }
 
 #[cfg(test)]

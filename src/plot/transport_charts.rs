@@ -1,6 +1,6 @@
 //! Charts of transport: what is measured over lags, with the fits made to it and what they give.
 
-use super::chart::{Axis, AxisFit, Chart, Mean, Panel, Series, SeriesInk};
+use super::chart::{Axis, Chart, Mean, Panel, Series, SeriesInk};
 use super::quantities::TIME;
 use crate::numbers::with_error;
 use crate::table::Table;
@@ -147,30 +147,23 @@ pub struct ChainKind {
 /// ```
 #[must_use]
 pub fn chain_sizes_chart(title: &str, table: &Table, kinds: &[ChainKind]) -> Chart {
-    let mut panels = Vec::new();
-    for (column, label) in [
-        ("end_to_end_squared", "Squared end-to-end distance (length units²)"),
-        ("radius_of_gyration_squared", "Squared radius of gyration (length units²)"),
-    ] {
-        let mut panel = Panel::new(TIME, label);
-        panel.y = Axis { fit: AxisFit::Settled, ..Axis::linear(label) };
+    let panel = |label: &str, column: &str, mean_of: fn(&ChainKind) -> Option<Mean>| {
+        let mut panel = Panel::new(TIME, label).settled();
         for (number, kind) in kinds.iter().enumerate() {
-            let ends = column.starts_with("end");
-            let mean = if ends { kind.end_to_end } else { kind.gyration };
-            // The ends of a ring are neighbours.
-            if ends && mean.is_none() {
-                continue;
-            }
+            let mean = mean_of(kind);
             let Some(points) = table.over_time(&format!("{column}_{number}"), 1.0) else { continue };
             let series = Series::line(&format!("{}, {} beads", kind.species, kind.beads), points);
             panel.series.push(Series { mean, ..series.with_ink(SeriesInk::Numbered(number)) });
         }
-        if !panel.series.is_empty() {
-            panels.push(panel);
-        }
-    }
-    let subtitle = "means over all chains of a kind, and ± errors over time after equilibration".to_owned();
-    Chart { title: title.to_owned(), subtitle, panels }
+        panel
+    };
+    let mut ends = panel("Squared end-to-end distance (length units²)", "end_to_end_squared", |kind| kind.end_to_end);
+    // The ends of a ring are neighbours.
+    ends.series.retain(|series| series.mean.is_some());
+    let gyration =
+        panel("Squared radius of gyration (length units²)", "radius_of_gyration_squared", |kind| kind.gyration);
+    let subtitle = "means over all chains of a kind, and ± errors over time after equilibration";
+    Chart::of_found(title, subtitle, [ends, gyration])
 }
 
 #[cfg(test)]

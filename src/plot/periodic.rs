@@ -1,4 +1,15 @@
-//! Lines in a periodic box, as segments inside one image of it.
+//! What lies in a periodic box, and its images that show there too.
+
+/// By how much to move what reaches from a place to another along each axis, and is no longer than the box, so that a part of
+/// it is in the box: not at all, and where it stands out to the other side.
+pub(super) fn images(reach: [[f64; 2]; 2], lengths: [f64; 2]) -> Vec<[f64; 2]> {
+    let [along_x, along_y] = [0, 1].map(|axis| {
+        let ([low, high], length) = (reach[axis], lengths[axis]);
+        let seen = move |shift: &f64| high + shift > 0.0 && low + shift < length;
+        std::iter::once(0.0).chain([-length, length].into_iter().filter(seen))
+    });
+    along_x.flat_map(|x| along_y.clone().map(move |y| [x, y])).collect()
+}
 
 /// A segment, in fractions of the box.
 pub(super) type Segment = ([f64; 2], [f64; 2]);
@@ -7,38 +18,18 @@ pub(super) type Segment = ([f64; 2], [f64; 2]);
 /// point; where it leaves the box there are further images of it, which come in again on the other side.
 pub(super) fn segments(points: &[[f64; 2]], closed: bool, lengths: [f64; 2]) -> Vec<Segment> {
     let following = points.iter().skip(1).chain(points.first().filter(|_| closed));
-    points.iter().zip(following).flat_map(|(from, to)| images(*from, *to, lengths)).collect()
-}
-
-fn images(from: [f64; 2], to: [f64; 2], lengths: [f64; 2]) -> Vec<Segment> {
-    let start = [0, 1].map(|axis| (from[axis] / lengths[axis]).rem_euclid(1.0));
-    let way = [0, 1].map(|axis| {
-        let way = (to[axis] - from[axis]) / lengths[axis];
-        way - way.round()
-    });
-    if start.iter().chain(&way).any(|value| !value.is_finite()) {
-        return Vec::new();
-    }
-    // The box and, where the segment ends outside it, the neighbour that holds the end.
-    let shifts = [0, 1].map(|axis| {
-        let end = start[axis] + way[axis];
-        let outside = if end < 0.0 {
-            Some(1.0)
-        } else if end > 1.0 {
-            Some(-1.0)
-        } else {
-            None
-        };
-        [Some(0.0), outside]
-    });
-    let mut images = Vec::new();
-    for shift_x in shifts[0].into_iter().flatten() {
-        for shift_y in shifts[1].into_iter().flatten() {
-            let begin = [start[0] + shift_x, start[1] + shift_y];
-            images.push((begin, [begin[0] + way[0], begin[1] + way[1]]));
+    let mut segments = Vec::new();
+    for (from, to) in points.iter().zip(following) {
+        let begin = [0, 1].map(|axis| (from[axis] / lengths[axis]).rem_euclid(1.0));
+        let way = [0, 1].map(|axis| (to[axis] - from[axis]) / lengths[axis]).map(|way| way - way.round());
+        if begin.iter().chain(&way).all(|value| value.is_finite()) {
+            let end = [begin[0] + way[0], begin[1] + way[1]];
+            let reach = [0, 1].map(|axis| [begin[axis].min(end[axis]), begin[axis].max(end[axis])]);
+            let moved = |[x, y]: [f64; 2]| ([begin[0] + x, begin[1] + y], [end[0] + x, end[1] + y]);
+            segments.extend(images(reach, [1.0; 2]).into_iter().map(moved));
         }
     }
-    images
+    segments
 }
 
 #[cfg(test)]
