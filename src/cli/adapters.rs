@@ -3,7 +3,7 @@
 use mesoscope::gpu::{AdapterChoice, AdapterDescription, Gpu, GpuError, Requirements, list_adapters};
 use mesoscope::self_test::{self, Finding, Verdict};
 
-use super::table::aligned;
+use super::table::{aligned, labelled};
 use super::{AdapterArgument, Failure, print};
 
 /// List the adapters of this machine, the best first, or check one
@@ -59,8 +59,7 @@ fn check(choice: &AdapterChoice) -> Result<(), Failure> {
         ("subgroups", format!("{subgroups}; memory {memory}")),
         ("takes", "some ten seconds, on a busy software adapter a minute".to_owned()),
     ];
-    let head: Vec<Vec<String>> = head.into_iter().map(|(key, value)| vec![key.to_owned(), value]).collect();
-    print(&format!("{}\n", aligned(&head, "")))?;
+    print(&format!("{}\n", labelled(head, "")))?;
     let mut counts = [0_usize; 2];
     let mut printed = Ok(());
     self_test::run(&gpu, &mut |finding| {

@@ -41,14 +41,9 @@ impl Failure {
         Self { exit_code: 5, message: message.into() }
     }
 
-    /// A signal asked to stop.
-    pub fn interrupted(message: impl Into<String>) -> Self {
-        Self { exit_code: INTERRUPTED, message: message.into() }
-    }
-
     /// The failure of a run, in other words.
     pub fn of_run(error: &RunError, message: impl Into<String>) -> Self {
-        Self { exit_code: exit_code(error), message: message.into() }
+        Self { exit_code: run_code(error), message: message.into() }
     }
 
     /// What stands before the message: an interruption is no error.
@@ -70,30 +65,23 @@ impl fmt::Display for Failure {
 
 impl From<SceneError> for Failure {
     fn from(error: SceneError) -> Self {
-        match error {
-            SceneError::Read { .. } | SceneError::StateChanged { .. } => Self::input_output(error.to_string()),
-            SceneError::TooManyParticles { .. } => Self::no_adapter(error.to_string()),
-            SceneError::NotFound { ref name, .. } => {
-                Self::usage(format!("{error}\nhint: {}", super::guidance::of_scene(name)))
-            }
-            SceneError::Invalid { further, .. } => Self::usage(format!(
-                "{error}\n{}hint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes NAME` a complete scene",
-                if further { "note: further checks follow once these mistakes are mended\n" } else { "" }
-            )),
-            _ => Self::usage(error.to_string()),
-        }
+        let advice = match &error {
+            SceneError::NotFound { name, .. } => format!("\nhint: {}", super::guidance::of_scene(name)),
+            SceneError::Invalid { further, .. } => format!(
+                "\n{}hint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes NAME` a complete scene",
+                if *further { "note: further checks follow once these mistakes are mended\n" } else { "" }
+            ),
+            _ => String::new(),
+        };
+        Self { exit_code: scene_code(&error), message: format!("{error}{advice}") }
     }
 }
 
 impl From<GpuError> for Failure {
     fn from(error: GpuError) -> Self {
-        match error {
-            GpuError::NoSuchAdapter { .. } => {
-                Self::no_adapter(format!("{error}\nhint: `mesoscope adapters` describes them"))
-            }
-            GpuError::Plan { .. } => Self::usage(error.to_string()),
-            _ => Self::no_adapter(error.to_string()),
-        }
+        let unknown = matches!(error, GpuError::NoSuchAdapter { .. });
+        let advice = if unknown { "\nhint: `mesoscope adapters` describes them" } else { "" };
+        Self { exit_code: gpu_code(&error), message: format!("{error}{advice}") }
     }
 }
 
@@ -105,55 +93,68 @@ impl From<OutputError> for Failure {
 
 impl From<RunError> for Failure {
     fn from(error: RunError) -> Self {
-        match error {
-            RunError::Gpu(error) => error.into(),
-            RunError::Scene(error) => error.into(),
-            error @ (RunError::Interrupted { .. } | RunError::NotBegun) => Self::interrupted(error.to_string()),
-            RunError::Checkpoint(CheckpointError::Output(_)) => Self::input_output(format!(
-                "{error}\nhint: give the directory that `mesoscope run` wrote, with its {}",
-                files::CHECKPOINT
-            )),
-            RunError::Checkpoint(CheckpointError::Content { source: ContentError::Version { .. }, .. }) => {
-                Self::input_output(error.to_string())
+        let advice = match error {
+            RunError::Gpu(error) => return error.into(),
+            RunError::Scene(error) => return error.into(),
+            RunError::Checkpoint(CheckpointError::Output(_)) => {
+                format!("\nhint: give the directory that `mesoscope run` wrote, with its {}", files::CHECKPOINT)
             }
-            RunError::Checkpoint(_) => Self::input_output(format!(
-                "{error}\nhint: it cannot be repaired: restore it from a copy, or run the scene again with --force"
-            )),
-            error => Self::of_run(&error, error.to_string()),
-        }
+            RunError::Checkpoint(CheckpointError::Content { source: ContentError::Version { .. }, .. }) => {
+                String::new()
+            }
+            RunError::Checkpoint(_) => {
+                "\nhint: it cannot be repaired: restore it from a copy, or run the scene again with --force".to_owned()
+            }
+            _ => String::new(),
+        };
+        Self::of_run(&error, format!("{error}{advice}"))
     }
 }
 
 impl From<StudyError> for Failure {
     fn from(error: StudyError) -> Self {
-        match error {
-            StudyError::Scene(error) => error.into(),
-            StudyError::Gpu(error) => error.into(),
-            StudyError::Common(error) => error.into(),
-            StudyError::Interrupted { .. } | StudyError::InterruptedShard { .. } => {
-                Self::interrupted(error.to_string())
+        let exit_code = match &error {
+            StudyError::Interrupted { .. } | StudyError::InterruptedShard { .. } => INTERRUPTED,
+            StudyError::Variants { .. } | StudyError::Arguments { .. } | StudyError::Long { .. } => 2,
+            StudyError::Run { source, .. } => run_code(source),
+            _ => 5,
+        };
+        let advice = match error {
+            StudyError::Scene(error) => return error.into(),
+            StudyError::Gpu(error) => return error.into(),
+            StudyError::Common(error) => return error.into(),
+            StudyError::Variants { .. } => {
+                "\nhint: `mesoscope schema` prints every key with its meaning; nothing has been run"
             }
-            StudyError::Variants { .. } => Self::usage(format!(
-                "{error}\nhint: `mesoscope schema` prints every key with its meaning; nothing has been run"
-            )),
-            StudyError::Arguments { .. } | StudyError::Long { .. } => Self::usage(error.to_string()),
-            StudyError::Run { ref source, .. } => Self::of_run(source, error.to_string()),
-            _ => Self::input_output(error.to_string()),
-        }
+            _ => "",
+        };
+        Self { exit_code, message: format!("{error}{advice}") }
     }
 }
 
-fn exit_code(error: &RunError) -> u8 {
+fn scene_code(error: &SceneError) -> u8 {
     match error {
+        SceneError::Read { .. } | SceneError::StateChanged { .. } => 5,
+        SceneError::TooManyParticles { .. } => 3,
+        _ => 2,
+    }
+}
+
+fn gpu_code(error: &GpuError) -> u8 {
+    if matches!(error, GpuError::Plan { .. }) { 2 } else { 3 }
+}
+
+fn run_code(error: &RunError) -> u8 {
+    match error {
+        RunError::Scene(error) => scene_code(error),
+        RunError::Gpu(error) => gpu_code(error),
         RunError::Unstable { .. } | RunError::UnstableTrial(_) | RunError::GaveUp { .. } => 4,
-        RunError::Scene(SceneError::Read { .. } | SceneError::StateChanged { .. }) => 5,
+        RunError::Interrupted { .. } | RunError::NotBegun => INTERRUPTED,
         // What the scene says about its pictures cannot be drawn; anything else is between the adapter and us.
-        RunError::Scene(_)
-        | RunError::Gpu(GpuError::Plan { .. })
-        | RunError::Unshared { .. }
+        RunError::Unshared { .. }
         | RunError::Undividable { .. }
         | RunError::Plot { source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, .. } => 2,
-        RunError::Gpu(_) | RunError::TooLarge { .. } | RunError::Plot { .. } | RunError::Engine(_) => 3,
+        RunError::TooLarge { .. } | RunError::Plot { .. } | RunError::Engine(_) => 3,
         _ => 5,
     }
 }

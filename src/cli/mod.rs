@@ -95,13 +95,9 @@ impl Command {
             prepare_environment_among(launcher::local_copies());
         }
         match self {
-            Self::Run(arguments) => {
-                processes::share(&arguments.choice(), &|processes| run::execute(arguments, processes))
-            }
+            Self::Run(arguments) => run::execute(arguments),
             Self::Check(arguments) => check::execute(arguments),
-            Self::Resume(arguments) => {
-                processes::share(&arguments.choice(), &|processes| resume::execute(arguments, processes))
-            }
+            Self::Resume(arguments) => resume::execute(arguments),
             Self::Sweep(arguments) => sweep::execute(arguments),
             Self::Tradeoff(arguments) => tradeoff::execute(arguments),
             Self::Stability(arguments) => stability::execute(arguments),

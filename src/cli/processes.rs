@@ -1,16 +1,15 @@
 //! The copies of the program that a launcher of MPI has started, which share a run as its ranks.
 
-use mesoscope::gpu::AdapterChoice;
 use mesoscope::ranks::Processes;
 
-use super::{Failure, launcher};
+use super::{AdapterArgument, Failure, launcher};
 
 /// What the first of several copies does with them, or a copy that is alone without.
 type Work<'w> = &'w dyn Fn(Option<&dyn Processes>) -> Result<(), Failure>;
 
 /// Does the work of the first copy, or what the first tells this one. A copy that is alone does the work alone.
 #[cfg(feature = "mpi")]
-pub fn share(choice: &AdapterChoice, work: Work<'_>) -> Result<(), Failure> {
+pub fn share(adapter: &AdapterArgument, work: Work<'_>) -> Result<(), Failure> {
     use std::sync::Arc;
     use std::sync::atomic::AtomicBool;
     use std::time::Duration;
@@ -35,7 +34,7 @@ pub fn share(choice: &AdapterChoice, work: Work<'_>) -> Result<(), Failure> {
     if rank > 0 {
         // Requests to stop are for the first.
         let _ = super::interruption::interrupt(&Arc::new(AtomicBool::new(true)));
-        return Ok(run::follow(&world, rank, choice)?);
+        return Ok(run::follow(&world, rank, &adapter.choice_of_copy())?);
     }
     let done = work(Some(&world));
     run::dismiss(&world)?;
@@ -54,7 +53,7 @@ fn panic_if_asked(_: u32) {}
 
 /// The same of a program that was built without MPI: copies have been refused.
 #[cfg(not(feature = "mpi"))]
-pub fn share(_: &AdapterChoice, work: Work<'_>) -> Result<(), Failure> {
+pub fn share(_: &AdapterArgument, work: Work<'_>) -> Result<(), Failure> {
     work(None)
 }
 

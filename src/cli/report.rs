@@ -6,12 +6,13 @@ use std::time::{Duration, Instant};
 
 use mesoscope::families::{Model, PictureKind};
 use mesoscope::numbers::{grouped, prefixed};
+use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
 
 use super::progress::Bar;
-use super::table::{aligned, dimensions};
+use super::table::{aligned, dimensions, labelled};
 use super::{AdapterArgument, Failure, RanksArgument, line, print};
 
 /// Executes a run on its ranks and reports on it, with warnings of what they cost before, unless it is to be quiet.
@@ -95,11 +96,10 @@ impl Reporter {
         let particles = model.particle_count();
         let noun = if particles == 1 { "particle" } else { "particles" };
         let (title, dimensions) = (printable::name(&scene.title), dimensions(scene.space.lengths.len()));
-        let composition = model.composition(scene).into_iter().map(|(name, text)| vec![name.to_owned(), text]);
         Self {
             flows: model.picture() == PictureKind::Fields,
             headline: format!("{title}: {} {noun} in {dimensions}", grouped(particles)),
-            composition: aligned(&composition.collect::<Vec<_>>(), "  "),
+            composition: labelled(model.composition(scene), "  "),
             bar: Bar::default(),
             reported: 0,
             reported_at: Instant::now(),
@@ -204,27 +204,32 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         let rate = prefixed(summary.particle_steps_per_second);
         rows.push(vec!["speed".to_owned(), format!("{rate} particle-steps/s, {:.2} s", summary.wall_seconds)]);
     }
-    let has = |mark: char| rows.iter().any(|row| row[1].ends_with(mark) || row[1].contains(&format!("{mark} ")));
-    let mut note = String::new();
-    if has('*') {
-        note.push_str("  * from few samples: the error may be larger\n");
-    }
-    if let Some(found) = summary.unequilibrated.as_ref().filter(|_| has('†')) {
-        note = format!("{note}  † not yet in equilibrium: try {}\n", found.arguments());
-    }
+    let note = marks(&rows, summary.unequilibrated.as_ref());
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
     if outcome.snapshots > 0 {
         let noun = if flows { "pictures and arrays of each field" } else { "snapshots" };
         files.push(format!("{} numbered {noun}", outcome.snapshots));
     }
-    let momentum = if flows { String::new() } else { momentum_note(&summary.not_conserved) };
+    // Particles that exchange momentum in pairs lead one to expect that it is conserved.
+    let reasons = summary.not_conserved.iter().filter(|_| !flows);
+    let reasons = reasons.filter_map(|entry| entry.strip_prefix("total momentum: ")).next();
+    let momentum =
+        reasons.map_or_else(String::new, |reasons| format!("  total momentum is not conserved: {reasons}\n"));
     format!("{}{note}{momentum}wrote {}/: {}\n", aligned(&rows, "  "), printable::name(directory), files.join(", "))
 }
 
-/// Why momentum is not conserved, if it is not: particles that exchange it in pairs lead one to expect it.
-fn momentum_note(not_conserved: &[String]) -> String {
-    let reasons = not_conserved.iter().find_map(|entry| entry.strip_prefix("total momentum: "));
-    reasons.map_or_else(String::new, |reasons| format!("  total momentum is not conserved: {reasons}\n"))
+/// The meaning of the marks of means in a table, as far as it has them.
+pub fn marks(rows: &[Vec<String>], unequilibrated: Option<&Unequilibrated>) -> String {
+    let has = |mark: char| rows.iter().flatten().any(|cell| cell.ends_with(mark) || cell.contains(&format!("{mark} ")));
+    let mut notes = String::new();
+    if has('*') {
+        notes.push_str("  * from few samples: the error may be larger\n");
+    }
+    if has('†') {
+        let advice = unequilibrated.map_or_else(String::new, |found| format!(": try {}", found.arguments()));
+        notes = format!("{notes}  † not yet in equilibrium{advice}\n");
+    }
+    notes
 }
 
 /// A mean, with a mark if it includes the way to equilibrium.

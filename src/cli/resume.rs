@@ -2,14 +2,13 @@
 
 use std::path::PathBuf;
 
-use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::files;
 use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::Simulation;
 use mesoscope::study::Kind;
 
-use super::{AdapterArgument, Failure, RanksArgument, guidance, heading, print, report, whole_number};
+use super::{AdapterArgument, Failure, RanksArgument, guidance, heading, print, processes, report, whole_number};
 
 /// Continue a run from its last checkpoint
 #[derive(Debug, clap::Args)]
@@ -40,8 +39,12 @@ pub struct Arguments {
     quiet: bool,
 }
 
-/// Continues the run.
-pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
+/// Continues the run, with all copies of the program that a launcher has started.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    processes::share(&arguments.adapter, &|processes| resume(arguments, processes))
+}
+
+fn resume(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
     let shown = printable::path(&arguments.directory);
     if let Some(change) = arguments.set.first() {
         return Err(Failure::usage(format!(
@@ -68,11 +71,4 @@ pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Resu
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
     report::execute(simulation, processes, &arguments.ranks, &arguments.adapter, &shown, arguments.quiet)
-}
-
-impl Arguments {
-    /// The adapter of this copy of the program.
-    pub fn choice(&self) -> AdapterChoice {
-        self.adapter.choice_of_copy()
-    }
 }

@@ -2,12 +2,11 @@
 
 use std::path::PathBuf;
 
-use mesoscope::gpu::AdapterChoice;
 use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::Simulation;
 
-use super::{Failure, RanksArgument, RunArguments, SceneArguments, heading, report};
+use super::{Failure, RanksArgument, RunArguments, SceneArguments, heading, processes, report};
 
 /// Simulate a scene and write energies, plots and snapshots
 #[derive(Debug, clap::Args)]
@@ -36,19 +35,16 @@ pub struct Arguments {
     how: RunArguments,
 }
 
-/// Simulates the scene.
-pub fn execute(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
+/// Simulates the scene, with all copies of the program that a launcher has started.
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    processes::share(&arguments.how.adapter, &|processes| simulate(arguments, processes))
+}
+
+fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
     let (adapter, copies) = (&arguments.how.adapter, processes.map(Processes::count));
     let (scene, notices) = arguments.ranks.load(&arguments.scene, adapter, copies)?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::stem(&arguments.scene.scene).into());
     let shown = printable::path(&directory);
     let simulation = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
     report::execute(simulation, processes, &arguments.ranks, adapter, &shown, arguments.how.quiet)
-}
-
-impl Arguments {
-    /// The adapter of this copy of the program.
-    pub fn choice(&self) -> AdapterChoice {
-        self.how.adapter.choice_of_copy()
-    }
 }

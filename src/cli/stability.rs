@@ -59,13 +59,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     study.note(run.request().notices());
     let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
-    let outcome = study.execute(
-        &study.how.adapter.choice(),
-        run,
-        &title,
-        |runs| format!("{runs} runs, then the edges"),
-        StabilityRun::execute,
-    )?;
+    let in_words = |runs| format!("{runs} runs, then the edges");
+    let outcome = study.execute(run, &title, in_words, StabilityRun::execute)?;
     if study.how.quiet { Ok(()) } else { print(&results(&outcome, &directory)) }
 }
 

@@ -106,15 +106,16 @@ impl StudyArguments {
         }
     }
 
-    /// Executes a study on an adapter and shows how far it is, unless it is to be quiet; `runs` says what its runs are, given their number.
+    /// Executes a study and shows how far it is, unless it is to be quiet; `runs` says what its runs are, given their number.
     pub fn execute<R: Record, O>(
         &self,
-        adapter: &AdapterChoice,
         study: StudyRun<R>,
         title: &str,
         runs: impl Fn(usize) -> String,
         execute: impl FnOnce(StudyRun<R>, &AdapterChoice, &mut Observer<'_, R>) -> Result<O, StudyError>,
     ) -> Result<O, Failure> {
+        // Copies on one machine take different adapters, where there are several.
+        let adapter = &self.how.adapter.choice_of_copy();
         let directory = study.directory().to_path_buf();
         let executed = if self.how.quiet {
             execute(study, adapter, &mut |_| {})

@@ -95,14 +95,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let title = sweep.variants().first().map_or("", |variant| &variant.scene.title);
     let in_words = |waiting| in_words(&sweep, shard, variants.len(), waiting);
-    let adapter = &study.how.adapter;
-    let outcome = match shard {
-        None => study.execute(&adapter.choice(), run, title, in_words, SweepRun::execute)?,
-        // Copies on one machine take different adapters, where there are several.
-        Some(shard) => study.execute(&adapter.choice_of_copy(), run, title, in_words, |run, adapter, observer| {
-            run.execute_shard(shard, adapter, observer)
-        })?,
-    };
+    let outcome = study.execute(run, title, in_words, |run, adapter, observer| match shard {
+        None => run.execute(adapter, observer),
+        Some(shard) => run.execute_shard(shard, adapter, observer),
+    })?;
     if !quiet {
         sweep_report::warn_of_results(&variants, &outcome);
         print(&sweep_report::results(&outcome, &directory))?;

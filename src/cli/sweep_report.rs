@@ -7,7 +7,7 @@ use mesoscope::sweep::{SweepOutcome, Variant, VariantState};
 use serde_json::{Map, Value};
 
 use super::line;
-use super::report::marked;
+use super::report::{marked, marks};
 use super::table::aligned;
 
 /// Columns of the table at the end, where a variant has them.
@@ -95,15 +95,7 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
             [vec![average.label.clone()], shown(&average.means, &is_spoilt)].concat()
         }));
     }
-    let mut note = String::new();
-    if rows.iter().flatten().any(|cell| cell.trim_end_matches(" †").ends_with('*')) {
-        note.push_str("  * from few samples: the error may be larger\n");
-    }
-    if rows.iter().flatten().any(|cell| cell.ends_with('†')) {
-        let found = variants.iter().filter_map(|variant| variant.unequilibrated.clone());
-        let all = found.reduce(Unequilibrated::and);
-        let arguments = all.map_or_else(String::new, |all| format!(": try {}", all.arguments()));
-        note = format!("{note}  † not yet in equilibrium{arguments}\n");
-    }
+    let unequilibrated = variants.iter().filter_map(|variant| variant.unequilibrated.clone());
+    let note = marks(&rows, unequilibrated.reduce(Unequilibrated::and).as_ref());
     format!("{}{note}wrote {directory}/: {}\n", aligned(&rows, "  "), outcome.files.join(", "))
 }

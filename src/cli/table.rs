@@ -15,6 +15,12 @@ pub fn aligned(rows: &[Vec<String>], indent: &str) -> String {
     text
 }
 
+/// Lines of names and what is to be said of them, side by side.
+pub fn labelled<N: Into<String>>(rows: impl IntoIterator<Item = (N, String)>, indent: &str) -> String {
+    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, text)| vec![name.into(), text]).collect();
+    aligned(&rows, indent)
+}
+
 /// A number of dimensions.
 pub fn dimensions(count: usize) -> String {
     format!("{count} dimension{}", if count == 1 { "" } else { "s" })

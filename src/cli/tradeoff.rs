@@ -93,8 +93,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     study.note(run.request().notices());
     let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
-    let outcome =
-        study.execute(&study.how.adapter.choice(), run, &title, |runs| format!("{runs} runs"), TradeoffRun::execute)?;
+    let outcome = study.execute(run, &title, |runs| format!("{runs} runs"), TradeoffRun::execute)?;
     if !study.how.quiet {
         print(&results(&outcome, &directory))?;
     }

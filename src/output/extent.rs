@@ -32,7 +32,7 @@ impl Extent {
     pub fn of(path: &Path) -> Result<Self, OutputError> {
         let read = || {
             let mut sum = Checksum::default();
-            let bytes = sum.read(&mut own_file::open(path)?)?;
+            let bytes = io::copy(&mut own_file::open(path)?, &mut sum)?;
             Ok(sum.extent(bytes))
         };
         read().map_err(OutputError::io("read", path))
@@ -47,7 +47,7 @@ impl Extent {
             let file = own_file::open(path)?;
             let length = file.metadata()?.len();
             let mut sum = Checksum::default();
-            if length < self.bytes || sum.read(&mut file.take(self.bytes))? != self.bytes {
+            if length < self.bytes || io::copy(&mut file.take(self.bytes), &mut sum)? != self.bytes {
                 return Ok(Found::Nowhere);
             }
             Ok(match sum.extent(self.bytes) == *self {
@@ -79,25 +79,19 @@ impl Checksum {
         self.0.update(bytes);
     }
 
-    /// Adds all that can be read; returns its length.
-    pub(super) fn read(&mut self, from: &mut impl Read) -> io::Result<u64> {
-        let mut buffer = vec![0; 1 << 16];
-        let mut bytes = 0;
-        loop {
-            match from.read(&mut buffer) {
-                Ok(0) => return Ok(bytes),
-                Ok(count) => {
-                    self.add(&buffer[..count]);
-                    bytes += count as u64;
-                }
-                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                Err(error) => return Err(error),
-            }
-        }
-    }
-
     /// The extent of as many bytes, with the checksum of what was added.
     pub(super) fn extent(&self, bytes: u64) -> Extent {
         Extent { bytes, crc32: self.0.clone().finalize() }
+    }
+}
+
+impl io::Write for Checksum {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.add(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
     }
 }

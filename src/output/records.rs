@@ -4,8 +4,8 @@ use super::extent::{Checksum, Extent};
 use super::watch::Watch;
 use super::{OutputError, own_file};
 use std::fs::File;
-use std::io::{Read, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::Path;
 
 /// Bytes kept back before they are written of themselves.
 const BUFFER: usize = 1 << 20;
@@ -13,7 +13,6 @@ const BUFFER: usize = 1 << 20;
 /// A file that holds whole records after every flush, even one that failed half-way for want of space.
 #[derive(Debug)]
 pub(super) struct RecordFile {
-    path: PathBuf,
     file: File,
     watch: Watch,
     /// Length of the whole records on disk.
@@ -38,7 +37,8 @@ impl RecordFile {
     pub(super) fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
         let mut file = own_file::open_to_continue(path).map_err(OutputError::io("continue", path))?;
         let mut checksum = Checksum::default();
-        let found = checksum.read(&mut (&mut file).take(written.bytes)).map_err(OutputError::io("read", path))?;
+        let beginning = &mut (&mut file).take(written.bytes);
+        let found = io::copy(beginning, &mut checksum).map_err(OutputError::io("read", path))?;
         if checksum.extent(found) != written {
             return Err(OutputError::Altered { path: path.to_path_buf() });
         }
@@ -49,12 +49,11 @@ impl RecordFile {
     }
 
     fn of(path: &Path, file: File, length: u64, checksum: Checksum) -> Result<Self, OutputError> {
-        let (path, watch) = (path.to_path_buf(), Watch::of(path)?);
-        Ok(Self { path, file, watch, length, checksum, buffer: Vec::new() })
+        Ok(Self { file, watch: Watch::of(path)?, length, checksum, buffer: Vec::new() })
     }
 
     pub(super) fn path(&self) -> &Path {
-        &self.path
+        self.watch.path()
     }
 
     /// What has been handed to the operating system.
@@ -76,11 +75,11 @@ impl RecordFile {
     /// Hands all records to the operating system.
     pub(super) fn flush(&mut self) -> Result<(), OutputError> {
         let buffer = std::mem::take(&mut self.buffer);
-        if let Err(source) = self.file.write_all(&buffer) {
+        if let Err(error) = self.file.write_all(&buffer) {
             // The error to report is the one of the write; there may be nothing to cut back (a pipe, a device).
             let _ = self.file.set_len(self.length);
             let _ = self.file.seek(SeekFrom::Start(self.length));
-            return Err(OutputError::Io { attempted: "write", path: self.path.clone(), source });
+            return Err(OutputError::io("write", self.path())(error));
         }
         self.length += buffer.len() as u64;
         self.checksum.add(&buffer);
@@ -92,7 +91,7 @@ impl RecordFile {
     /// Flushes and waits until the records are on the disk.
     pub(super) fn sync(&mut self) -> Result<(), OutputError> {
         self.flush()?;
-        self.file.sync_data().map_err(OutputError::io("write", &self.path))
+        self.file.sync_data().map_err(OutputError::io("write", self.path()))
     }
 }
 

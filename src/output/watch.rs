@@ -29,6 +29,10 @@ impl Watch {
         Ok(Self { path: path.to_path_buf(), identity: identity(&metadata) })
     }
 
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// The length of the file, as long as it is the same.
     pub(super) fn length(&self) -> Option<u64> {
         let metadata = fs::metadata(&self.path).ok()?;

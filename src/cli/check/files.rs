@@ -7,7 +7,7 @@ use mesoscope::run::{self, Sizes};
 use mesoscope::scene::Scene;
 
 use super::interval;
-use crate::cli::table::aligned;
+use crate::cli::table::labelled;
 
 pub fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
     let output = &scene.output;
@@ -38,23 +38,16 @@ pub fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
         let name = files::trajectory(trajectory.format);
         rows.push((name.to_owned(), sized(&format!("a frame {}", interval(0, trajectory.every)), sizes.trajectory)));
     }
-    rows.extend(analyses(scene, model));
-    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, when)| vec![name, when]).collect();
-    format!("\nFiles\n{}", aligned(&rows, "  "))
-}
-
-/// When a file is written and how long it becomes.
-fn sized(when: &str, size: u64) -> String {
-    format!("{when}, about {}", bytes(size))
-}
-
-/// Files of the analyses, which are written at the end.
-fn analyses(scene: &Scene, model: &Model) -> Vec<(String, String)> {
-    let mut rows = Vec::new();
+    // Files of the analyses are written at the end.
     for asked in run::asked_analyses(scene, model) {
         let sampled = format!("sampled {}", interval(asked.first, asked.every));
         let when = asked.detail.map_or(sampled.clone(), |detail| format!("{detail}, {sampled}"));
         rows.extend(asked.tables.iter().map(|names| (format!("{}, {}", names.file, names.plot), when.clone())));
     }
-    rows
+    format!("\nFiles\n{}", labelled(rows, "  "))
+}
+
+/// When a file is written and how long it becomes.
+fn sized(when: &str, size: u64) -> String {
+    format!("{when}, about {}", bytes(size))
 }

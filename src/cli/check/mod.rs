@@ -16,7 +16,7 @@ use mesoscope::printable;
 use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
 use mesoscope::scene::{Integrator, PairRelaxation, Scene};
 
-use super::table::{aligned, dimensions};
+use super::table::{dimensions, labelled};
 use super::{AdapterArgument, Failure, RanksArgument, SceneArguments, heading, print, print_exactly};
 
 /// Check a scene: all mistakes at once, or else what to expect - time, files, errors, warnings - and with -v what it consists of
@@ -108,8 +108,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if verbose {
         rows.extend(predictions::rows(&arguments.scene.as_argument(), (&scene, &model), &plan, hardware));
     }
-    let rows: Vec<Vec<String>> = rows.into_iter().map(|(name, value)| vec![name.to_owned(), value]).collect();
-    let mut text = format!("{}\n{}", printable::name(&scene.title), aligned(&rows, "  "));
+    let mut text = format!("{}\n{}", printable::name(&scene.title), labelled(rows, "  "));
     if verbose {
         text.push_str(&files::outputs(&scene, &model, &sizes));
     } else {

@@ -25,39 +25,29 @@ pub fn rows(
     let peers = format!("{} {}", share.peers, if share.peers == 1 { "peer" } else { "peers" });
     let (count, most) = (grouped(division.ranks().into()), share.most);
     let (own, sent) = (grouped(share.own as u64), bytes(share.bytes as u64));
-    if let Some([nodes, all]) = share.nodes.map(|nodes| nodes.map(grouped)) {
+    let (around, shares, sends) = if let Some([nodes, all]) = share.nodes.map(|nodes| nodes.map(grouped)) {
         let work =
             format!("a rank advances about {own} particles, adds to {nodes} of {all} nodes, and smooths all of them");
         let sends = format!("{sent} a step and rank for the nodes, with {peers}, and particles that change the rank");
-        return vec![
-            ("ranks", format!("{count} ({parts}), each {lengths}, of whole rows of cells; at most {most} fit")),
-            ("shares", work),
-            ("exchange", sends),
-            ("speed", speed(model, &share, division.ranks(), step)),
-        ];
-    }
-    let (halo, copies) = (length(share.halo), share.copies);
+        (", of whole rows of cells".to_owned(), ("shares", work), sends)
+    } else {
+        let copies = grouped(share.copies as u64);
+        let part = 100.0 * share.own / (share.own + share.copies).max(1.0);
+        let work = format!(
+            "a rank advances about {own} particles of its own and {copies} copies of others: {part:.0} % of its work is its own"
+        );
+        let mut sends = format!("about {sent} a step and rank, with {peers}");
+        if share.overlapped > 0.0 {
+            sends = format!("{sends}, during which {:.0} % of its work goes on", 100.0 * share.overlapped);
+        }
+        (format!(" with {} around it", length(share.halo)), ("copies", work), sends)
+    };
     vec![
-        ("ranks", format!("{count} ({parts}), each {lengths} with {halo} around it; at most {most} fit")),
-        (
-            "copies",
-            format!(
-                "a rank advances about {own} particles of its own and {} copies of others: {:.0} % of its work is its own",
-                grouped(copies as u64),
-                100.0 * share.own / (share.own + copies).max(1.0)
-            ),
-        ),
-        ("exchange", format!("about {sent} a step and rank, with {peers}{}", meanwhile(&share))),
+        ("ranks", format!("{count} ({parts}), each {lengths}{around}; at most {most} fit")),
+        shares,
+        ("exchange", sends),
         ("speed", speed(model, &share, division.ranks(), step)),
     ]
-}
-
-/// What an adapter does during an exchange.
-fn meanwhile(share: &Share) -> String {
-    if share.overlapped == 0.0 {
-        return String::new();
-    }
-    format!(", during which {:.0} % of its work goes on", 100.0 * share.overlapped)
 }
 
 /// How much faster than one rank the ranks are expected to be.

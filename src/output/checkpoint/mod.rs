@@ -113,28 +113,11 @@ pub fn save(
 ) -> Result<(), OutputError> {
     let start = scene.start().map(|start| (START.to_owned(), start.to_bytes()));
     let scene = serde_json::to_vec(scene).map_err(|source| OutputError::Json { path: path.to_path_buf(), source })?;
-    let sections = || start.iter().chain(sections);
-    let sections_length: u64 = sections().map(|(name, bytes)| 16 + name.len() as u64 + bytes.len() as u64).sum();
+    let sections: Vec<&(String, Vec<u8>)> = start.iter().chain(sections).collect();
     let mut arrays = StateArray::ALL.map(|array| (array.name(), state.words(array))).to_vec();
     arrays.retain(|(_, words)| !words.is_empty());
     let run_id = run_id.to_string();
-    let length = 8
-        + run_id.len() as u64
-        + 8
-        + scene.len() as u64
-        + 16
-        + 28 * state.len() as u64
-        + 8
-        + arrays.iter().map(|(name, words)| 16 + name.len() as u64 + 4 * words.len() as u64).sum::<u64>()
-        + 8
-        + files.iter().map(|(name, _)| 20 + name.len() as u64).sum::<u64>()
-        + 8
-        + sections_length;
-    write_atomically(path, |writer| {
-        writer.write_all(&MAGIC)?;
-        writer.write_all(&VERSION.to_le_bytes())?;
-        writer.write_all(&length.to_le_bytes())?;
-        let mut payload = Payload { writer, checksum: Fnv::new(), written: 0 };
+    let content = |payload: &mut Payload<'_>| -> io::Result<()> {
         payload.counted(run_id.as_bytes())?;
         payload.counted(&scene)?;
         payload.number(state.step)?;
@@ -143,7 +126,7 @@ pub fn save(
         payload.words(bytemuck::cast_slice(&state.momenta))?;
         payload.words(&state.species)?;
         payload.number(arrays.len() as u64)?;
-        for (name, words) in arrays {
+        for (name, words) in &arrays {
             payload.counted(name.as_bytes())?;
             payload.number(words.len() as u64)?;
             payload.words(words)?;
@@ -154,28 +137,40 @@ pub fn save(
             payload.number(extent.bytes)?;
             payload.bytes(&extent.crc32.to_le_bytes())?;
         }
-        payload.number(sections().count() as u64)?;
-        for (name, bytes) in sections() {
+        payload.number(sections.len() as u64)?;
+        for (name, bytes) in &sections {
             payload.counted(name.as_bytes())?;
             payload.counted(bytes)?;
         }
-        if payload.written != length {
+        Ok(())
+    };
+    write_atomically(path, |writer| {
+        if state.momenta.len() != state.len() || state.species.len() != state.len() {
             return Err(io::Error::new(io::ErrorKind::InvalidInput, "the arrays of the state differ in length"));
         }
-        let checksum = payload.checksum.0;
-        writer.write_all(&checksum.to_le_bytes())
+        // Its length comes before the content.
+        let mut counted = Payload { writer: &mut io::sink(), checksum: None, written: 0 };
+        content(&mut counted)?;
+        writer.write_all(&MAGIC)?;
+        writer.write_all(&VERSION.to_le_bytes())?;
+        writer.write_all(&counted.written.to_le_bytes())?;
+        let mut sum = Fnv::new();
+        content(&mut Payload { writer, checksum: Some(&mut sum), written: 0 })?;
+        writer.write_all(&sum.0.to_le_bytes())
     })
 }
 
 struct Payload<'a> {
     writer: &'a mut dyn Write,
-    checksum: Fnv,
+    checksum: Option<&'a mut Fnv>,
     written: u64,
 }
 
 impl Payload<'_> {
     fn bytes(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.checksum.add(bytes);
+        if let Some(checksum) = &mut self.checksum {
+            checksum.add(bytes);
+        }
         self.written += bytes.len() as u64;
         self.writer.write_all(bytes)
     }

@@ -15,7 +15,7 @@ use crate::output::{Extent, Id, OutputError, files, own_file};
 use crate::state::Reported;
 use crate::state_file::{Chunk, Cursor, FROZEN_IN_GSD, GsdError, GsdReader, GsdWriter, Number};
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Bytes for the name of a type, with at least one zero at the end.
 const NAME: usize = 64;
@@ -31,7 +31,6 @@ pub(super) const FORMAT: Format = Format {
 
 #[derive(Debug)]
 struct GsdTrajectory {
-    path: PathBuf,
     /// None after a failed write: an unknown part of it is in the file.
     file: Option<GsdWriter>,
     /// Whether no frame has been added yet.
@@ -88,18 +87,17 @@ impl GsdTrajectory {
     }
 
     fn of(path: &Path, file: GsdWriter, empty: bool, checksum: Checksum) -> Result<Self, OutputError> {
-        let (path, watch) = (path.to_path_buf(), Watch::of(path)?);
-        let length = file_length(&path)?;
-        Ok(Self { path, watch, length, added: checksum.clone(), checksum, empty, file: Some(file) })
+        let (watch, length) = (Watch::of(path)?, file_length(path)?);
+        Ok(Self { watch, length, added: checksum.clone(), checksum, empty, file: Some(file) })
     }
 
     fn attempt(&mut self, write: impl FnOnce(&mut Frame) -> io::Result<()>) -> Result<(), OutputError> {
         let Some(file) = self.file.take() else {
             let problem = "an earlier write to it failed".to_owned();
-            return Err(OutputError::Trajectory { path: self.path.clone(), problem });
+            return Err(OutputError::Trajectory { path: self.watch.path().to_path_buf(), problem });
         };
         let mut frame = Frame { file, checksum: &mut self.added };
-        write(&mut frame).map_err(OutputError::io("write", &self.path))?;
+        write(&mut frame).map_err(OutputError::io("write", self.watch.path()))?;
         self.file = Some(frame.file);
         Ok(())
     }
@@ -115,7 +113,7 @@ impl Frames for GsdTrajectory {
     }
 
     fn append(&mut self, description: &Description, state: &Reported) -> Result<(), OutputError> {
-        description.check(&self.path, state)?;
+        description.check(self.watch.path(), state)?;
         let first = self.empty;
         self.attempt(|frame| {
             if first || description.shear.is_some() {
@@ -357,7 +355,8 @@ fn is_ours(name: &str, chunk: Chunk) -> bool {
 fn hash(file: &mut GsdReader, chunk: Chunk, checksum: &mut Checksum) -> Result<(), GsdError> {
     let name = file.name(chunk).filter(|name| is_ours(name, chunk)).ok_or(GsdError::Index)?;
     begin_array(checksum, name, chunk.rows);
-    Ok(checksum.read(&mut file.content(chunk)?).map(|_| ())?)
+    io::copy(&mut file.content(chunk)?, checksum)?;
+    Ok(())
 }
 
 /// Copies the first frames to a new file and puts it in the place of the old one: the file layer cannot take frames
