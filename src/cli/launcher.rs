@@ -114,12 +114,7 @@ fn place_in_array(array: &Array, variables: Variables<'_>) -> Result<Option<(u64
 
 /// The shard of this copy: the place of its job in an array, times its place among the copies that a launcher started in the job.
 fn shard_of(variables: Variables<'_>) -> Result<Shard, String> {
-    let mut found = None;
-    for array in &ARRAYS {
-        if found.is_none() {
-            found = place_in_array(array, variables)?;
-        }
-    }
+    let mut found = ARRAYS.iter().find_map(|array| place_in_array(array, variables).transpose()).transpose()?;
     if let Some((_, rank, size)) = launcher(variables) {
         let (place, count) = found.unwrap_or((0, 1));
         found = place.checked_mul(size).and_then(|place| Some((place.checked_add(rank)?, count.checked_mul(size)?)));

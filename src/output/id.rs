@@ -37,11 +37,16 @@ enum Kind {
 }
 
 impl Kind {
-    fn letter(self) -> char {
+    /// What it is the id of, which begins with the letter that its text does, and what files call it.
+    fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Run => 'r',
-            Self::Sweep => 's',
+            Self::Run => ["run", RUN_KEY],
+            Self::Sweep => ["sweep", SWEEP_KEY],
         }
+    }
+
+    fn letter(self) -> &'static str {
+        &self.words()[0][..1]
     }
 }
 
@@ -99,19 +104,13 @@ impl Id {
 
     /// What it is the id of.
     pub(super) fn noun(self) -> &'static str {
-        match self.kind {
-            Kind::Run => "run",
-            Kind::Sweep => "sweep",
-        }
+        self.kind.words()[0]
     }
 
     /// What files call it.
     #[must_use]
     pub fn key(self) -> &'static str {
-        match self.kind {
-            Kind::Run => RUN_KEY,
-            Kind::Sweep => SWEEP_KEY,
-        }
+        self.kind.words()[1]
     }
 }
 

@@ -14,6 +14,7 @@ const FENCE: f64 = 0.5;
 const MUCH_LONGER: f64 = 2.0;
 
 /// A panel with everything decided but its place.
+#[derive(Clone, Copy)]
 pub(super) struct Prepared<'a> {
     pub panel: &'a Panel,
     pub x: AxisMap,

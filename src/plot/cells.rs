@@ -1,6 +1,6 @@
 //! Pictures of Voronoi cells: what is shown, and its layout around the view of the box.
 
-use super::canvas::{Area, Canvas};
+use super::canvas::Canvas;
 use super::error::PlotError;
 use super::periodic;
 use super::snapshot_page::{Key, Page, check};
@@ -55,12 +55,10 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
     let values = picture.shown.map_or(count, |shown| shown.values.len());
     let lists = [(picture.tessellation.cells.len(), "cells"), (picture.species.len(), "species"), (values, "values")];
     check(count, &lists, (picture.species, picture.species_names), &picture.lengths)?;
-    let page = Page::new(style, picture.lengths);
-    let [width, height] = page.pixels();
-    let mut canvas = Canvas::new(width, height, theme)?;
+    let mut page = Page::new(style, theme, picture.lengths)?;
     let key = match picture.shown {
         Some(ShownValues { label, values }) => Key::scale(label, style.range, fitting_range(values), values),
-        None => Key::species(picture.species_names, picture.species, &canvas.inks),
+        None => Key::species(picture.species_names, picture.species, &page.canvas.inks),
     };
     let mut notes = vec![picture.subtitle.to_owned()];
     // In a film this would flicker; the arrowheads of the scale say it there.
@@ -69,24 +67,20 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
         let count = values.iter().filter(beyond).count();
         notes.extend((count > 0).then(|| format!("{count} cells are beyond the scale")));
     }
-    let frame = page.frame(&mut canvas, picture.title, notes, &key);
-    let [width, height] = picture.lengths;
-    let rule = page.rule;
-    let pixels_per_length =
-        ((frame.width() - 2.0 * rule) / width).min((frame.height() - 2.0 * rule) / height).max(1e-9 / width);
-    let outline = Area::around(frame.centre(), [width, height].map(|length| length * pixels_per_length));
-    canvas.clip(Some(outline));
-    draw(&mut canvas, picture, [outline.left, outline.bottom], pixels_per_length, &key);
-    canvas.clip(None);
+    let frame = page.frame(picture.title, notes, &key);
+    let (outline, pixels_per_length) = page.outline(&frame, picture.lengths, 0.0);
+    page.canvas.clip(Some(outline));
+    draw(&mut page.canvas, picture, [outline.left, outline.bottom], pixels_per_length, &key);
+    page.canvas.clip(None);
     let corners = outline.corners();
     for (number, from) in corners.iter().enumerate() {
-        canvas.line(*from, corners[(number + 1) % corners.len()], rule, canvas.inks.ink);
+        page.canvas.line(*from, corners[(number + 1) % corners.len()], page.rule, page.canvas.inks.ink);
     }
-    let corner = [outline.left, outline.bottom];
-    page.edge_length(&mut canvas, "x", width, [corner, [outline.right, outline.bottom]]);
-    page.edge_length(&mut canvas, "y", height, [corner, [outline.left, outline.top]]);
-    page.footer(&mut canvas, &key, outline, pixels_per_length);
-    Ok(canvas)
+    let [corner, right, above] = [corners[3], corners[2], corners[0]];
+    page.edge_length("x", picture.lengths[0], [corner, right]);
+    page.edge_length("y", picture.lengths[1], [corner, above]);
+    page.footer(&key, outline, pixels_per_length);
+    Ok(page.canvas)
 }
 
 /// Paints all cells and the lines between them; `origin` is the place of the lower left corner of the box.

@@ -2,6 +2,7 @@
 
 use super::canvas::{Anchor, Area, Type};
 use super::chart_layout::{Layout, Placed};
+use super::chart_legend::obstacles;
 use super::series_path::clipped;
 use super::text::{CAPITAL_HEIGHT, Weight};
 
@@ -11,11 +12,11 @@ const SIZE: f64 = 0.72;
 /// The two ends of a line.
 type Segment = ([f64; 2], [f64; 2]);
 
-impl Layout<'_> {
+impl Layout {
     /// Writes the labels of the points of a panel. Each stands beside its point, or at the end of a line that leads to it,
     /// wherever it first covers neither data nor another label nor the legend. Where all of the panel is full, it is left out.
-    pub(super) fn point_labels(&mut self, index: usize, place: &Placed, legend: Option<Area>) {
-        let panel = self.prepared[index].panel;
+    pub(super) fn point_labels(&mut self, place: &Placed<'_>, legend: Option<Area>) {
+        let panel = place.prepared.panel;
         if panel.series.iter().all(|series| series.labels.is_empty()) {
             return;
         }
@@ -29,7 +30,7 @@ impl Layout<'_> {
             .collect();
         let square = |point: &[f64; 2]| Area::around(*point, [2.0 * radius; 2]);
         let mut taken: Vec<Area> = points.iter().map(square).chain(legend).collect();
-        let mut lines = self.obstacles(index, place);
+        let mut lines = obstacles(place);
         let size = SIZE * self.sizes.label;
         for (number, series) in panel.series.iter().enumerate() {
             let colour = self.look(number, series).colour;

@@ -2,12 +2,12 @@
 
 use super::axis_range::{Prepared, prepare};
 use super::canvas::{Anchor, Area, Canvas, Type};
-use super::chart::{Chart, SeriesStyle};
+use super::chart::{Chart, Panel, Series, SeriesStyle};
 use super::error::PlotError;
 use super::palette::Colour;
-use super::series_path::{length, runs, thinned};
+use super::series_path::{Run, length, runs, thinned};
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
-use super::ticks::{AxisMap, Ticks, ticks, ticks_along};
+use super::ticks::{Ticks, ticks, ticks_along};
 use crate::numbers::grouped;
 use crate::scene::PlotStyle;
 
@@ -37,32 +37,30 @@ impl Sizes {
     }
 }
 
-/// The area of a panel's data and its ticks.
-pub(super) struct Placed {
+/// A panel with the area of its data and its ticks.
+pub(super) struct Placed<'a> {
+    pub prepared: Prepared<'a>,
     pub area: Area,
-    pub x: AxisMap,
-    pub y: AxisMap,
     pub x_ticks: Ticks,
     pub y_ticks: Ticks,
 }
 
-impl Placed {
-    /// An area without a coordinate system.
-    pub(super) fn empty(area: Area) -> Self {
-        let unit = AxisMap::linear(0.0, 1.0);
-        Self { area, x: unit, y: unit, x_ticks: Ticks::default(), y_ticks: Ticks::default() }
-    }
-
+impl Placed<'_> {
     pub(super) fn x_pixel(&self, value: f64) -> Option<f64> {
-        self.x.fraction(value).map(|fraction| self.area.left + fraction * self.area.width())
+        self.prepared.x.fraction(value).map(|fraction| self.area.left + fraction * self.area.width())
     }
 
     pub(super) fn y_pixel(&self, value: f64) -> Option<f64> {
-        self.y.fraction(value).map(|fraction| self.area.bottom - fraction * self.area.height())
+        self.prepared.y.fraction(value).map(|fraction| self.area.bottom - fraction * self.area.height())
     }
 
     pub(super) fn pixel(&self, point: [f64; 2]) -> Option<[f64; 2]> {
         Some([self.x_pixel(point[0])?, self.y_pixel(point[1])?])
+    }
+
+    /// The connected pieces of a series, in pixels.
+    pub(super) fn pieces(&self, series: &Series) -> Vec<Run> {
+        runs(&series.points, |point| self.pixel(point)).iter().map(|run| thinned(run)).collect()
     }
 
     /// Both ends of an error bar; on a logarithmic axis a bar that reaches zero ends at the foot of the panel.
@@ -91,72 +89,72 @@ pub(super) fn lay_out(chart: &Chart, style: &PlotStyle) -> Result<Canvas, PlotEr
     let mut layout = Layout {
         canvas: Canvas::new(style.width, style.height(), style.theme)?,
         sizes: Sizes::new(style, chart.panels.len()),
-        prepared: prepare(&chart.panels),
         rough: false,
         legends_above: false,
     };
-    layout.draw(chart);
+    layout.draw(chart, &prepare(&chart.panels));
     Ok(layout.canvas)
 }
 
-pub(super) struct Layout<'a> {
+pub(super) struct Layout {
     pub(super) canvas: Canvas,
     pub(super) sizes: Sizes,
-    pub(super) prepared: Vec<Prepared<'a>>,
     /// Lines of the chart are too jagged for dashes; known once the panels have their places.
     pub(super) rough: bool,
     pub(super) legends_above: bool,
 }
-impl Layout<'_> {
+
+impl Layout {
     pub(super) fn text_style(&self, colour: Colour) -> Type {
         Type { size: self.sizes.label, weight: Weight::Regular, colour }
     }
 
-    fn draw(&mut self, chart: &Chart) {
+    fn draw(&mut self, chart: &Chart, prepared: &[Prepared<'_>]) {
         let margin = 1.6 * self.sizes.gap;
-        let top = self.headings(chart, margin);
+        let top = self.headings(chart, prepared, margin);
         let (width, height) = (f64::from(self.canvas.width), f64::from(self.canvas.height));
         let frame = Area { left: margin, top, right: width - margin, bottom: height - margin };
-        if self.prepared.is_empty() {
+        if prepared.is_empty() {
             let style = self.text_style(self.canvas.inks.muted);
             self.canvas.text_centred("no data", frame.centre(), Anchor::Middle, style);
             return;
         }
         // A legend stands inside a panel if all panels have room for theirs, else all stand above their panels.
-        let mut placed = self.place(frame);
-        let mut corners: Vec<Option<Area>> =
-            (0..self.prepared.len()).map(|index| self.legend_spot(index, &placed[index])).collect();
-        let above = (0..self.prepared.len()).any(|index| !self.entries(index).is_empty() && corners[index].is_none());
-        if above {
+        let mut placed = self.place(prepared, frame);
+        let mut corners: Vec<Option<Area>> = placed.iter().map(|place| self.legend_spot(place)).collect();
+        let without_room = |(place, corner): (&Placed<'_>, &Option<Area>)| {
+            corner.is_none() && !self.entries(place.prepared.panel).is_empty()
+        };
+        if placed.iter().zip(&corners).any(without_room) {
             self.legends_above = true;
-            placed = self.place(frame);
-            corners = vec![None; self.prepared.len()];
+            placed = self.place(prepared, frame);
+            corners = vec![None; placed.len()];
         }
-        self.rough = placed.iter().zip(&self.prepared).any(|(place, prepared)| is_rough(prepared.panel, place));
-        for (index, place) in placed.iter().enumerate() {
-            self.equilibration(index, place);
+        self.rough = placed.iter().any(is_rough);
+        for (place, corner) in placed.iter().zip(corners) {
+            self.equilibration(place);
             self.grid(place);
-            self.series(index, place);
-            self.axes(index, place);
-            self.point_labels(index, place, corners[index]);
-            if let Some(corner) = corners[index] {
-                self.legend_inside(index, corner);
-            } else if above {
-                self.legend_above(index, place.area);
+            self.series(place);
+            self.axes(place);
+            self.point_labels(place, corner);
+            if let Some(corner) = corner {
+                self.legend_inside(place.prepared.panel, corner);
+            } else if self.legends_above {
+                self.legend_above(place);
             }
         }
         self.y_labels(&placed, margin);
     }
 
     /// Title and subtitle; returns where the panels may start.
-    fn headings(&mut self, chart: &Chart, margin: f64) -> f64 {
+    fn headings(&mut self, chart: &Chart, prepared: &[Prepared<'_>], margin: f64) -> f64 {
         let mut notes = vec![chart.subtitle.clone()];
-        let left_out: usize = self.prepared.iter().map(|prepared| prepared.left_out).sum();
+        let left_out: usize = prepared.iter().map(|prepared| prepared.left_out).sum();
         if left_out > 0 {
             let (count, plural) = (grouped(left_out as u64), if left_out == 1 { "value" } else { "values" });
             notes.push(format!("{count} {plural} ≤ 0 left out of a logarithmic axis"));
         }
-        let beyond: Vec<String> = self.prepared.iter().filter_map(Prepared::beyond_note).collect();
+        let beyond: Vec<String> = prepared.iter().filter_map(Prepared::beyond_note).collect();
         if !beyond.is_empty() {
             notes.push(format!("off the scale: {}", beyond.join(", ")));
         }
@@ -167,7 +165,7 @@ impl Layout<'_> {
     }
 
     /// Gives every panel its area.
-    fn place(&self, frame: Area) -> Vec<Placed> {
+    fn place<'p>(&self, prepared: &[Prepared<'p>], frame: Area) -> Vec<Placed<'p>> {
         let Sizes { label, gap, rule, .. } = self.sizes;
         let setter = &self.canvas.typesetter;
         let text_width = |text: &str| setter.width(text, Weight::Regular, label);
@@ -177,23 +175,17 @@ impl Layout<'_> {
         let shared_gap = 1.8 * gap;
 
         // Heights: all panels alike after the axes, rows of legends and multipliers have had theirs.
-        let rows = |index: usize, y_ticks: &Ticks| {
-            let lines = if self.legends_above { self.legend_rows(index, frame.width() * 0.8).len() } else { 0 };
-            let lines = lines.max(usize::from(y_ticks.multiplier.is_some()));
+        let count = prepared.len() as f64;
+        let y_count = |height: f64| ((height / (1.55 * label)) as usize).clamp(3, 9);
+        let rough_count = y_count(frame.height() / count * 0.7);
+        let above = |prepared: &Prepared<'_>| {
+            let legend =
+                if self.legends_above { self.legend_rows(prepared.panel, frame.width() * 0.8).len() } else { 0 };
+            let lines = legend.max(usize::from(ticks(&prepared.y, rough_count).multiplier.is_some()));
             if lines > 0 { line * lines as f64 + 0.5 * gap } else { 0.5 * CAPITAL_HEIGHT * label }
         };
-        let count = self.prepared.len() as f64;
-        let y_count = |height: f64| ((height / (1.55 * label)) as usize).clamp(3, 9);
-        let rough_height = frame.height() / count * 0.7;
-        let rough: Vec<Ticks> =
-            self.prepared.iter().map(|prepared| ticks(&prepared.y, y_count(rough_height))).collect();
         let below = |prepared: &Prepared<'_>| if prepared.shares_x_below { shared_gap } else { x_axis_height };
-        let fixed: f64 = self
-            .prepared
-            .iter()
-            .enumerate()
-            .map(|(index, prepared)| below(prepared) + rows(index, &rough[index]))
-            .sum();
+        let fixed: f64 = prepared.iter().map(|prepared| below(prepared) + above(prepared)).sum();
         let height = ((frame.height() - fixed) / count).max(4.0);
         let named = |names: &[String], room: f64| {
             let shortened = names.iter().map(|name| setter.shorten(name, Weight::Regular, label, room));
@@ -205,54 +197,48 @@ impl Layout<'_> {
             [] => ticks(&prepared.y, y_count(height)),
             names => named(names, 0.3 * frame.width()),
         };
-        let y_ticks: Vec<Ticks> = self.prepared.iter().map(of_y).collect();
+        let y_ticks: Vec<Ticks> = prepared.iter().map(of_y).collect();
 
         // Widths: one left edge for all panels.
-        let widest =
-            y_ticks.iter().flat_map(|ticks| &ticks.major).map(|(_, text)| text_width(text)).fold(0.0, f64::max);
-        let label_size = self.y_label_size(height);
-        let labels = self
-            .prepared
-            .iter()
-            .map(|prepared| self.y_label_lines(prepared.panel, height, label_size).0.len() as f64)
-            .fold(0.0, f64::max);
-        let left = (frame.left + labels * line + 0.8 * gap + widest + 0.6 * gap + tick_length + rule)
+        let texts = y_ticks.iter().flat_map(|ticks| &ticks.major);
+        let widest = texts.map(|(_, text)| text_width(text)).fold(0.0, f64::max);
+        let panels: Vec<&Panel> = prepared.iter().map(|prepared| prepared.panel).collect();
+        let label_size = self.y_label_size(&panels, height);
+        let labels =
+            panels.iter().map(|panel| self.y_label_lines(panel, height, label_size).0.len()).max().unwrap_or(0);
+        let left = (frame.left + labels as f64 * line + 0.8 * gap + widest + 0.6 * gap + tick_length + rule)
             .min(frame.left + 0.6 * frame.width());
+        let width = frame.right - left;
         let mut overhang: f64 = 0.0;
-        let mut all = Vec::new();
-        for prepared in &self.prepared {
-            let width = frame.right - left;
-            if !prepared.panel.x.categories.is_empty() {
-                let names = &prepared.panel.x.categories;
-                let room = width / names.len() as f64 - 0.6 * label;
-                all.push(named(names, room));
-                continue;
+        let of_x = |prepared: &Prepared<'_>| match prepared.panel.x.categories.as_slice() {
+            [] => {
+                let ticks = ticks_along(&prepared.x, width, label, 1, text_width);
+                for (value, text) in &ticks.major {
+                    let fraction = prepared.x.fraction(*value).unwrap_or(0.0);
+                    overhang = overhang.max(0.5 * text_width(text) - (1.0 - fraction) * width);
+                }
+                ticks
             }
-            let x_ticks = ticks_along(&prepared.x, width, label, 1, text_width);
-            for (value, text) in &x_ticks.major {
-                let fraction = prepared.x.fraction(*value).unwrap_or(0.0);
-                overhang = overhang.max(0.5 * text_width(text) - (1.0 - fraction) * width);
-            }
-            all.push(x_ticks);
-        }
+            names => named(names, width / names.len() as f64 - 0.6 * label),
+        };
+        let x_ticks: Vec<Ticks> = prepared.iter().map(of_x).collect();
         let right = (frame.right - overhang.max(0.0)).max(left + 4.0);
         let mut y = frame.top;
         let mut placed = Vec::new();
-        for (index, ((prepared, x_ticks), y_ticks)) in self.prepared.iter().zip(all).zip(y_ticks).enumerate() {
-            let top = (y + rows(index, &rough[index])).round();
+        for ((prepared, x_ticks), y_ticks) in prepared.iter().zip(x_ticks).zip(y_ticks) {
+            let top = (y + above(prepared)).round();
             let area = Area { left: left.round(), top, right: right.round(), bottom: (top + height).round() };
             y = area.bottom + below(prepared);
-            placed.push(Placed { area, x: prepared.x, y: prepared.y, x_ticks, y_ticks });
+            placed.push(Placed { prepared: *prepared, area, x_ticks, y_ticks });
         }
         placed
     }
 }
 
 /// Whether a line of the panel goes up and down so much that dashes could not be distinguished from noise.
-fn is_rough(panel: &super::chart::Panel, place: &Placed) -> bool {
-    panel.series.iter().filter(|series| series.style != SeriesStyle::Markers).any(|series| {
-        let pieces = runs(&series.points, |point| place.pixel(point));
-        let drawn: f64 = pieces.iter().map(|run| length(&thinned(run), &place.area)).sum();
+fn is_rough(place: &Placed<'_>) -> bool {
+    place.prepared.panel.series.iter().filter(|series| series.style != SeriesStyle::Markers).any(|series| {
+        let drawn: f64 = place.pieces(series).iter().map(|run| length(run, &place.area)).sum();
         drawn > 2.5 * (place.area.width() + place.area.height())
     })
 }
@@ -260,9 +246,10 @@ fn is_rough(panel: &super::chart::Panel, place: &Placed) -> bool {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, clippy::expect_used)]
+    use super::super::chart::Scale;
     use super::*;
     use crate::noise;
-    use crate::plot::{AxisFit, Mean, Panel, ReferenceLine, Series};
+    use crate::plot::{AxisFit, Mean, ReferenceLine};
     use std::sync::mpsc::channel;
     use std::time::Duration;
 

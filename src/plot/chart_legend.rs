@@ -1,13 +1,13 @@
 //! Places and draws the legends of panels.
 
 use super::canvas::{Anchor, Area};
-use super::chart::{Series, SeriesStyle};
+use super::chart::{Panel, Series, SeriesStyle};
 use super::chart_layout::{Layout, Placed, Sizes};
 use super::palette::with_alpha;
 use super::quantities::{FEW_SAMPLES, UNEQUILIBRATED};
 use super::series_look::{Look, reference_look};
-use super::series_path::{clipped, runs, segments, thinned};
-use super::text::{LINE_HEIGHT, Weight};
+use super::series_path::{clipped, segments};
+use super::text::{LINE_HEIGHT, Weight, in_rows};
 use crate::numbers::with_error;
 
 /// One line of a legend.
@@ -30,10 +30,9 @@ fn entry_text(series: &Series) -> String {
     }
 }
 
-impl Layout<'_> {
+impl Layout {
     /// The legend of a panel, which may need none.
-    pub(super) fn entries(&self, index: usize) -> Vec<Entry> {
-        let panel = self.prepared[index].panel;
+    pub(super) fn entries(&self, panel: &Panel) -> Vec<Entry> {
         let series = panel.series.iter().enumerate().map(|(number, series)| Entry {
             text: entry_text(series),
             style: Some(series.style),
@@ -64,8 +63,8 @@ impl Layout<'_> {
     }
 
     /// The emptiest place inside a panel that its legend fits into without touching data; corners are preferred.
-    pub(super) fn legend_spot(&self, index: usize, place: &Placed) -> Option<Area> {
-        let entries = self.entries(index);
+    pub(super) fn legend_spot(&self, place: &Placed<'_>) -> Option<Area> {
+        let entries = self.entries(place.prepared.panel);
         if entries.is_empty() {
             return None;
         }
@@ -76,7 +75,7 @@ impl Layout<'_> {
         if width > 0.6 * inner.width() || height > 0.75 * inner.height() {
             return None;
         }
-        let obstacles = self.obstacles(index, place);
+        let obstacles = obstacles(place);
         let columns = [1.0, 0.0, 0.5, 0.75, 0.25];
         let rows = [0.0, 1.0, 0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
         for row in rows {
@@ -93,84 +92,49 @@ impl Layout<'_> {
         None
     }
 
-    /// Everything a legend must not cover, as segments.
-    pub(super) fn obstacles(&self, index: usize, place: &Placed) -> Vec<([f64; 2], [f64; 2])> {
-        let panel = self.prepared[index].panel;
-        let mut obstacles = Vec::new();
-        for series in &panel.series {
-            for run in runs(&series.points, |point| place.pixel(point)) {
-                let run = thinned(&run);
-                if series.style == SeriesStyle::Markers {
-                    obstacles.extend(run.iter().map(|point| (*point, *point)));
-                } else {
-                    obstacles.extend(segments(&run, &place.area, &[]));
-                }
-            }
-            for (point, error) in series.points.iter().zip(series.errors.iter().flatten()) {
-                obstacles.extend(place.bar(*point, *error).map(|[low, high]| (low, high)));
-            }
-        }
-        let means = panel.series.iter().filter_map(|series| series.mean).map(|mean| mean.value);
-        let references = panel.references.iter().map(|reference| reference.value).chain(means);
-        let references = references.filter_map(|value| place.y_pixel(value));
-        obstacles.extend(references.map(|y| ([place.area.left, y], [place.area.right, y])));
-        obstacles
-    }
-
-    pub(super) fn legend_inside(&mut self, index: usize, spot: Area) {
+    pub(super) fn legend_inside(&mut self, panel: &Panel, spot: Area) {
         let gap = self.sizes.gap;
         self.canvas.rectangle(spot, with_alpha(self.canvas.inks.paper, 215));
-        for (number, entry) in self.entries(index).into_iter().enumerate() {
+        for (number, entry) in self.entries(panel).into_iter().enumerate() {
             let y = spot.top + 0.5 * gap + (number as f64 + 0.5) * self.legend_line();
-            self.legend_entry(index, entry, [spot.left + 0.8 * gap, y]);
+            self.legend_entry(panel, entry, [spot.left + 0.8 * gap, y]);
         }
     }
 
-    /// The entries of a legend, in rows of this width.
-    pub(super) fn legend_rows(&self, index: usize, width: f64) -> Vec<Vec<Entry>> {
-        let mut rows: Vec<Vec<Entry>> = Vec::new();
-        let mut used = f64::INFINITY;
-        for entry in self.entries(index) {
-            let needed = self.entry_width(&entry) + 2.0 * self.sizes.gap;
-            match rows.last_mut().filter(|_| used + needed <= width) {
-                Some(row) => {
-                    row.push(entry);
-                    used += needed;
-                }
-                None => {
-                    rows.push(vec![entry]);
-                    used = needed;
-                }
-            }
-        }
-        rows
+    /// The entries of a legend, in rows of this width, with what each takes of it.
+    pub(super) fn legend_rows(&self, panel: &Panel, width: f64) -> Vec<Vec<(Entry, f64)>> {
+        let needed = |entry: Entry| {
+            let width = self.entry_width(&entry) + 2.0 * self.sizes.gap;
+            (entry, width)
+        };
+        in_rows(self.entries(panel).into_iter().map(needed), |_| width)
     }
 
-    pub(super) fn legend_above(&mut self, index: usize, area: Area) {
+    pub(super) fn legend_above(&mut self, place: &Placed<'_>) {
         let Sizes { label, gap, .. } = self.sizes;
-        let rows = self.legend_rows(index, (f64::from(self.canvas.width) - 3.2 * gap) * 0.8);
+        let (panel, area) = (place.prepared.panel, place.area);
+        let rows = self.legend_rows(panel, (f64::from(self.canvas.width) - 3.2 * gap) * 0.8);
         for (from_below, entries) in rows.into_iter().rev().enumerate() {
-            let widths: Vec<f64> = entries.iter().map(|entry| self.entry_width(entry)).collect();
-            let total = widths.iter().sum::<f64>() + 2.0 * gap * (widths.len() - 1) as f64;
+            let total = entries.iter().map(|(_, width)| width).sum::<f64>() - 2.0 * gap;
             let y = area.top - (from_below as f64 + 0.5) * LINE_HEIGHT * label - 0.2 * gap;
             let mut x = area.right - total;
-            for (entry, width) in entries.into_iter().zip(widths) {
-                self.legend_entry(index, entry, [x, y]);
-                x += width + 2.0 * gap;
+            for (entry, width) in entries {
+                self.legend_entry(panel, entry, [x, y]);
+                x += width;
             }
         }
     }
 
     /// A sample of the line and its name; `at` is the middle of the left edge.
-    fn legend_entry(&mut self, index: usize, Entry { text, style, look }: Entry, at: [f64; 2]) {
-        let several = self.prepared[index].panel.series.len() > 1;
+    fn legend_entry(&mut self, panel: &Panel, Entry { text, style, look }: Entry, at: [f64; 2]) {
+        let several = panel.series.len() > 1;
         let width = self.sample_width();
         let middle = [at[0] + 0.5 * width, at[1]];
         let run = [at, [at[0] + width, at[1]]];
-        let around = Placed::empty(Area { left: at[0], top: at[1], right: at[0] + width, bottom: at[1] });
+        let around = Area { left: at[0], top: at[1], right: at[0] + width, bottom: at[1] };
         let rough = self.rough;
         match style {
-            None => self.stroke(&run, &around, look.dashes, look.colour, 0.75 * self.sizes.line),
+            None => self.stroke(&run, around, look.dashes, look.colour, 0.75 * self.sizes.line),
             Some(style) => {
                 if style == SeriesStyle::Band {
                     let height = 1.1 * self.sizes.gap;
@@ -179,7 +143,7 @@ impl Layout<'_> {
                 }
                 if style != SeriesStyle::Markers {
                     let dashes = if rough && look.marker.is_some() { &[] } else { look.dashes };
-                    self.stroke(&run, &around, dashes, look.colour, self.sizes.line);
+                    self.stroke(&run, around, dashes, look.colour, self.sizes.line);
                 }
                 let marked = matches!(style, SeriesStyle::Markers | SeriesStyle::LineMarkers);
                 if marked || (rough && several && look.marker.is_some()) {
@@ -191,4 +155,27 @@ impl Layout<'_> {
         let x = at[0] + width + 0.7 * self.sizes.gap;
         self.canvas.text_centred(&text, [x, at[1]], Anchor::Start, style);
     }
+}
+
+/// Everything a legend must not cover, as segments.
+pub(super) fn obstacles(place: &Placed<'_>) -> Vec<([f64; 2], [f64; 2])> {
+    let panel = place.prepared.panel;
+    let mut obstacles = Vec::new();
+    for series in &panel.series {
+        for run in place.pieces(series) {
+            if series.style == SeriesStyle::Markers {
+                obstacles.extend(run.iter().map(|point| (*point, *point)));
+            } else {
+                obstacles.extend(segments(&run, &place.area, &[]));
+            }
+        }
+        for (point, error) in series.points.iter().zip(series.errors.iter().flatten()) {
+            obstacles.extend(place.bar(*point, *error).map(|[low, high]| (low, high)));
+        }
+    }
+    let means = panel.series.iter().filter_map(|series| series.mean).map(|mean| mean.value);
+    let references = panel.references.iter().map(|reference| reference.value).chain(means);
+    let references = references.filter_map(|value| place.y_pixel(value));
+    obstacles.extend(references.map(|y| ([place.area.left, y], [place.area.right, y])));
+    obstacles
 }

@@ -7,7 +7,7 @@ use super::chart_layout::{Layout, Placed};
 use super::coincidence::covered_by;
 use super::palette::{Colour, with_alpha};
 use super::series_look::{Look, MARKERS, look, reference_look};
-use super::series_path::{Run, clipped, runs, segments, thinned};
+use super::series_path::{Run, clipped, segments};
 
 /// Up to this many points of a line are marked one by one.
 const FEW_POINTS: usize = 30;
@@ -17,15 +17,15 @@ const MARKER_GAIN: f64 = 0.55;
 /// Places where a series leaves its panel that are marked, at most.
 const MOST_EXITS: usize = 4;
 
-impl Layout<'_> {
+impl Layout {
     /// How the series with this number in its panel looks.
     pub(super) fn look(&self, number: usize, series: &Series) -> Look {
         look(number, series, &self.canvas.inks)
     }
 
     /// Draws the data of a panel, clipped to it.
-    pub(super) fn series(&mut self, index: usize, place: &Placed) {
-        let panel = self.prepared[index].panel;
+    pub(super) fn series(&mut self, place: &Placed<'_>) {
+        let panel = place.prepared.panel;
         let rough = self.rough;
         self.canvas.clip(Some(place.area.grown(0.5 * self.sizes.rule)));
         for (number, series) in panel.series.iter().enumerate().rev() {
@@ -39,13 +39,8 @@ impl Layout<'_> {
                 (None, _) => {}
             }
         }
-        let pieces: Vec<Vec<Run>> = panel
-            .series
-            .iter()
-            .map(|series| runs(&series.points, |point| place.pixel(point)).iter().map(|run| thinned(run)).collect())
-            .collect();
-        let covered =
-            covered_by(panel, place, self.sizes.line, |number| self.look(number, &panel.series[number]).colour);
+        let pieces: Vec<Vec<Run>> = panel.series.iter().map(|series| place.pieces(series)).collect();
+        let covered = covered_by(place, self.sizes.line, |number| self.look(number, &panel.series[number]).colour);
         // Where lines coincide, those underneath are wider, so that all of them are seen.
         for (number, series) in panel.series.iter().enumerate() {
             let look = self.look(number, series);
@@ -53,7 +48,7 @@ impl Layout<'_> {
             let width = width * (1.0 + LINE_GAIN * covered[number] as f64);
             let dashes = if rough && look.marker.is_some() { &[] } else { look.dashes };
             for run in pieces[number].iter().filter(|_| series.style != SeriesStyle::Markers) {
-                self.stroke(run, place, dashes, look.colour, width);
+                self.stroke(run, place.area, dashes, look.colour, width);
             }
         }
         // Over the lines, or noise around a reference would hide it.
@@ -61,7 +56,7 @@ impl Layout<'_> {
             if let Some(y) = place.y_pixel(reference.value) {
                 let run = [[place.area.left, y], [place.area.right, y]];
                 let look = reference_look(number, panel, &self.canvas.inks);
-                self.stroke(&run, place, look.dashes, look.colour, 0.75 * self.sizes.line);
+                self.stroke(&run, place.area, look.dashes, look.colour, 0.75 * self.sizes.line);
             }
         }
         // Those on the frame are whole, too.
@@ -80,13 +75,13 @@ impl Layout<'_> {
             }
         }
         for (number, series) in panel.series.iter().enumerate() {
-            self.exits(index, place, number, series);
+            self.exits(place, number, series);
         }
     }
 
     /// Shades what comes before the stretch that means are taken over.
-    pub(super) fn equilibration(&mut self, index: usize, place: &Placed) {
-        let Prepared { panel, has_data, .. } = self.prepared[index];
+    pub(super) fn equilibration(&mut self, place: &Placed<'_>) {
+        let Prepared { panel, has_data, .. } = place.prepared;
         let Some(end) = panel.averaged_from.and_then(|from| place.x_pixel(from)) else { return };
         let right = end.min(place.area.right).round();
         if has_data && right > place.area.left {
@@ -96,7 +91,7 @@ impl Layout<'_> {
 
     /// A mean, as a bar under its series over the stretch that it was taken from: as wide as its error on both sides, and no
     /// thinner than can be seen.
-    fn mean(&mut self, place: &Placed, mean: Mean, from: Option<f64>, colour: Colour) {
+    fn mean(&mut self, place: &Placed<'_>, mean: Mean, from: Option<f64>, colour: Colour) {
         let area = place.area;
         let left = from.and_then(|from| place.x_pixel(from)).unwrap_or(area.left).max(area.left);
         let error = mean.standard_error.filter(|error| error.is_finite()).unwrap_or(0.0).abs();
@@ -118,12 +113,12 @@ impl Layout<'_> {
     }
 
     /// Arrowheads where a series leaves a panel whose axis does not show all of it.
-    fn exits(&mut self, index: usize, place: &Placed, number: usize, series: &Series) {
-        if self.prepared[index].beyond == [None; 2] {
+    fn exits(&mut self, place: &Placed<'_>, number: usize, series: &Series) {
+        if place.prepared.beyond == [None; 2] {
             return;
         }
         let (area, radius) = (place.area, 0.9 * self.marker_radius());
-        let side = |point: &[f64; 2]| match place.y.fraction(point[1]) {
+        let side = |point: &[f64; 2]| match place.prepared.y.fraction(point[1]) {
             Some(fraction) if fraction > 1.0 => 1,
             Some(fraction) if fraction < 0.0 => -1,
             _ => 0,
@@ -143,9 +138,9 @@ impl Layout<'_> {
         }
     }
 
-    pub(super) fn stroke(&mut self, run: &[[f64; 2]], place: &Placed, dashes: &[f64], colour: Colour, width: f64) {
+    pub(super) fn stroke(&mut self, run: &[[f64; 2]], area: Area, dashes: &[f64], colour: Colour, width: f64) {
         let lengths: Vec<f64> = dashes.iter().map(|length| length * width).collect();
-        for (from, to) in segments(run, &place.area.grown(2.0 * width), &lengths) {
+        for (from, to) in segments(run, &area.grown(2.0 * width), &lengths) {
             // A point alone in its gap would vanish as a line without length.
             let width = if run.len() == 1 { 2.2 * width } else { width };
             self.canvas.line(from, to, width, colour);
@@ -185,7 +180,7 @@ impl Layout<'_> {
     fn markers(
         &mut self,
         points: impl Iterator<Item = [f64; 2]>,
-        place: &Placed,
+        place: &Placed<'_>,
         (look, size): (Look, f64),
         panel: &Panel,
     ) {
@@ -200,7 +195,7 @@ impl Layout<'_> {
     }
 
     /// A few markers along a line too jagged for dashes to be seen; all of them if it has only few points.
-    fn sparse_markers(&mut self, pieces: &[Run], place: &Placed, look: Look, [number, series]: [usize; 2]) {
+    fn sparse_markers(&mut self, pieces: &[Run], place: &Placed<'_>, look: Look, [number, series]: [usize; 2]) {
         let points: Vec<[f64; 2]> =
             pieces.iter().flatten().copied().filter(|point| place.area.contains(*point)).collect();
         if points.len() <= FEW_POINTS {
@@ -220,7 +215,7 @@ impl Layout<'_> {
         }
     }
 
-    fn error_bars(&mut self, place: &Placed, series: &Series, errors: &[f64], colour: Colour) {
+    fn error_bars(&mut self, place: &Placed<'_>, series: &Series, errors: &[f64], colour: Colour) {
         let width = 0.6 * self.sizes.line;
         let cap = self.marker_radius() * 0.9;
         // Bars that would touch each other become a band.
@@ -240,7 +235,7 @@ impl Layout<'_> {
     }
 
     /// A shaded band, column by column of pixels, so that no seams show.
-    fn band(&mut self, place: &Placed, series: &Series, errors: &[f64], colour: Colour) {
+    fn band(&mut self, place: &Placed<'_>, series: &Series, errors: &[f64], colour: Colour) {
         let columns = place.area.width().ceil() as usize + 1;
         let mut spans = vec![None::<(f64, f64)>; columns];
         let mut cover = |column: f64, low: f64, high: f64| {

@@ -1,6 +1,6 @@
 //! Finds curves that lie on each other, so that both are drawn to be seen.
 
-use super::chart::{Panel, Series, SeriesStyle};
+use super::chart::{Series, SeriesStyle};
 use super::chart_layout::Placed;
 use super::palette::Colour;
 
@@ -10,12 +10,8 @@ const COMPARED: usize = 512;
 const MOSTLY: f64 = 0.6;
 
 /// For each series, how many of those painted over it lie on it. Lines are painted in their order, markers against it.
-pub(super) fn covered_by(
-    panel: &Panel,
-    place: &Placed,
-    tolerance: f64,
-    colour: impl Fn(usize) -> Colour,
-) -> Vec<usize> {
+pub(super) fn covered_by(place: &Placed<'_>, tolerance: f64, colour: impl Fn(usize) -> Colour) -> Vec<usize> {
+    let panel = place.prepared.panel;
     let marked = |series: &Series| series.style == SeriesStyle::Markers;
     let over = |under: usize, above: usize| {
         let (one, other) = (&panel.series[under], &panel.series[above]);
@@ -31,7 +27,7 @@ pub(super) fn covered_by(
 }
 
 /// Whether most points of two series, at the same places x, are less than a few pixels apart.
-fn coincide(one: &Series, other: &Series, place: &Placed, tolerance: f64) -> bool {
+fn coincide(one: &Series, other: &Series, place: &Placed<'_>, tolerance: f64) -> bool {
     if one.points.len() != other.points.len() || one.points.is_empty() {
         return false;
     }
@@ -51,15 +47,17 @@ fn coincide(one: &Series, other: &Series, place: &Placed, tolerance: f64) -> boo
 
 #[cfg(test)]
 mod tests {
+    use super::super::axis_range::prepare;
     use super::super::canvas::Area;
-    use super::super::chart::Scale;
+    use super::super::chart::Panel;
     use super::super::ticks::{AxisMap, Ticks};
     use super::*;
 
-    fn place() -> Placed {
-        let map = AxisMap { scale: Scale::Linear, low: 0.0, high: 100.0 };
+    fn place(panel: &Panel) -> Placed<'_> {
+        let map = AxisMap::linear(0.0, 100.0);
         let area = Area { left: 0.0, top: 0.0, right: 100.0, bottom: 100.0 };
-        Placed { area, x: map, y: map, x_ticks: Ticks::default(), y_ticks: Ticks::default() }
+        let prepared = super::super::axis_range::Prepared { x: map, y: map, ..prepare(std::slice::from_ref(panel))[0] };
+        Placed { prepared, area, x_ticks: Ticks::default(), y_ticks: Ticks::default() }
     }
 
     fn own(number: usize) -> Colour {
@@ -77,8 +75,8 @@ mod tests {
             .with(Series::line("b", line(30.0)))
             .with(Series::line("c", line(0.2)))
             .with(Series::line("d", line(0.1)));
-        assert_eq!(covered_by(&panel, &place(), 1.0, own), [2, 0, 1, 0]);
-        assert_eq!(covered_by(&panel, &place(), 1.0, |_| [0; 4]), [0; 4], "all of one colour");
+        assert_eq!(covered_by(&place(&panel), 1.0, own), [2, 0, 1, 0]);
+        assert_eq!(covered_by(&place(&panel), 1.0, |_| [0; 4]), [0; 4], "all of one colour");
     }
 
     #[test]
@@ -87,7 +85,7 @@ mod tests {
             .with(Series::markers("a", line(0.0)))
             .with(Series::markers("b", line(0.0)))
             .with(Series::line("c", line(0.0)));
-        assert_eq!(covered_by(&panel, &place(), 1.0, own), [0, 1, 0]);
+        assert_eq!(covered_by(&place(&panel), 1.0, own), [0, 1, 0]);
     }
 
     #[test]
@@ -97,6 +95,6 @@ mod tests {
             .with(Series::line("b", Vec::new()))
             .with(Series::line("c", vec![[f64::NAN; 2]; 3]))
             .with(Series::line("d", vec![[f64::NAN; 2]; 3]));
-        assert_eq!(covered_by(&panel, &place(), 1.0, own), [0; 4]);
+        assert_eq!(covered_by(&place(&panel), 1.0, own), [0; 4]);
     }
 }

@@ -323,16 +323,15 @@ impl Layout<'_> {
     fn marks(ticks: &Ticks, place: impl Fn(f64) -> f64, extent: impl Fn(&str) -> f64) -> Vec<(f64, Option<String>)> {
         let mut marks = Vec::new();
         let mut taken: Option<(f64, f64)> = None;
-        for (value, text) in &ticks.major {
-            let at = place(*value);
-            let half = 0.5 * extent(text);
-            let free = taken.is_none_or(|(low, high)| at - half > high || at + half < low);
+        for (value, text) in ticks.all() {
+            let at = place(value);
+            let half = 0.5 * text.map_or(0.0, &extent);
+            let free = text.is_some() && taken.is_none_or(|(low, high)| at - half > high || at + half < low);
             if free {
                 taken = Some((at - half, at + half));
             }
-            marks.push((at, Some(if free { text.clone() } else { String::new() })));
+            marks.push((at, text.map(|text| if free { text.to_owned() } else { String::new() })));
         }
-        marks.extend(ticks.minor.iter().map(|value| (place(*value), None)));
         marks
     }
 

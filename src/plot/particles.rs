@@ -1,8 +1,8 @@
 //! Pictures of the particles: what is shown, and its layout around the view of the box.
 
-use super::canvas::{Area, Canvas};
+use super::canvas::Canvas;
 use super::error::PlotError;
-use super::palette::{Colour, linear};
+use super::palette::{Colour, Inks, linear};
 use super::periodic;
 use super::snapshot_page::{self, Key, Page};
 use super::sphere_renderer::{Camera, SphereScene};
@@ -127,45 +127,40 @@ pub(super) fn lay_out(
     let [right, up, toward] = view(picture.dimension);
     let lengths = visible(picture.dimension, picture.lengths);
     let extent = |axis| extent(axis, lengths);
-    let page = Page::new(style, [extent(right), extent(up)]);
-    let [width, height] = page.pixels();
-    let mut canvas = Canvas::new(width, height, theme)?;
+    let shape = [right, up].map(extent);
+    let mut page = Page::new(style, theme, shape)?;
+    let Inks { paper, ink, muted, .. } = page.canvas.inks;
     let key = match (style.color, picture.speeds) {
         (SnapshotColor::Speed, Some(speeds)) => {
             let fastest = speeds.iter().copied().filter(|speed| speed.is_finite()).fold(0.0, f64::max);
             let fitting = [0.0, if fastest > 0.0 { fastest } else { 1.0 }];
             Key::scale("speed (length/time)", style.range, fitting, speeds)
         }
-        _ => Key::species(picture.species_names, picture.species, &canvas.inks),
+        _ => Key::species(picture.species_names, picture.species, &page.canvas.inks),
     };
-    let frame = page.frame(&mut canvas, picture.title, vec![picture.subtitle.to_owned()], &key);
+    let frame = page.frame(picture.title, vec![picture.subtitle.to_owned()], &key);
 
     // Spheres may stand out of a three-dimensional box; discs of a flat one are cut off at its edge.
     let overhang = if picture.dimension == 3 { 2.0 * picture.radius.min(0.1 * extent(right)) } else { 0.0 };
-    let rule = page.rule;
-    let pixels_per_length = ((frame.width() - 2.0 * rule) / (extent(right) + overhang))
-        .min((frame.height() - 2.0 * rule) / (extent(up) + overhang))
-        .max(1e-9 / extent(right));
+    let (outline, pixels_per_length) = page.outline(&frame, shape, overhang);
     let centre = frame.centre();
     let project = |corner: [f64; 3]| {
         let relative = [0, 1, 2].map(|axis| (corner[axis] - 0.5) * lengths[axis]);
         [centre[0] + dot(relative, right) * pixels_per_length, centre[1] - dot(relative, up) * pixels_per_length]
     };
-    let outline = Area::around(centre, [right, up].map(|axis| extent(axis) * pixels_per_length));
-
     let edges = box_edges(picture.dimension, toward);
     for (from, to, _) in edges.iter().filter(|(_, _, front)| !front) {
-        canvas.line(project(*from), project(*to), 0.8 * rule, canvas.inks.muted);
+        page.canvas.line(project(*from), project(*to), 0.8 * page.rule, muted);
     }
-    canvas.end_of_background();
+    page.canvas.end_of_background();
     for (from, to, _) in edges.iter().filter(|(_, _, front)| *front) {
-        canvas.line(project(*from), project(*to), rule, canvas.inks.ink);
+        page.canvas.line(project(*from), project(*to), page.rule, ink);
     }
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate().take(picture.dimension as usize) {
         let [from, to] = measured_edge(axis, picture.dimension).map(project);
-        page.edge_length(&mut canvas, name, lengths[axis], [from, to]);
+        page.edge_length(name, lengths[axis], [from, to]);
     }
-    page.footer(&mut canvas, &key, outline, pixels_per_length);
+    page.footer(&key, outline, pixels_per_length);
 
     // A particle smaller than a pixel is drawn as large as one.
     let radius = picture.radius.max(0.7 / pixels_per_length);
@@ -177,7 +172,7 @@ pub(super) fn lay_out(
     let scale = pixels_per_length * f64::from(samples);
     let flat = picture.dimension == 2;
     let [lighting, rim, fog] = if flat { [0.3, 0.35, 0.0] } else { [1.0, 0.12, 0.4] };
-    let paper = [0, 1, 2].map(|channel| f64::from(linear(canvas.inks.paper[channel]).sqrt()));
+    let paper = [0, 1, 2].map(|channel| f64::from(linear(paper[channel]).sqrt()));
     let with = |[x, y, z]: [f64; 3], last: f64| [x, y, z, last].map(|value| value as f32);
     let camera = Camera {
         right: with(right, scale),
@@ -189,7 +184,7 @@ pub(super) fn lay_out(
         ..Camera::default()
     };
     let area = if flat { outline } else { frame.grown(radius * pixels_per_length) };
-    Ok((canvas, SphereScene { particles, rods, camera, centre, area, samples }))
+    Ok((page.canvas, SphereScene { particles, rods, camera, centre, area, samples }))
 }
 
 /// Edges of the unit box and whether they lie on its near side.

@@ -5,10 +5,10 @@ use super::chart::Scale;
 use super::error::PlotError;
 use super::palette::{Colour, Inks, scale_colour};
 use super::species_colours::species_colours;
-use super::text::{CAPITAL_HEIGHT, Weight};
+use super::text::{CAPITAL_HEIGHT, Weight, in_rows};
 use super::ticks::{AxisMap, nice_length, ticks};
 use crate::numbers::{grouped, short};
-use crate::scene::Snapshot;
+use crate::scene::{Snapshot, Theme};
 
 /// Looks whether lists of so many particles or cells, species with their names and edges of the box can be drawn.
 ///
@@ -76,8 +76,9 @@ const LONGER_SIDE: f64 = 1200.0;
 /// Pages that follow their box are no flatter and no narrower than this.
 const LEAST_RATIO: f64 = 0.4;
 
-/// Sizes of everything around the box, in pixels.
+/// A page, and the sizes of everything around the box, in pixels.
 pub(super) struct Page {
+    pub(super) canvas: Canvas,
     width: f64,
     height: f64,
     margin: f64,
@@ -90,12 +91,16 @@ pub(super) struct Page {
 
 impl Page {
     /// The page of a view with these extents along its width and its height.
-    pub(super) fn new(style: &Snapshot, shape: [f64; 2]) -> Self {
+    ///
+    /// # Errors
+    /// [`PlotError::Font`] if an embedded font cannot be read.
+    pub(super) fn new(style: &Snapshot, theme: Theme, shape: [f64; 2]) -> Result<Self, PlotError> {
         let [width, height] = size(style, shape);
         let exact = style.width.is_some() && style.height.is_some();
         let side = if exact { width.min(height) } else { width.max(height) };
         let unit = side / LONGER_SIDE;
-        Self {
+        Ok(Self {
+            canvas: Canvas::new(width.round() as u32, height.round() as u32, theme)?,
             width,
             height,
             margin: 28.0 * unit,
@@ -104,7 +109,7 @@ impl Page {
             rule: (3.0 * unit).max(1.0),
             gap: 14.0 * unit,
             captioned: width.min(height) >= CAPTIONED,
-        }
+        })
     }
 
     fn text(&self, colour: Colour) -> Type {
@@ -112,17 +117,26 @@ impl Page {
     }
 
     /// Writes the headings; returns the place of the box between them and the footer.
-    pub(super) fn frame(&self, canvas: &mut Canvas, title: &str, notes: Vec<String>, key: &Key<'_>) -> Area {
+    pub(super) fn frame(&mut self, title: &str, notes: Vec<String>, key: &Key<'_>) -> Area {
         if !self.captioned {
             let [right, bottom] = [self.width, self.height].map(|side| side - self.margin);
             return Area { left: self.margin, top: self.margin, right, bottom };
         }
-        let headings = canvas.headings(title, notes, [self.title, self.label], 2, self.width - 2.0 * self.margin);
-        let end = canvas.write_headings(&headings, [self.margin; 2]);
+        let headings = self.canvas.headings(title, notes, [self.title, self.label], 2, self.width - 2.0 * self.margin);
+        let end = self.canvas.write_headings(&headings, [self.margin; 2]);
         let top = if headings.is_empty() { end } else { end + 0.5 * self.gap };
-        let bottom = self.height - self.margin - self.footer_height(canvas, key) - self.beside();
+        let bottom = self.height - self.margin - self.footer_height(key) - self.beside();
         let aside = self.margin + self.beside();
         Area { left: aside, top, right: self.width - aside, bottom }
+    }
+
+    /// The outline of a view in the middle of a frame, as large as there is room for what stands out of it, and pixels per
+    /// unit of length.
+    pub(super) fn outline(&self, frame: &Area, shape: [f64; 2], overhang: f64) -> (Area, f64) {
+        let room = [frame.width(), frame.height()].map(|side| side - 2.0 * self.rule);
+        let fits = (room[0] / (shape[0] + overhang)).min(room[1] / (shape[1] + overhang));
+        let pixels_per_length = fits.max(1e-9 / shape[0]);
+        (Area::around(frame.centre(), shape.map(|length| length * pixels_per_length)), pixels_per_length)
     }
 
     /// Room for the lengths of edges beside the box.
@@ -132,16 +146,16 @@ impl Page {
 
     /// Writes the length of an edge of the box outside it, at its middle: below an edge that leads down from the view, else to
     /// its left.
-    pub(super) fn edge_length(&self, canvas: &mut Canvas, name: &str, length: f64, [from, to]: [[f64; 2]; 2]) {
+    pub(super) fn edge_length(&mut self, name: &str, length: f64, [from, to]: [[f64; 2]; 2]) {
         if !self.captioned {
             return;
         }
-        let style = Type { size: 0.85 * self.label, ..self.text(canvas.inks.muted) };
+        let style = Type { size: 0.85 * self.label, ..self.text(self.canvas.inks.muted) };
         let text = format!("L_{{{name}}} = {}", short(format!("{length:.4e}").parse().unwrap_or(length)));
         let middle = [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])];
         let off = 0.45 * self.label;
         if (to[0] - from[0]).abs() < 1e-6 * (to[1] - from[1]).abs() {
-            canvas.text_upwards(&text, [middle[0] - off, middle[1]], Anchor::Middle, style);
+            self.canvas.text_upwards(&text, [middle[0] - off, middle[1]], Anchor::Middle, style);
             return;
         }
         // Clear of an edge that rises to the right or to the left, or lies flat.
@@ -152,12 +166,7 @@ impl Page {
             _ => (Anchor::Middle, 0.0),
         };
         let baseline = middle[1] + 0.7 * off + CAPITAL_HEIGHT * style.size;
-        canvas.text(&text, [middle[0] + shift, baseline], anchor, style);
-    }
-
-    /// Width and height in pixels.
-    pub(super) fn pixels(&self) -> [u32; 2] {
-        [self.width, self.height].map(|side| side.round() as u32)
+        self.canvas.text(&text, [middle[0] + shift, baseline], anchor, style);
     }
 
     fn line(&self) -> f64 {
@@ -165,13 +174,13 @@ impl Page {
     }
 
     /// Species in rows, the first of which leave room for the scale bar beside them, and the size of their type.
-    fn legend(&self, canvas: &Canvas, names: &[String], counts: &[u64]) -> (f64, Vec<Vec<(String, f64)>>) {
+    fn legend(&self, names: &[String], counts: &[u64]) -> (f64, Vec<Vec<(String, f64)>>) {
         let most = (LEGEND_PART * self.height).max(2.0 * self.line());
         let rows_of = |size: f64| {
             let texts: Vec<(String, f64)> =
-                names.iter().zip(counts).map(|(name, count)| self.legend_entry(canvas, name, *count, size)).collect();
+                names.iter().zip(counts).map(|(name, count)| self.legend_entry(name, *count, size)).collect();
             let whole = texts.iter().zip(names).all(|((text, _), name)| text.starts_with(name.as_str()));
-            (self.legend_rows(texts, size), whole)
+            (in_rows(texts, |row| self.legend_room(row, size)), whole)
         };
         // A legend must not crowd out the picture, and names are better small than cut.
         let fits = |size: &f64| {
@@ -195,11 +204,11 @@ impl Page {
     }
 
     /// The name of a species with its count, and the room that it needs.
-    fn legend_entry(&self, canvas: &Canvas, name: &str, count: u64, size: f64) -> (String, f64) {
+    fn legend_entry(&self, name: &str, count: u64, size: f64) -> (String, f64) {
         let room = self.legend_room(0, size) - 1.2 * size;
         let text = format!("{name} ({})", grouped(count));
-        let text = canvas.typesetter.shorten(&text, Weight::Regular, size, room);
-        let width = canvas.typesetter.width(&text, Weight::Regular, size) + 2.2 * size;
+        let text = self.canvas.typesetter.shorten(&text, Weight::Regular, size, room);
+        let width = self.canvas.typesetter.width(&text, Weight::Regular, size) + 2.2 * size;
         (text, width)
     }
 
@@ -209,26 +218,10 @@ impl Page {
         (if beside_the_bar { 0.66 } else { 1.0 }) * (self.width - 2.0 * self.margin)
     }
 
-    fn legend_rows(&self, entries: Vec<(String, f64)>, size: f64) -> Vec<Vec<(String, f64)>> {
-        let mut rows: Vec<Vec<(String, f64)>> = Vec::new();
-        let mut used = f64::INFINITY;
-        for (text, width) in entries {
-            if rows.is_empty() || used + width > self.legend_room(rows.len() - 1, size) {
-                rows.push(Vec::new());
-                used = 0.0;
-            }
-            used += width;
-            if let Some(row) = rows.last_mut() {
-                row.push((text, width));
-            }
-        }
-        rows
-    }
-
-    fn footer_height(&self, canvas: &Canvas, key: &Key<'_>) -> f64 {
+    fn footer_height(&self, key: &Key<'_>) -> f64 {
         let legend = match key {
             Key::Species { names, counts, .. } => {
-                let (size, rows) = self.legend(canvas, names, counts);
+                let (size, rows) = self.legend(names, counts);
                 rows.len() as f64 * 1.35 * size
             }
             Key::Scale { .. } => 0.0,
@@ -237,16 +230,16 @@ impl Page {
     }
 
     /// Draws the key to the colours and a scale bar below a box with this outline.
-    pub(super) fn footer(&self, canvas: &mut Canvas, key: &Key<'_>, outline: Area, pixels_per_length: f64) {
+    pub(super) fn footer(&mut self, key: &Key<'_>, outline: Area, pixels_per_length: f64) {
         if !self.captioned {
             return;
         }
-        let top = self.height - self.margin - self.footer_height(canvas, key) + self.gap;
-        let style = self.text(canvas.inks.ink);
+        let top = self.height - self.margin - self.footer_height(key) + self.gap;
+        let style = self.text(self.canvas.inks.ink);
         match key {
             Key::Species { names, counts, colours, .. } => {
                 let mut species = 0;
-                let (size, rows) = self.legend(canvas, names, counts);
+                let (size, rows) = self.legend(names, counts);
                 let style = Type { size, ..style };
                 for (row, entries) in rows.into_iter().enumerate() {
                     let y = top + (row as f64 + 0.5) * 1.35 * size;
@@ -254,35 +247,35 @@ impl Page {
                     for (text, width) in entries {
                         if width > 0.0 {
                             let radius = 0.36 * size;
-                            canvas.disc([x + radius, y], radius, colours[species % colours.len()]);
+                            self.canvas.disc([x + radius, y], radius, colours[species % colours.len()]);
                         }
-                        canvas.text_centred(&text, [x + 1.1 * size, y], Anchor::Start, style);
+                        self.canvas.text_centred(&text, [x + 1.1 * size, y], Anchor::Start, style);
                         x += width;
                         species += 1;
                     }
                 }
             }
-            Key::Scale { name, map, beyond, .. } => self.colour_bar(canvas, (name, map, *beyond), top, style),
+            Key::Scale { name, map, beyond, .. } => self.colour_bar(name, map, *beyond, top, style),
         }
-        self.scale_bar(canvas, top, outline, pixels_per_length, style);
+        self.scale_bar(top, outline, pixels_per_length, style);
     }
 
-    fn colour_bar(&self, canvas: &mut Canvas, (name, map, beyond): (&str, &AxisMap, [bool; 2]), top: f64, style: Type) {
+    fn colour_bar(&mut self, name: &str, map: &AxisMap, beyond: [bool; 2], top: f64, style: Type) {
         let y = top + 0.5 * self.line();
         let height = 0.8 * self.label;
         let inner = self.width - 2.0 * self.margin;
-        let name = canvas.typesetter.shorten(name, style.weight, style.size, 0.42 * inner);
+        let name = self.canvas.typesetter.shorten(name, style.weight, style.size, 0.42 * inner);
         // Arrowheads at the ends have their place whether there are any or not.
         let arrowhead = 0.9 * height;
-        let left = self.margin + canvas.typesetter.width(&name, style.weight, style.size) + self.gap + arrowhead;
+        let left = self.margin + self.canvas.typesetter.width(&name, style.weight, style.size) + self.gap + arrowhead;
         let room = self.margin + 0.7 * inner - left - arrowhead;
         let width = (0.4 * inner).min(room).max(0.15 * inner);
-        canvas.text_centred(&name, [self.margin, y], Anchor::Start, style);
+        self.canvas.text_centred(&name, [self.margin, y], Anchor::Start, style);
         for (shown, end, direction, fraction) in [(beyond[0], left, -1.0, 0.0), (beyond[1], left + width, 1.0, 1.0)] {
             if shown {
                 let radius = 0.58 * height;
                 let angle = if direction < 0.0 { std::f64::consts::PI } else { 0.0 };
-                canvas.polygon([end + direction * 0.55 * radius, y], radius, 3, angle, scale_colour(fraction));
+                self.canvas.polygon([end + direction * 0.55 * radius, y], radius, 3, angle, scale_colour(fraction));
             }
         }
         let columns = width.ceil().max(1.0) as u32;
@@ -290,36 +283,37 @@ impl Page {
             let from = left.round() + f64::from(column);
             let colour = scale_colour((f64::from(column) + 0.5) / f64::from(columns));
             let (top, bottom) = ((y - 0.5 * height).round(), (y + 0.5 * height).round());
-            canvas.rectangle(Area { left: from, top, right: from + 1.0, bottom }, colour);
+            self.canvas.rectangle(Area { left: from, top, right: from + 1.0, bottom }, colour);
         }
         let marks = ticks(map, 4);
         for (value, text) in &marks.major {
             let x = left + map.fraction(*value).unwrap_or(0.0) * width;
             let foot = y + 0.5 * height;
-            canvas.vertical_rule(x, foot, foot + 0.4 * self.gap, 0.7 * self.rule, style.colour);
+            self.canvas.vertical_rule(x, foot, foot + 0.4 * self.gap, 0.7 * self.rule, style.colour);
             let baseline = foot + 0.8 * self.gap + CAPITAL_HEIGHT * self.label;
-            canvas.text(text, [x, baseline], Anchor::Middle, style);
+            self.canvas.text(text, [x, baseline], Anchor::Middle, style);
         }
         if let Some(multiplier) = &marks.multiplier {
-            canvas.text_centred(multiplier, [left + width + self.gap + arrowhead, y], Anchor::Start, style);
+            self.canvas.text_centred(multiplier, [left + width + self.gap + arrowhead, y], Anchor::Start, style);
         }
     }
 
-    fn scale_bar(&self, canvas: &mut Canvas, top: f64, outline: Area, pixels_per_length: f64, style: Type) {
+    fn scale_bar(&mut self, top: f64, outline: Area, pixels_per_length: f64, style: Type) {
         let room = 0.25 * (self.width - 2.0 * self.margin).min(outline.width().max(1.0) * 2.0);
         let length = nice_length(room / pixels_per_length);
         let unit = if length == 1.0 { "length unit" } else { "length units" };
         let text = format!("{} {unit}", short(length));
         let right = self.width - self.margin;
-        let (bar, text_width) = (length * pixels_per_length, canvas.typesetter.width(&text, style.weight, style.size));
+        let (bar, text_width) =
+            (length * pixels_per_length, self.canvas.typesetter.width(&text, style.weight, style.size));
         let middle = right - 0.5 * bar.max(text_width);
         let y = top + 0.3 * self.line();
         let (from, to) = (middle - 0.5 * bar, middle + 0.5 * bar);
-        canvas.horizontal_rule(from, to, y, 1.3 * self.rule, style.colour);
+        self.canvas.horizontal_rule(from, to, y, 1.3 * self.rule, style.colour);
         for x in [from, to] {
-            canvas.vertical_rule(x, y - 0.55 * self.gap, y + 0.55 * self.gap, self.rule, style.colour);
+            self.canvas.vertical_rule(x, y - 0.55 * self.gap, y + 0.55 * self.gap, self.rule, style.colour);
         }
-        canvas.text(&text, [middle, y + self.gap + CAPITAL_HEIGHT * self.label], Anchor::Middle, style);
+        self.canvas.text(&text, [middle, y + self.gap + CAPITAL_HEIGHT * self.label], Anchor::Middle, style);
     }
 }
 
@@ -353,7 +347,7 @@ mod tests {
     use super::*;
 
     fn pixels(width: Option<u32>, height: Option<u32>, shape: [f64; 2]) -> [u32; 2] {
-        Page::new(&Snapshot { width, height, ..Snapshot::default() }, shape).pixels()
+        size(&Snapshot { width, height, ..Snapshot::default() }, shape).map(|side| side.round() as u32)
     }
 
     #[test]
@@ -380,9 +374,8 @@ mod tests {
         let counts = vec![1234; 30];
         for [width, height] in [[1200, 1200], [640, 640], [300, 900]] {
             let style = Snapshot { width: Some(width), height: Some(height), ..Snapshot::default() };
-            let page = Page::new(&style, [1.0, 1.0]);
-            let Ok(canvas) = Canvas::new(width, height, crate::scene::Theme::Light) else { continue };
-            let (size, rows) = page.legend(&canvas, &names, &counts);
+            let Ok(page) = Page::new(&style, Theme::Light, [1.0, 1.0]) else { continue };
+            let (size, rows) = page.legend(&names, &counts);
             let found: Vec<String> = rows.iter().flatten().map(|(text, _)| text.clone()).collect();
             let expected: Vec<String> = names.iter().map(|name| format!("{name} (1234)")).collect();
             assert_eq!(found, expected, "{width} x {height}");

@@ -43,8 +43,8 @@ struct AtlasEntry {
 
 /// Sets lines of text and collects the glyphs they use.
 pub(super) struct Typesetter {
-    regular: FontRef<'static>,
-    semi_bold: FontRef<'static>,
+    /// Of the weights, in their order.
+    fonts: [FontRef<'static>; 2],
     entries: HashMap<(Weight, GlyphId, u32), Option<AtlasEntry>>,
     /// One byte of coverage per texel, rows of [`ATLAS_WIDTH`].
     coverage: Vec<u8>,
@@ -59,8 +59,7 @@ impl Typesetter {
     pub(super) fn new() -> Result<Self, PlotError> {
         let read = |bytes: &'static [u8]| FontRef::try_from_slice(bytes).map_err(|e| PlotError::Font(e.to_string()));
         Ok(Self {
-            regular: read(REGULAR)?,
-            semi_bold: read(include_bytes!("../../assets/fonts/Inter-SemiBold.otf"))?,
+            fonts: [read(REGULAR)?, read(include_bytes!("../../assets/fonts/Inter-SemiBold.otf"))?],
             entries: HashMap::new(),
             coverage: Vec::new(),
             shelf: [0, 0],
@@ -70,10 +69,7 @@ impl Typesetter {
     }
 
     fn font(&self, weight: Weight) -> &FontRef<'static> {
-        match weight {
-            Weight::Regular => &self.regular,
-            Weight::SemiBold => &self.semi_bold,
-        }
+        &self.fonts[weight as usize]
     }
 
     /// The scale at which one em is `size` pixels.
@@ -215,6 +211,26 @@ impl Typesetter {
     }
 }
 
+/// Things in rows, each as full as the room of its number allows; every thing has a width.
+pub(super) fn in_rows<T>(
+    things: impl IntoIterator<Item = (T, f64)>,
+    room: impl Fn(usize) -> f64,
+) -> Vec<Vec<(T, f64)>> {
+    let mut rows: Vec<Vec<(T, f64)>> = Vec::new();
+    let mut used = f64::INFINITY;
+    for (thing, width) in things {
+        if rows.is_empty() || used + width > room(rows.len() - 1) {
+            rows.push(Vec::new());
+            used = 0.0;
+        }
+        used += width;
+        if let Some(row) = rows.last_mut() {
+            row.push((thing, width));
+        }
+    }
+    rows
+}
+
 /// Characters that the font lacks, and the nearest that it has.
 const SUBSTITUTES: [(&[char], char); 14] = [
     (&['⟨', '〈', '⟪'], '‹'),
@@ -337,14 +353,14 @@ mod tests {
     fn every_substitute_is_in_the_font_and_every_box_is_named() {
         let setter = Typesetter::new().unwrap();
         for (characters, near) in SUBSTITUTES {
-            assert_ne!(setter.regular.glyph_id(near), GlyphId(0), "{near}");
+            assert_ne!(setter.fonts[0].glyph_id(near), GlyphId(0), "{near}");
             for character in characters {
                 assert_eq!(missing_glyphs(&character.to_string()), "", "{character}");
             }
         }
-        let hollow = setter.regular.glyph_id(HOLLOW_BOX);
+        let hollow = setter.fonts[0].glyph_id(HOLLOW_BOX);
         for character in "∇水ملح🙂זé√α".chars() {
-            let boxed = glyph_of(&setter.regular, character) == hollow;
+            let boxed = glyph_of(&setter.fonts[0], character) == hollow;
             assert_eq!(missing_glyphs(&character.to_string()).contains(character), boxed, "{character}");
         }
     }

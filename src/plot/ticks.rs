@@ -66,6 +66,14 @@ pub(super) struct Ticks {
     pub multiplier: Option<String>,
 }
 
+impl Ticks {
+    /// All ticks, of which the major ones have labels.
+    pub(super) fn all(&self) -> impl Iterator<Item = (f64, Option<&str>)> {
+        let major = self.major.iter().map(|(value, text)| (*value, Some(text.as_str())));
+        major.chain(self.minor.iter().map(|value| (*value, None)))
+    }
+}
+
 /// Ticks of an axis with room for at most `count` labels: as many as fit. An axis whose ends are not two numbers in order,
 /// or so close to zero or so far apart that no step between them is an ordinary number, has none.
 pub(super) fn ticks(map: &AxisMap, count: usize) -> Ticks {
