@@ -40,19 +40,15 @@ fn end_at_second(signal: i32, first: &Arc<AtomicBool>) -> io::Result<()> {
     Ok(())
 }
 
-#[cfg(not(unix))]
-fn requests() -> Vec<i32> {
-    vec![SIGINT, SIGTERM]
-}
-
-#[cfg(unix)]
 fn requests() -> Vec<i32> {
     // Batch systems warn with one of the user's signals, which launchers of MPI pass on where they take SIGTERM for themselves.
-    let mut signals = vec![SIGINT, SIGTERM, signal_hook::consts::SIGUSR1, signal_hook::consts::SIGUSR2];
-    if !hangup::is_ignored() {
-        signals.push(signal_hook::consts::SIGHUP);
-    }
-    signals
+    #[cfg(unix)]
+    let others = [signal_hook::consts::SIGUSR1, signal_hook::consts::SIGUSR2]
+        .into_iter()
+        .chain((!hangup::is_ignored()).then_some(signal_hook::consts::SIGHUP));
+    #[cfg(not(unix))]
+    let others = [];
+    [SIGINT, SIGTERM].into_iter().chain(others).collect()
 }
 
 #[cfg(unix)]

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use indicatif::ProgressBar;
 use mesoscope::families::{Model, PictureKind};
 use mesoscope::numbers::{grouped, prefixed};
 use mesoscope::output::summary::Unequilibrated;
@@ -11,7 +12,7 @@ use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
 
-use super::progress::Bar;
+use super::progress::{bar, say};
 use super::table::{aligned, dimensions, labelled};
 use super::{AdapterArgument, Failure, RanksArgument, line, print};
 
@@ -57,7 +58,7 @@ pub fn execute(
         note_begin(&event);
         reporter.show(event);
     });
-    reporter.bar.clear();
+    reporter.bar.finish_and_clear();
     let outcome = result?;
     known.append(&mut reporter.told);
     for warning in outcome.summary.warnings.iter().filter(|warning| !known.contains(warning)) {
@@ -81,7 +82,7 @@ struct Reporter {
     headline: String,
     /// What they are, and what acts on them, where a file or molecules say it.
     composition: String,
-    bar: Bar,
+    bar: ProgressBar,
     /// Tenths of the run already reported on lines of their own, and when the last was.
     reported: u64,
     reported_at: Instant,
@@ -100,7 +101,7 @@ impl Reporter {
             flows: model.picture() == PictureKind::Fields,
             headline: format!("{title}: {} {noun} in {dimensions}", grouped(particles)),
             composition: labelled(model.composition(scene), "  "),
-            bar: Bar::default(),
+            bar: ProgressBar::hidden(),
             reported: 0,
             reported_at: Instant::now(),
             first_step: 0,
@@ -116,25 +117,25 @@ impl Reporter {
                 // A closed standard output will be noticed when the results are printed.
                 let _ = print(&format!("{headline}{begin}, on {}\n{composition}", adapter.in_words()));
                 self.first_step = first_step;
-                self.bar.begin(first_step, last_step, "step {pos}/{len} {wide_bar} {percent:>3}%  {msg}");
+                self.bar = bar(first_step, last_step, "step {pos}/{len} {wide_bar} {percent:>3}%  {msg}");
             }
             Event::Advanced(progress) => self.advanced(&progress),
             Event::Repeating { from, reason, with } => {
-                self.bar.say(&format!("note: {reason}; continuing from step {} with {with}", grouped(from)));
+                say(&self.bar, &format!("note: {reason}; continuing from step {} with {with}", grouped(from)));
             }
             Event::Warned { warning } => {
-                self.bar.say(&format!("warning: {warning}"));
+                say(&self.bar, &format!("warning: {warning}"));
                 self.told.push(warning.to_owned());
             }
-            Event::Finishing => self.bar.announce("writing results"),
+            Event::Finishing => self.bar.set_message("writing results"),
             _ => {}
         }
     }
 
     fn advanced(&mut self, progress: &Progress) {
-        if let Some(bar) = &self.bar.0 {
-            bar.set_position(progress.step);
-            bar.set_message(describe(progress, self.flows));
+        if !self.bar.is_hidden() {
+            self.bar.set_position(progress.step);
+            self.bar.set_message(describe(progress, self.flows));
             return;
         }
         let steps = (progress.last_step - self.first_step).max(1);

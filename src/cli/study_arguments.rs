@@ -122,7 +122,7 @@ impl StudyArguments {
         } else {
             let mut reporter = Reporter::new(title, R::KIND);
             let executed = execute(study, adapter, &mut |event| reporter.show(&event, &runs));
-            reporter.bar.clear();
+            reporter.bar.finish_and_clear();
             executed
         };
         executed.map_err(|error| match (&error, Kind::of(&directory)) {

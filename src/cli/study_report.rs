@@ -3,13 +3,14 @@
 use std::fmt::Display;
 use std::time::Duration;
 
+use indicatif::ProgressBar;
 use mesoscope::numbers::prefixed;
 use mesoscope::printable;
 use mesoscope::run::Progress;
 use mesoscope::study::{Kind, StudyEvent};
 
 use super::print;
-use super::progress::Bar;
+use super::progress::{bar, say};
 use super::report::duration;
 
 /// Parts of a run that a bar can show.
@@ -19,7 +20,7 @@ const PARTS: f64 = 1000.0;
 pub struct Reporter {
     title: String,
     kind: &'static Kind,
-    pub bar: Bar,
+    pub bar: ProgressBar,
     /// Runs under way, with their first steps.
     under_way: Vec<(String, u64, Option<Progress>)>,
     runs: usize,
@@ -29,7 +30,7 @@ pub struct Reporter {
 impl Reporter {
     pub fn new(title: &str, kind: &'static Kind) -> Self {
         let title = printable::name(title).into_owned();
-        Self { title, kind, bar: Bar::default(), under_way: Vec::new(), runs: 0, ended: 0 }
+        Self { title, kind, bar: ProgressBar::hidden(), under_way: Vec::new(), runs: 0, ended: 0 }
     }
 
     pub fn show<E: Display, P: Display>(&mut self, event: &StudyEvent<'_, E, P>, in_words: &dyn Fn(usize) -> String) {
@@ -46,7 +47,7 @@ impl Reporter {
                     time.unwrap_or_default()
                 ));
                 self.runs = runs;
-                self.bar.begin(0, 0, "{wide_bar} {percent:>3}%  {msg}");
+                self.bar = bar(0, 0, "{wide_bar} {percent:>3}%  {msg}");
             }
             StudyEvent::Begun { run, first_step } => self.under_way.push((run.to_owned(), first_step, None)),
             StudyEvent::Advanced { run, progress } => {
@@ -58,30 +59,29 @@ impl Reporter {
             StudyEvent::Ended { run, ended } => {
                 self.under_way.retain(|(name, ..)| name != run);
                 self.ended += 1;
-                self.bar.say(&format!("{} of {}  {run}  {ended}", self.ended, self.runs));
+                say(&self.bar, &format!("{} of {}  {run}  {ended}", self.ended, self.runs));
                 self.advanced();
             }
             StudyEvent::Phase { phase, runs } => {
                 self.runs += runs;
-                self.bar.say(&phase.to_string());
+                say(&self.bar, &phase.to_string());
                 self.advanced();
             }
-            StudyEvent::Finishing => self.bar.announce("drawing"),
+            StudyEvent::Finishing => self.bar.set_message("drawing"),
             _ => {}
         }
     }
 
     /// The bar counts runs, those under way by the part of their steps that is done.
     fn advanced(&self) {
-        let Some(bar) = &self.bar.0 else { return };
         let progresses = || self.under_way.iter().filter_map(|(_, first, progress)| Some((*first, (*progress)?)));
         let parts = progresses().map(|(first, progress)| {
             let all = progress.last_step.saturating_sub(first).max(1);
             progress.step.saturating_sub(first) as f64 / all as f64
         });
         let (done, all) = (self.ended as f64 + parts.sum::<f64>(), self.runs.max(1) as f64);
-        bar.set_length((PARTS * all) as u64);
-        bar.set_position((PARTS * done) as u64);
+        self.bar.set_length((PARTS * all) as u64);
+        self.bar.set_position((PARTS * done) as u64);
         let names: Vec<&str> = self.under_way.iter().map(|(name, ..)| name.as_str()).collect();
         let mut words = vec![format!("{} of {}  {}", self.ended, self.runs, names.join(" "))];
         let rate: f64 = progresses().map(|(_, progress)| progress.particle_steps_per_second).sum();
@@ -89,10 +89,10 @@ impl Reporter {
             words.push(format!("{} particle-steps/s", prefixed(rate)));
         }
         // Runs still to come are taken to be as long as those so far.
-        let remaining = Duration::try_from_secs_f64(bar.elapsed().as_secs_f64() * (all - done) / done).ok();
+        let remaining = Duration::try_from_secs_f64(self.bar.elapsed().as_secs_f64() * (all - done) / done).ok();
         if let Some(remaining) = remaining.filter(|_| done > 0.0) {
             words.push(format!("{} left", duration(remaining.as_secs())));
         }
-        bar.set_message(words.join("  "));
+        self.bar.set_message(words.join("  "));
     }
 }

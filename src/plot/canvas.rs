@@ -5,7 +5,6 @@ use super::palette::{Colour, Inks, inks};
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Typesetter, Weight};
 use crate::scene::Theme;
 use bytemuck::{Pod, Zeroable};
-use std::ops::Range;
 
 /// One quad of `shapes.wgsl`.
 #[repr(C)]
@@ -91,7 +90,7 @@ pub(super) struct Heading {
 /// Shapes that share a clipping rectangle.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Batch {
-    pub shapes: Range<u32>,
+    pub shapes: Vec<Shape>,
     pub clip: Option<Area>,
 }
 
@@ -100,7 +99,6 @@ pub(super) struct Canvas {
     pub width: u32,
     pub height: u32,
     pub inks: Inks,
-    pub shapes: Vec<Shape>,
     pub batches: Vec<Batch>,
     /// Batches painted before the particles of a snapshot or the image of a field.
     pub background: usize,
@@ -112,14 +110,13 @@ impl Canvas {
     /// [`PlotError::Font`] if an embedded font cannot be read.
     pub(super) fn new(width: u32, height: u32, theme: Theme) -> Result<Self, PlotError> {
         let typesetter = Typesetter::new()?;
-        let batches = vec![Batch { shapes: 0..0, clip: None }];
-        Ok(Self { width, height, inks: inks(theme), shapes: Vec::new(), batches, background: 0, typesetter })
+        let batches = vec![Batch { shapes: Vec::new(), clip: None }];
+        Ok(Self { width, height, inks: inks(theme), batches, background: 0, typesetter })
     }
 
     /// What follows is painted only inside this area.
     pub(super) fn clip(&mut self, clip: Option<Area>) {
-        let next = self.shapes.len() as u32;
-        self.batches.push(Batch { shapes: next..next, clip });
+        self.batches.push(Batch { shapes: Vec::new(), clip });
     }
 
     /// What follows is painted over the particles or the image.
@@ -129,10 +126,8 @@ impl Canvas {
     }
 
     fn push(&mut self, shape: Shape) {
-        self.shapes.push(shape);
-        let end = self.shapes.len() as u32;
         if let Some(batch) = self.batches.last_mut() {
-            batch.shapes.end = end;
+            batch.shapes.push(shape);
         }
     }
 

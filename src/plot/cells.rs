@@ -87,14 +87,17 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
 fn draw(canvas: &mut Canvas, picture: &CellPicture<'_>, origin: [f64; 2], pixels_per_length: f64, key: &Key<'_>) {
     let cells = &picture.tessellation.cells;
     let pixel = |[x, y]: [f64; 2]| [origin[0] + x * pixels_per_length, origin[1] - y * pixels_per_length];
+    // The corners of all images of the cells.
+    let mut outlines: Vec<(usize, Vec<[f64; 2]>)> = Vec::new();
     for (index, cell) in cells.iter().enumerate() {
-        for place in images(picture, index) {
-            let corner = |[x, y]: [f64; 2]| pixel([place[0] + x, place[1] + y]);
-            let Some((first, rest)) = cell.corners.split_first() else { continue };
-            // Cells are convex: a fan of triangles fills one.
-            for pair in rest.windows(2) {
-                canvas.triangle([corner(*first), corner(pair[0]), corner(pair[1])], key.colour(index));
-            }
+        let corners = |place: [f64; 2]| cell.corners.iter().map(move |[x, y]| pixel([place[0] + x, place[1] + y]));
+        outlines.extend(images(picture, index).into_iter().map(|place| (index, corners(place).collect())));
+    }
+    for (index, corners) in &outlines {
+        let Some((first, rest)) = corners.split_first() else { continue };
+        // Cells are convex: a fan of triangles fills one.
+        for pair in rest.windows(2) {
+            canvas.triangle([*first, pair[0], pair[1]], key.colour(*index));
         }
     }
     let spacing = (picture.lengths[0] * picture.lengths[1] / cells.len().max(1) as f64).sqrt() * pixels_per_length;
@@ -102,16 +105,11 @@ fn draw(canvas: &mut Canvas, picture: &CellPicture<'_>, origin: [f64; 2], pixels
     if width < THINNEST_LINE {
         return;
     }
-    for (index, cell) in cells.iter().enumerate() {
-        // A face is seen from both sides, and drawn once.
-        let own = |face: &crate::tessellation::Face| {
-            face.neighbour > index || face.neighbour == index && face.separation > [0.0, 0.0]
-        };
-        for place in images(picture, index) {
-            let corner = |[x, y]: [f64; 2]| pixel([place[0] + x, place[1] + y]);
-            for (number, _) in cell.faces.iter().enumerate().filter(|(_, face)| own(face)) {
-                let next = (number + 1) % cell.corners.len();
-                canvas.line(corner(cell.corners[number]), corner(cell.corners[next]), width, canvas.inks.paper);
+    for (index, corners) in &outlines {
+        for (number, face) in cells[*index].faces.iter().enumerate() {
+            // A face is seen from both sides, and drawn once.
+            if face.neighbour > *index || face.neighbour == *index && face.separation > [0.0, 0.0] {
+                canvas.line(corners[number], corners[(number + 1) % corners.len()], width, canvas.inks.paper);
             }
         }
     }
@@ -190,8 +188,9 @@ mod tests {
         let canvas = lay_out(&picture, &style, Theme::Light).unwrap();
         // Cells centred on the left edge show on the right too: 20 of two triangles each. Each of 32 faces once, and once
         // more the 12 that belong to those cells, which have the lower numbers. Four lines are the box.
-        let lines = canvas.shapes.iter().filter(|shape| shape.kind == 0).count();
-        let triangles = canvas.shapes.iter().filter(|shape| shape.kind == 4).count();
+        let shapes = || canvas.batches.iter().flat_map(|batch| &batch.shapes);
+        let lines = shapes().filter(|shape| shape.kind == 0).count();
+        let triangles = shapes().filter(|shape| shape.kind == 4).count();
         assert_eq!((triangles, lines), (40, 32 + 12 + 4));
     }
 

@@ -72,7 +72,7 @@ pub use chart::{Axis, AxisFit, Chart, Mean, Panel, ReferenceLine, Scale, Series,
 pub use color_map::ColorMap;
 pub use error::PlotError;
 pub use field::{FieldPicture, Interpolation, PeriodicCurve};
-pub use overlay::{Curve, overlay_chart};
+pub use overlay::overlay_chart;
 pub use particles::ParticlePicture;
 pub(crate) use particles::snapshot_size;
 pub use presets::{

@@ -3,48 +3,34 @@
 use super::chart::{Chart, Panel, Series, SeriesInk};
 use super::quantities::{TIME, quantity_label};
 
-/// One quantity of one run over time.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Curve {
-    /// What tells the run from the others: `friction = 4.5`.
-    pub name: String,
-    /// Pairs of time and value; a value that is not finite is a gap.
-    pub points: Vec<[f64; 2]>,
-    /// What it is drawn with.
-    pub ink: SeriesInk,
-}
-
 /// More names than this would crowd out the curves.
 const MOST_NAMES: usize = 12;
 
-/// The curves of a quantity over each other, against time. Curves on a scale of colours are named at even distances
+/// The curves of a quantity over each other, against time, each with a name that tells its run from the others. Curves on a scale of colours are named at even distances
 /// where there are too many of them.
 ///
 /// ```
-/// use mesoscope::plot::{Curve, overlay_chart};
+/// use mesoscope::plot::{Series, overlay_chart};
 ///
 /// let curve = |friction: f64| {
 ///     let points = (0..10).map(|step| [f64::from(step), (-friction * f64::from(step)).exp()]).collect();
-///     Curve { name: format!("friction = {friction}"), points, ..Curve::default() }
+///     Series::line(&format!("friction = {friction}"), points)
 /// };
 /// let chart = overlay_chart("Damping", "", "kinetic_energy", true, vec![curve(1.0), curve(4.5)]);
 /// assert_eq!(chart.panels[0].y.label, "Kinetic energy relative to its first value");
 /// assert_eq!(chart.panels[0].series[1].name, "friction = 4.5");
 /// ```
 #[must_use]
-pub fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool, curves: Vec<Curve>) -> Chart {
-    let mut panel = Panel::new(TIME, &quantity_label(quantity, relative)).settled();
-    let scaled = |curve: &Curve| matches!(curve.ink, SeriesInk::Scale { .. });
-    let on_scale = curves.iter().filter(|curve| scaled(curve)).count();
-    let mut place = 0;
-    for curve in curves {
-        let named = !scaled(&curve) || {
-            place += 1;
-            is_named(place - 1, on_scale)
-        };
-        let name = if named { curve.name.as_str() } else { "" };
-        panel.series.push(Series::line(name, curve.points).with_ink(curve.ink));
+pub fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool, mut curves: Vec<Series>) -> Chart {
+    let on_scale: Vec<&mut Series> =
+        curves.iter_mut().filter(|curve| matches!(curve.ink, SeriesInk::Scale { .. })).collect();
+    let count = on_scale.len();
+    for (place, curve) in on_scale.into_iter().enumerate() {
+        if !is_named(place, count) {
+            curve.name.clear();
+        }
     }
+    let panel = Panel { series: curves, ..Panel::new(TIME, &quantity_label(quantity, relative)).settled() };
     Chart { title: title.to_owned(), subtitle: subtitle.to_owned(), panels: vec![panel] }
 }
 
@@ -60,8 +46,8 @@ fn is_named(place: usize, count: usize) -> bool {
 mod tests {
     use super::*;
 
-    fn curve(name: &str, ink: SeriesInk) -> Curve {
-        Curve { name: name.to_owned(), points: vec![[0.0, 1.0]], ink }
+    fn curve(name: &str, ink: SeriesInk) -> Series {
+        Series::line(name, vec![[0.0, 1.0]]).with_ink(ink)
     }
 
     #[test]
@@ -81,7 +67,7 @@ mod tests {
     #[test]
     fn a_curve_to_compare_with_keeps_its_name() {
         let scale = |number: usize| SeriesInk::Scale { place: number as f64 / 29.0, pattern: 0 };
-        let mut curves: Vec<Curve> = (0..30).map(|number| curve(&format!("{number}"), scale(number))).collect();
+        let mut curves: Vec<Series> = (0..30).map(|number| curve(&format!("{number}"), scale(number))).collect();
         curves.push(curve("limit", SeriesInk::Ink { pattern: 1 }));
         let chart = overlay_chart("t", "s", "total_energy", true, curves);
         let panel = &chart.panels[0];

@@ -1,5 +1,8 @@
 //! Points made of columns.
 
+/// With more points than this, markers and their error bars would run into each other.
+pub(super) const MOST_MARKERS: usize = 60;
+
 /// Points of two columns.
 pub(super) fn pairs(x: &[f64], y: &[f64]) -> Vec<[f64; 2]> {
     x.iter().zip(y).map(|(x, y)| [*x, *y]).collect()

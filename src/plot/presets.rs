@@ -1,7 +1,7 @@
 //! The charts a run writes, made from its tables.
 
 use super::chart::{Chart, Panel, Series, SeriesInk, SeriesStyle};
-use super::points::{highest, pairs, since_first, steps};
+use super::points::{MOST_MARKERS, highest, pairs, since_first, steps};
 use super::quantities::{
     Averages, TEMPERATURE, TIME, capitalised, panel, pressure_label, series, with_set_temperature,
 };
@@ -171,9 +171,6 @@ pub fn autocorrelation_chart(
     panel = panel.with_reference("zero", 0.0);
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
 }
-
-/// With more points than this, markers and their error bars would run into each other.
-const MOST_MARKERS: usize = 60;
 
 /// A histogram as a probability density of a `quantity`, in steps from `edges[k]` to `edges[k + 1]`, with a density to
 /// compare it with, given by name as points.

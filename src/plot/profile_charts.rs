@@ -1,13 +1,10 @@
 //! Charts of profiles along an axis of the box.
 
 use super::chart::{Chart, Panel, Series, SeriesInk, SeriesStyle};
-use super::points::pairs;
+use super::points::{MOST_MARKERS, pairs};
 use super::quantities::{TEMPERATURE, pressure_label};
 use crate::numbers::short;
 use crate::table::Table;
-
-/// With more bins than this, markers and their error bars would run into each other.
-const MOST_MARKERS: usize = 60;
 
 /// A species whose density has a column of its own.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

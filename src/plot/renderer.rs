@@ -173,8 +173,7 @@ impl<'g> Plotter<'g> {
                 for batch in batches {
                     let Some([x, y, width, height]) = scissor(batch.clip, canvas) else { continue };
                     pass.set_scissor_rect(x, y, width, height);
-                    let shapes = &canvas.shapes[batch.shapes.start as usize..batch.shapes.end as usize];
-                    draw_instances(pass, &self.instances("plot: shapes", shapes));
+                    draw_instances(pass, &self.instances("plot: shapes", &batch.shapes));
                 }
             });
         };

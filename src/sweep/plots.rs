@@ -5,7 +5,7 @@ use super::means_chart;
 use super::summary::SweepSummary;
 use super::variant::VariantState;
 use crate::output::{RunDirectory, Summary, files as run_files};
-use crate::plot::{Chart, Curve, SeriesInk, overlay_chart};
+use crate::plot::{Chart, Series, SeriesInk, overlay_chart};
 use crate::run;
 use crate::study::{Charts, StudyError, Sweep, Variant, each_once};
 use crate::table::Table;
@@ -38,7 +38,7 @@ pub(super) fn charts<'c>(
     let quantities = each_once(finished.iter().flat_map(|(_, table)| &table.columns).filter(is_shown).cloned());
     let inks = inks(sweep);
     let of_quantity = move |quantity: String| -> Option<(String, Chart)> {
-        let mut curves: Vec<Curve> = Vec::new();
+        let mut curves: Vec<Series> = Vec::new();
         let mut without: Vec<&str> = Vec::new();
         for (variant, table) in &finished {
             let Some(points) = points(table, &quantity, look.relative) else {
@@ -46,7 +46,7 @@ pub(super) fn charts<'c>(
                 continue;
             };
             let index = sweep.variants().iter().position(|known| known.name == variant.name).unwrap_or(0);
-            curves.push(Curve { name: variant.label.clone(), points, ink: inks[index] });
+            curves.push(Series::line(&variant.label, points).with_ink(inks[index]));
         }
         if curves.is_empty() || look.quantities.is_empty() && !changes(&curves) {
             return None;
@@ -87,7 +87,7 @@ fn points(table: &Table, quantity: &str, relative: bool) -> Option<Vec<[f64; 2]>
 }
 
 /// Whether there is more to see than one horizontal line.
-fn changes(curves: &[Curve]) -> bool {
+fn changes(curves: &[Series]) -> bool {
     let mut values =
         curves.iter().flat_map(|curve| &curve.points).map(|point| point[1]).filter(|value| value.is_finite());
     let first = values.next();
