@@ -83,12 +83,13 @@ impl Command {
     /// Refuses to be one of several copies, unless these write nothing or know of each other.
     fn check_alone(&self) -> Result<(), Failure> {
         match self {
-            Self::Sweep(arguments) if arguments.is_shard() => Ok(()),
-            Self::Run(_) | Self::Resume(_) => processes::refuse_copies(true),
-            Self::Sweep(_) | Self::Tradeoff(_) | Self::Stability(_) | Self::Plot(_) => processes::refuse_copies(false),
+            Self::Sweep(arguments) if arguments.shard.is_some() => Ok(()),
+            Self::Run(_) | Self::Resume(_) if cfg!(feature = "mpi") => Ok(()),
             Self::Check(_) | Self::Scenes(_) | Self::Schema(_) | Self::Adapters(_) => Ok(()),
+            _ => launcher::refuse_copies(),
         }
     }
+
     fn execute(&self) -> Result<(), Failure> {
         self.check_alone()?;
         if !matches!(self, Self::Scenes(_) | Self::Schema(_)) {

@@ -2,7 +2,9 @@
 
 use mesoscope::ranks::Processes;
 
-use super::{AdapterArgument, Failure, launcher};
+#[cfg(feature = "mpi")]
+use super::launcher;
+use super::{AdapterArgument, Failure};
 
 /// What the first of several copies does with them, or a copy that is alone without.
 type Work<'w> = &'w dyn Fn(Option<&dyn Processes>) -> Result<(), Failure>;
@@ -55,9 +57,4 @@ fn panic_if_asked(_: u32) {}
 #[cfg(not(feature = "mpi"))]
 pub fn share(_: &AdapterArgument, work: Work<'_>) -> Result<(), Failure> {
     work(None)
-}
-
-/// Refuses to be one of several copies that do not know of each other.
-pub fn refuse_copies(shares: bool) -> Result<(), Failure> {
-    if shares && cfg!(feature = "mpi") { Ok(()) } else { launcher::refuse_copies() }
 }

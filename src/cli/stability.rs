@@ -3,6 +3,7 @@
 use mesoscope::printable;
 use mesoscope::stability::{Request, StabilityRun, StabilitySummary};
 use mesoscope::study::{StudyError, StudyOutcome};
+use mesoscope::tradeoff::References;
 
 use super::table::aligned;
 use super::{ComparisonArguments, Failure, StudyArguments, heading, print};
@@ -50,7 +51,8 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let Arguments { comparison, study, .. } = arguments;
     let run: StabilityRun = study.study(|scene| {
-        let references = comparison.references().map_err(|mistakes| StudyError::Arguments { mistakes })?;
+        let references =
+            References::parse(&comparison.reference).map_err(|mistakes| StudyError::Arguments { mistakes })?;
         let request = Request::load_for(scene, &study.set, study.steps, &arguments.vary)?
             .with_tolerance(arguments.tolerance)?
             .with_bisections(arguments.bisections)

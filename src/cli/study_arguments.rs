@@ -8,7 +8,6 @@ use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::OutputError;
 use mesoscope::scene::Warning;
 use mesoscope::study::{Kind, LONG, Observer, Record, StudyError, StudyRun};
-use mesoscope::tradeoff::References;
 
 use super::study_report::Reporter;
 use super::{Failure, RunArguments, guidance, heading, interruption, line, report, whole_number};
@@ -68,14 +67,7 @@ pub struct VariantArguments {
 pub struct ComparisonArguments {
     /// What a measure should be, as in `pressure=23.635` or `pressure=23.635+-0.005`; may be repeated
     #[arg(long, help_heading = heading::COMPARISON, value_name = "MEASURE=VALUE", conflicts_with = "resume")]
-    reference: Vec<String>,
-}
-
-impl ComparisonArguments {
-    /// What measures should be, or all mistakes.
-    pub fn references(&self) -> Result<References, Vec<String>> {
-        References::parse(&self.reference)
-    }
+    pub reference: Vec<String>,
 }
 
 impl StudyArguments {

@@ -40,7 +40,7 @@ pub struct Arguments {
     /// Run one of several parts of the variants: of 16 shards, 3/16 has variants 3, 19, 35, … in their order, counted from 1.
     /// `auto` takes the numbers from Slurm, Grid Engine or a launcher of MPI. Shards leave no table and no plots
     #[arg(long, help_heading = heading::SEVERAL, value_name = "I/N|auto", value_parser = shard, conflicts_with_all = ["resume", "force"])]
-    shard: Option<ShardArgument>,
+    pub shard: Option<ShardArgument>,
 
     #[command(flatten)]
     study: StudyArguments,
@@ -48,7 +48,7 @@ pub struct Arguments {
 
 /// Which shard.
 #[derive(Debug, Clone, Copy)]
-enum ShardArgument {
+pub enum ShardArgument {
     /// This one.
     Given(Shard),
     /// The one that the environment says.
@@ -59,13 +59,6 @@ fn shard(text: &str) -> Result<ShardArgument, String> {
     match text {
         "auto" => Ok(ShardArgument::Auto),
         text => Shard::parse(text).map(ShardArgument::Given).map_err(|accepted| format!("{accepted}, or `auto`")),
-    }
-}
-
-impl Arguments {
-    /// Whether it may be one of several copies.
-    pub fn is_shard(&self) -> bool {
-        self.shard.is_some()
     }
 }
 

@@ -109,7 +109,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 
 fn request(scene: &str, arguments: &Arguments) -> Result<Request, Failure> {
     let mut mistakes = Vec::new();
-    let references = arguments.comparison.references().unwrap_or_else(|wrong| {
+    let references = References::parse(&arguments.comparison.reference).unwrap_or_else(|wrong| {
         mistakes.extend(wrong);
         References::default()
     });

@@ -65,18 +65,10 @@ impl DirectoryLock {
                 let source = io::Error::new(io::ErrorKind::AlreadyExists, "it is not the lock of a run; move it away");
                 return Err(OutputError::Io { attempted: "lock", path, source });
             }
-            let lock = Self { path, file };
-            lock.sign().map_err(refused)?;
-            return Ok(lock);
+            let number = format!("{BEFORE}{}\n", std::process::id());
+            let signed = file.set_len(0).and_then(|()| file.rewind()).and_then(|()| file.write_all(number.as_bytes()));
+            return signed.map(|()| Self { path, file }).map_err(refused);
         }
-    }
-
-    /// Writes the number of this process into the file.
-    fn sign(&self) -> io::Result<()> {
-        let mut file = &self.file;
-        file.set_len(0)?;
-        file.rewind()?;
-        file.write_all(format!("{BEFORE}{}\n", std::process::id()).as_bytes())
     }
 }
 

@@ -142,11 +142,8 @@ impl Unequilibrated {
     #[must_use]
     pub fn and(mut self, other: Self) -> Self {
         self.means.extend(other.means);
-        Self {
-            means: self.means,
-            equilibration: self.equilibration.max(other.equilibration),
-            steps: self.steps.max(other.steps),
-        }
+        let (equilibration, steps) = (self.equilibration.max(other.equilibration), self.steps.max(other.steps));
+        Self { equilibration, steps, ..self }
     }
 
     /// Whether the mean of a column is among them.

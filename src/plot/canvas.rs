@@ -201,14 +201,13 @@ impl Canvas {
         width: f64,
     ) -> Vec<Heading> {
         notes.retain(|note| !note.is_empty());
-        let title = (title, Type { size: sizes[0], weight: Weight::SemiBold, colour: self.inks.ink }, 2);
-        let notes =
-            (&*notes.join("; "), Type { size: sizes[1], weight: Weight::Regular, colour: self.inks.muted }, most);
-        let lines = |(text, style, most): (&str, Type, usize)| {
+        let lines = |text: &str, style: Type, most: usize| {
             let lines = self.typesetter.wrap(text, style.weight, style.size, width, most);
             lines.into_iter().map(move |text| Heading { text, style })
         };
-        [title, notes].into_iter().flat_map(lines).collect()
+        let bold = Type { size: sizes[0], weight: Weight::SemiBold, colour: self.inks.ink };
+        let muted = Type { size: sizes[1], weight: Weight::Regular, colour: self.inks.muted };
+        lines(title, bold, 2).chain(lines(&notes.join("; "), muted, most)).collect()
     }
 
     /// Writes headings from a place down; returns where they end.

@@ -3,6 +3,7 @@
 use super::canvas::{Anchor, Area, Type};
 use super::chart_layout::{Layout, Placed};
 use super::chart_legend::obstacles;
+use super::series_look::look;
 use super::series_path::clipped;
 use super::text::{CAPITAL_HEIGHT, Weight};
 
@@ -33,7 +34,7 @@ impl Layout {
         let mut lines = obstacles(place);
         let size = SIZE * self.sizes.label;
         for (number, series) in panel.series.iter().enumerate() {
-            let colour = self.look(number, series).colour;
+            let colour = look(number, series, &self.canvas.inks).colour;
             let style = Type { size, weight: Weight::Regular, colour };
             for (point, label) in series.points.iter().zip(&series.labels) {
                 let Some(at) = place.pixel(*point).filter(|at| place.area.contains(*at)) else { continue };

@@ -5,7 +5,7 @@ use super::chart::{Panel, Series, SeriesStyle};
 use super::chart_layout::{Layout, Placed, Sizes};
 use super::palette::with_alpha;
 use super::quantities::{FEW_SAMPLES, UNEQUILIBRATED};
-use super::series_look::{Look, reference_look};
+use super::series_look::{Look, look, reference_look};
 use super::series_path::{clipped, segments};
 use super::text::{LINE_HEIGHT, Weight, in_rows};
 use crate::numbers::with_error;
@@ -36,7 +36,7 @@ impl Layout {
         let series = panel.series.iter().enumerate().map(|(number, series)| Entry {
             text: entry_text(series),
             style: Some(series.style),
-            look: self.look(number, series),
+            look: look(number, series, &self.canvas.inks),
         });
         let references = panel.references.iter().enumerate().map(|(number, reference)| Entry {
             text: reference.label.clone(),
@@ -78,18 +78,16 @@ impl Layout {
         let obstacles = obstacles(place);
         let columns = [1.0, 0.0, 0.5, 0.75, 0.25];
         let rows = [0.0, 1.0, 0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
-        for row in rows {
-            for column in columns {
-                let left = inner.left + column * (inner.width() - width);
-                let top = inner.top + row * (inner.height() - height);
-                let spot = Area { left, top, right: left + width, bottom: top + height };
-                let kept_clear = spot.grown(0.4 * gap);
-                if !obstacles.iter().any(|(from, to)| clipped(*from, *to, &kept_clear).is_some()) {
-                    return Some(spot);
-                }
-            }
-        }
-        None
+        let spot = |[column, row]: [f64; 2]| {
+            let left = inner.left + column * (inner.width() - width);
+            let top = inner.top + row * (inner.height() - height);
+            Area { left, top, right: left + width, bottom: top + height }
+        };
+        let is_clear = |spot: &Area| {
+            let kept_clear = spot.grown(0.4 * gap);
+            !obstacles.iter().any(|(from, to)| clipped(*from, *to, &kept_clear).is_some())
+        };
+        rows.into_iter().flat_map(|row| columns.map(|column| [column, row])).map(spot).find(is_clear)
     }
 
     pub(super) fn legend_inside(&mut self, panel: &Panel, spot: Area) {

@@ -18,18 +18,16 @@ const MARKER_GAIN: f64 = 0.55;
 const MOST_EXITS: usize = 4;
 
 impl Layout {
-    /// How the series with this number in its panel looks.
-    pub(super) fn look(&self, number: usize, series: &Series) -> Look {
-        look(number, series, &self.canvas.inks)
-    }
-
     /// Draws the data of a panel, clipped to it.
     pub(super) fn series(&mut self, place: &Placed<'_>) {
         let panel = place.prepared.panel;
         let rough = self.rough;
+        let inks = self.canvas.inks;
+        let looks: Vec<Look> =
+            panel.series.iter().enumerate().map(|(number, series)| look(number, series, &inks)).collect();
         self.canvas.clip(Some(place.area.grown(0.5 * self.sizes.rule)));
         for (number, series) in panel.series.iter().enumerate().rev() {
-            let colour = self.look(number, series).colour;
+            let colour = looks[number].colour;
             if let Some(mean) = series.mean {
                 self.mean(place, mean, panel.averaged_from, colour);
             }
@@ -40,10 +38,10 @@ impl Layout {
             }
         }
         let pieces: Vec<Vec<Run>> = panel.series.iter().map(|series| place.pieces(series)).collect();
-        let covered = covered_by(place, self.sizes.line, |number| self.look(number, &panel.series[number]).colour);
+        let covered = covered_by(place, self.sizes.line, |number| looks[number].colour);
         // Where lines coincide, those underneath are wider, so that all of them are seen.
         for (number, series) in panel.series.iter().enumerate() {
-            let look = self.look(number, series);
+            let look = looks[number];
             let width = if rough { 0.7 * self.sizes.line } else { self.sizes.line };
             let width = width * (1.0 + LINE_GAIN * covered[number] as f64);
             let dashes = if rough && look.marker.is_some() { &[] } else { look.dashes };
@@ -55,14 +53,14 @@ impl Layout {
         for (number, reference) in panel.references.iter().enumerate() {
             if let Some(y) = place.y_pixel(reference.value) {
                 let run = [[place.area.left, y], [place.area.right, y]];
-                let look = reference_look(number, panel, &self.canvas.inks);
+                let look = reference_look(number, panel, &inks);
                 self.stroke(&run, place.area, look.dashes, look.colour, 0.75 * self.sizes.line);
             }
         }
         // Those on the frame are whole, too.
         self.canvas.clip(None);
         for (number, series) in panel.series.iter().enumerate().rev() {
-            let look = self.look(number, series);
+            let look = looks[number];
             match series.style {
                 SeriesStyle::Markers | SeriesStyle::LineMarkers => {
                     let size = 1.0 + MARKER_GAIN * covered[number] as f64;
@@ -74,8 +72,8 @@ impl Layout {
                 SeriesStyle::Line | SeriesStyle::Band => {}
             }
         }
-        for (number, series) in panel.series.iter().enumerate() {
-            self.exits(place, number, series);
+        for number in 0..panel.series.len() {
+            self.exits(place, number, looks[number].colour);
         }
     }
 
@@ -113,7 +111,7 @@ impl Layout {
     }
 
     /// Arrowheads where a series leaves a panel whose axis does not show all of it.
-    fn exits(&mut self, place: &Placed<'_>, number: usize, series: &Series) {
+    fn exits(&mut self, place: &Placed<'_>, number: usize, colour: Colour) {
         if place.prepared.beyond == [None; 2] {
             return;
         }
@@ -123,8 +121,10 @@ impl Layout {
             Some(fraction) if fraction < 0.0 => -1,
             _ => 0,
         };
-        let colour = self.look(number, series).colour;
-        let outside = series.points.chunk_by(|a, b| side(a) == side(b)).filter(|stretch| side(&stretch[0]) != 0);
+        let outside = place.prepared.panel.series[number]
+            .points
+            .chunk_by(|a, b| side(a) == side(b))
+            .filter(|stretch| side(&stretch[0]) != 0);
         for stretch in outside.take(MOST_EXITS) {
             let Some(x) = place.x_pixel(stretch[0][0]) else { continue };
             // Side by side where several series leave at once.

@@ -28,7 +28,8 @@ pub(super) struct ColorScale {
     pub bar: AxisMap,
     /// Values at both ends of the map, of which the bar may show a part.
     map: AxisMap,
-    colours: Vec<Colour>,
+    /// The colours of the whole map.
+    pub colours: Vec<Colour>,
 }
 
 impl ColorScale {
@@ -68,11 +69,6 @@ impl ColorScale {
         let [low, high] = self.limits();
         let index = (low + fraction.clamp(0.0, 1.0) * (high - low)) * (COLOURS - 1) as f64;
         self.colours.get(index.round() as usize).copied().unwrap_or([0, 0, 0, 255])
-    }
-
-    /// The colours of the whole map.
-    pub(super) fn colours(&self) -> &[Colour] {
-        &self.colours
     }
 }
 

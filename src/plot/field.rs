@@ -132,13 +132,6 @@ struct Layout<'a> {
     scale: ColorScale,
 }
 
-/// Ticks of both axes and of the colour bar.
-struct AllTicks {
-    x: Ticks,
-    y: Ticks,
-    bar: Ticks,
-}
-
 /// Where everything goes; all of it in whole pixels.
 struct Place {
     image: Area,
@@ -149,7 +142,9 @@ struct Place {
     right: f64,
     /// Top of the headings.
     top: f64,
-    ticks: AllTicks,
+    x_ticks: Ticks,
+    y_ticks: Ticks,
+    bar_ticks: Ticks,
 }
 
 impl Layout<'_> {
@@ -191,13 +186,6 @@ impl Layout<'_> {
         self.canvas.headings(self.picture.title, notes, [title, label], 3, width)
     }
 
-    fn ticks(&self, image: [f64; 2], bar_height: f64) -> AllTicks {
-        let label = self.sizes.label;
-        let upwards = |height: f64| ((height / (1.55 * label)) as usize).clamp(2, 9);
-        let x = ticks_along(&self.axes[0], image[0], label, 2, |text| self.width(text));
-        AllTicks { x, y: ticks(&self.axes[1], upwards(image[1])), bar: ticks(&self.scale.bar, upwards(bar_height)) }
-    }
-
     fn widest(&self, ticks: &Ticks) -> f64 {
         ticks.major.iter().map(|(_, text)| self.width(text)).fold(0.0, f64::max)
     }
@@ -219,28 +207,33 @@ impl Layout<'_> {
     fn place(&self, headings: &[Heading], margin: f64) -> Place {
         let guess = [self.canvas.width, self.canvas.height].map(|side| 0.7 * f64::from(side));
         // The ticks depend on the image's size, and its size on the widths of their labels.
-        let mut place = self.place_with(headings, margin, self.ticks(guess, guess[1]));
+        let mut place = self.place_with(headings, margin, guess, guess[1]);
         for _ in 0..2 {
             let image = [place.image.width(), place.image.height()];
-            place = self.place_with(headings, margin, self.ticks(image, place.bar.height()));
+            place = self.place_with(headings, margin, image, place.bar.height());
         }
         place
     }
 
-    fn place_with(&self, headings: &[Heading], margin: f64, ticks: AllTicks) -> Place {
+    /// The same with ticks for an image of a size and a bar of a height.
+    fn place_with(&self, headings: &[Heading], margin: f64, image: [f64; 2], bar_height: f64) -> Place {
         let Sizes { label, gap, .. } = self.sizes;
+        let upwards = |height: f64| ((height / (1.55 * label)) as usize).clamp(2, 9);
+        let x_ticks = ticks_along(&self.axes[0], image[0], label, 2, |text| self.width(text));
+        let y_ticks = ticks(&self.axes[1], upwards(image[1]));
+        let bar_ticks = ticks(&self.scale.bar, upwards(bar_height));
         let line = LINE_HEIGHT * label;
         let text_line = |text: &str| if text.is_empty() { 0.0 } else { line + gap };
         let beside_ticks = self.rule() + self.tick_length() + 0.6 * gap;
         let half_capital = 0.5 * CAPITAL_HEIGHT * label;
-        let multiplied = ticks.y.multiplier.is_some() || ticks.bar.multiplier.is_some();
+        let multiplied = y_ticks.multiplier.is_some() || bar_ticks.multiplier.is_some();
         let above = headings.iter().map(|heading| LINE_HEIGHT * heading.style.size).sum::<f64>()
             + if headings.is_empty() { 0.0 } else { gap }
             + half_capital
             + if multiplied { line + 0.5 * gap } else { 0.0 };
         let below = beside_ticks + CAPITAL_HEIGHT * label + text_line(self.picture.axes[0]);
-        let left = text_line(self.picture.axes[1]) + self.widest(&ticks.y) + beside_ticks;
-        let bar = self.bar_width() + beside_ticks + self.widest(&ticks.bar) + text_line(&self.picture.field.label);
+        let left = text_line(self.picture.axes[1]) + self.widest(&y_ticks) + beside_ticks;
+        let bar = self.bar_width() + beside_ticks + self.widest(&bar_ticks) + text_line(&self.picture.field.label);
         let page = [self.canvas.width, self.canvas.height].map(|side| f64::from(side) - 2.0 * margin);
         let lengths = self.picture.field.lengths;
         let high = (page[1] - above - below).max(4.0);
@@ -259,7 +252,7 @@ impl Layout<'_> {
         let (mut room, mut image, mut bar_height) = fit(between);
         if bar_height > image[1] {
             // There it must keep clear of the last label of the x axis.
-            let last = ticks.x.major.last().map_or(0.0, |(_, text)| self.width(text));
+            let last = x_ticks.major.last().map_or(0.0, |(_, text)| self.width(text));
             between = between.max(0.5 * last + 1.6 * gap);
             (room, image, bar_height) = fit(between);
         }
@@ -280,7 +273,9 @@ impl Layout<'_> {
             left: group_left,
             right: corner[0] + image[0] + between + bar,
             top: group_top,
-            ticks,
+            x_ticks,
+            y_ticks,
+            bar_ticks,
         }
     }
 
@@ -341,7 +336,7 @@ impl Layout<'_> {
         let foot = area.bottom + rule;
         let fraction = |value| self.axes[0].fraction(value).unwrap_or(0.0);
         let at = |value| area.left + fraction(value) * area.width();
-        let marks = Self::marks(&place.ticks.x, at, |text| self.width(text) + 0.3 * label);
+        let marks = Self::marks(&place.x_ticks, at, |text| self.width(text) + 0.3 * label);
         let baseline = foot + self.tick_length() + 0.6 * gap + CAPITAL_HEIGHT * label;
         for (x, text) in marks {
             let length = if text.is_some() { self.tick_length() } else { 0.45 * gap };
@@ -353,7 +348,7 @@ impl Layout<'_> {
         let middle = area.centre()[0];
         let room = 2.0 * (middle - place.left).min(place.right - middle);
         let mut text = self.picture.axes[0].to_owned();
-        if let Some(multiplier) = &place.ticks.x.multiplier {
+        if let Some(multiplier) = &place.x_ticks.multiplier {
             let beside = 2.0 * (area.right - middle - self.width(multiplier) - gap);
             if self.width(&text) <= beside {
                 self.canvas.text(multiplier, [area.right, baseline], Anchor::End, style);
@@ -383,8 +378,8 @@ impl Layout<'_> {
         let Sizes { label, gap, .. } = self.sizes;
         let (area, style, rule) = (place.image, self.text_style(), self.rule());
         let foot = area.left - rule;
-        self.side_ticks(&place.ticks.y, self.axes[1], area, Anchor::End);
-        if let Some(multiplier) = &place.ticks.y.multiplier {
+        self.side_ticks(&place.y_ticks, self.axes[1], area, Anchor::End);
+        if let Some(multiplier) = &place.y_ticks.multiplier {
             self.canvas.text(multiplier, [foot - self.tick_length(), area.top - 0.8 * gap], Anchor::Start, style);
         }
         let room = area.height().max(place.bar.height());
@@ -405,10 +400,10 @@ impl Layout<'_> {
         }
         self.frame(bar);
         let foot = bar.right + rule;
-        self.side_ticks(&place.ticks.bar, self.scale.bar, bar, Anchor::Start);
+        self.side_ticks(&place.bar_ticks, self.scale.bar, bar, Anchor::Start);
         let name = &self.picture.field.label;
-        let labels_end = foot + self.tick_length() + 0.6 * gap + self.widest(&place.ticks.bar);
-        if let Some(multiplier) = &place.ticks.bar.multiplier {
+        let labels_end = foot + self.tick_length() + 0.6 * gap + self.widest(&place.bar_ticks);
+        if let Some(multiplier) = &place.bar_ticks.multiplier {
             // Over the label of the last tick, which may stand at the very top.
             let above = self.arrowhead().max(0.5 * CAPITAL_HEIGHT * label) + 0.8 * gap;
             let left = bar.left.min(place.right - self.width(multiplier));
@@ -464,6 +459,6 @@ impl Layout<'_> {
             missing: [red, green, blue, 1.0],
         };
         let fractions = field.values.iter().map(fraction).collect();
-        FieldScene { image, fractions, table: self.scale.colours().to_vec() }
+        FieldScene { image, fractions, table: self.scale.colours.clone() }
     }
 }

@@ -12,15 +12,8 @@ use super::pipelines::{COLOUR_FORMAT, Page, Target, draw_instances, view};
 use super::readback;
 use crate::gpu::Gpu;
 use crate::scene::{PlotStyle, Snapshot, Theme};
-use bytemuck::{Pod, Zeroable};
 use image::RgbaImage;
 use std::sync::OnceLock;
-
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Viewport {
-    size: [f32; 2],
-}
 
 /// Draws pictures on one adapter; its pipelines are made once, when a picture first needs them.
 pub struct Plotter<'g> {
@@ -196,8 +189,7 @@ impl<'g> Plotter<'g> {
         let coverage = if height > 0 { coverage } else { &vec![0; width as usize] };
         let size = [width, height.max(1)];
         self.checked("type", || {
-            let viewport = Viewport { size: [canvas.width as f32, canvas.height as f32] };
-            let viewport = self.uniform("plot: viewport", &viewport);
+            let viewport = self.uniform("plot: viewport", &[canvas.width as f32, canvas.height as f32]);
             (viewport, self.filled_texture("plot: glyphs", size, wgpu::TextureFormat::R8Unorm, coverage))
         })
     }

@@ -87,6 +87,8 @@ pub(super) struct Page {
     pub(super) rule: f64,
     gap: f64,
     captioned: bool,
+    /// The size of the type of the legend, and its entries in rows, each with its width; without one there are no rows.
+    legend: (f64, Vec<Vec<(String, f64)>>),
 }
 
 impl Page {
@@ -109,6 +111,7 @@ impl Page {
             rule: (3.0 * unit).max(1.0),
             gap: 14.0 * unit,
             captioned: width.min(height) >= CAPTIONED,
+            legend: (0.0, Vec::new()),
         })
     }
 
@@ -125,7 +128,10 @@ impl Page {
         let headings = self.canvas.headings(title, notes, [self.title, self.label], 2, self.width - 2.0 * self.margin);
         let end = self.canvas.write_headings(&headings, [self.margin; 2]);
         let top = if headings.is_empty() { end } else { end + 0.5 * self.gap };
-        let bottom = self.height - self.margin - self.footer_height(key) - self.beside();
+        if let Key::Species { names, counts, .. } = key {
+            self.legend = self.legend(names, counts);
+        }
+        let bottom = self.height - self.margin - self.footer_height() - self.beside();
         let aside = self.margin + self.beside();
         Area { left: aside, top, right: self.width - aside, bottom }
     }
@@ -218,15 +224,9 @@ impl Page {
         (if beside_the_bar { 0.66 } else { 1.0 }) * (self.width - 2.0 * self.margin)
     }
 
-    fn footer_height(&self, key: &Key<'_>) -> f64 {
-        let legend = match key {
-            Key::Species { names, counts, .. } => {
-                let (size, rows) = self.legend(names, counts);
-                rows.len() as f64 * 1.35 * size
-            }
-            Key::Scale { .. } => 0.0,
-        };
-        self.gap + legend.max(2.0 * self.line())
+    fn footer_height(&self) -> f64 {
+        let (size, rows) = &self.legend;
+        self.gap + (rows.len() as f64 * 1.35 * size).max(2.0 * self.line())
     }
 
     /// Draws the key to the colours and a scale bar below a box with this outline.
@@ -234,12 +234,12 @@ impl Page {
         if !self.captioned {
             return;
         }
-        let top = self.height - self.margin - self.footer_height(key) + self.gap;
+        let top = self.height - self.margin - self.footer_height() + self.gap;
         let style = self.text(self.canvas.inks.ink);
         match key {
-            Key::Species { names, counts, colours, .. } => {
+            Key::Species { colours, .. } => {
                 let mut species = 0;
-                let (size, rows) = self.legend(names, counts);
+                let (size, rows) = std::mem::take(&mut self.legend);
                 let style = Type { size, ..style };
                 for (row, entries) in rows.into_iter().enumerate() {
                     let y = top + (row as f64 + 0.5) * 1.35 * size;

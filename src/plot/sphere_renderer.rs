@@ -10,14 +10,6 @@ use bytemuck::{Pod, Zeroable};
 /// Side of the texture that particles are drawn into, larger than life; a big picture takes several turns.
 const TILE_SIDE: u32 = 2048;
 
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct Placement {
-    origin: [i32; 2],
-    samples: i32,
-    padding: i32,
-}
-
 /// The camera of `spheres.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
@@ -100,8 +92,8 @@ impl Content for SphereScene {
                             draw_instances(pass, instances);
                         }
                     });
-                    let origin = [tile_left as i32, tile_top as i32];
-                    let placement = Placement { origin, samples: self.samples as i32, padding: 0 };
+                    // The origin, the samples, and what fills the uniform up.
+                    let placement = [tile_left, tile_top, self.samples, 0].map(|number| number as i32);
                     let placement = plotter.uniform("plot: placement", &placement);
                     let [x, y] = [tile_left, tile_top].map(|pixel| pixel as f32);
                     let tile_size = [tile.min(left + width - tile_left), tile.min(top + height - tile_top)];

@@ -23,10 +23,10 @@ pub(super) enum Weight {
     SemiBold,
 }
 
-/// A glyph in the atlas and where it goes relative to the start of its line.
+/// A glyph in the atlas and where it goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PlacedGlyph {
-    /// Corner of the glyph's texture, in pixels right of and below the start of the baseline.
+    /// Corner of the glyph's texture, in pixels right of and below the start of the baseline; in the atlas, of its own.
     pub offset: [i32; 2],
     /// Corner in the atlas.
     pub texel: [u32; 2],
@@ -34,18 +34,11 @@ pub(super) struct PlacedGlyph {
     pub size: [u32; 2],
 }
 
-#[derive(Debug, Clone, Copy)]
-struct AtlasEntry {
-    bearing: [i32; 2],
-    texel: [u32; 2],
-    size: [u32; 2],
-}
-
 /// Sets lines of text and collects the glyphs they use.
 pub(super) struct Typesetter {
     /// Of the weights, in their order.
     fonts: [FontRef<'static>; 2],
-    entries: HashMap<(Weight, GlyphId, u32), Option<AtlasEntry>>,
+    entries: HashMap<(Weight, GlyphId, u32), Option<PlacedGlyph>>,
     /// One byte of coverage per texel, rows of [`ATLAS_WIDTH`].
     coverage: Vec<u8>,
     shelf: [u32; 2],
@@ -105,8 +98,8 @@ impl Typesetter {
                     (glyph, f64::from(font.h_advance(glyph)))
                 };
                 if let Some(entry) = self.entry(weight, glyph, scale) {
-                    let offset = [pen.round() as i32 + entry.bearing[0], baseline + entry.bearing[1]];
-                    placed.push(PlacedGlyph { offset, texel: entry.texel, size: entry.size });
+                    let offset = [pen.round() as i32 + entry.offset[0], baseline + entry.offset[1]];
+                    placed.push(PlacedGlyph { offset, ..entry });
                 }
                 pen += advance;
             }
@@ -114,7 +107,7 @@ impl Typesetter {
         placed
     }
 
-    fn entry(&mut self, weight: Weight, glyph: GlyphId, scale: PxScale) -> Option<AtlasEntry> {
+    fn entry(&mut self, weight: Weight, glyph: GlyphId, scale: PxScale) -> Option<PlacedGlyph> {
         let key = (weight, glyph, scale.y.to_bits());
         if let Some(entry) = self.entries.get(&key) {
             return *entry;
@@ -130,7 +123,7 @@ impl Typesetter {
                     *byte = (coverage.clamp(0.0, 1.0) * 255.0).round() as u8;
                 }
             });
-            Some(AtlasEntry { bearing: [bounds.min.x as i32, bounds.min.y as i32], texel, size })
+            Some(PlacedGlyph { offset: [bounds.min.x as i32, bounds.min.y as i32], texel, size })
         });
         self.entries.insert(key, entry);
         entry

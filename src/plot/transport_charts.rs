@@ -39,8 +39,8 @@ pub fn diffusion_chart(
 ) -> Chart {
     let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
     if let Some(points) = table.over_time("mean_squared_displacement", 1.0) {
-        let mut panel = Panel::new(LAG, "Mean squared displacement (length units²)");
-        (panel.x, panel.y) = (Axis::log(LAG), Axis::log("Mean squared displacement (length units²)"));
+        let (x, y) = (Axis::log(LAG), Axis::log("Mean squared displacement (length units²)"));
+        let mut panel = Panel { x, y, ..Panel::default() };
         // At lag zero the displacement is zero by definition and has no logarithm.
         let shown = points.iter().copied().filter(|point| point[0] > 0.0).collect();
         panel.series.push(Series::line("displacement", shown));

@@ -97,7 +97,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         ("files", format!("about {}, and {} in the memory of an adapter", bytes(sizes.total()), bytes(plan.bytes()))),
         ("accuracy", predictions::accuracy(&arguments.scene.as_argument(), &scene)),
     ];
-    rows.extend(predictions::expected(&model));
+    let estimates = model.estimates();
+    if !estimates.is_empty() {
+        rows.push(("expected", estimates.join(", ")));
+    }
     rows.extend(model.composition(&scene));
     let verbose = arguments.verbose || arguments.kernels;
     if verbose {
@@ -160,17 +163,14 @@ fn basis(trial: Tried<'_>) -> Option<String> {
 /// A time in two units, or with two digits.
 fn duration(seconds: f64) -> String {
     match seconds {
-        ..10.0 => format!("{} s", two_digits(seconds)),
+        ..0.1 => format!("{seconds:.1e} s"),
+        0.1..10.0 => format!("{seconds:.1} s"),
         10.0..100.0 => format!("{seconds:.0} s"),
         100.0..6000.0 => format!("{:.0} min", seconds / 60.0),
         6000.0..172_800.0 => format!("{:.0} h", seconds / 3600.0),
         172_800.0..63_072_000.0 => format!("{:.0} days", seconds / 86_400.0),
         _ => format!("{:.1e} years", seconds / 31_557_600.0),
     }
-}
-
-fn two_digits(value: f64) -> String {
-    if value < 0.1 { format!("{value:.1e}") } else { format!("{value:.1}") }
 }
 
 /// The rows of the overview: names and what is to be said of them.

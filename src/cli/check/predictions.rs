@@ -24,12 +24,6 @@ pub fn accuracy(source: &str, scene: &Scene) -> String {
     calibration::expected(scene).map_or_else(unknown, |expected| expected.to_string())
 }
 
-/// The errors that a step is expected to make, where they are known for the forces of the scene.
-pub fn expected(model: &Model) -> Option<(&'static str, String)> {
-    let estimates = model.estimates();
-    (!estimates.is_empty()).then(|| ("expected", estimates.join(", ")))
-}
-
 /// Rows of the overview.
 pub fn rows(
     source: &str,

@@ -127,14 +127,10 @@ impl Description {
         }
     }
 
-    fn species_of(&self, state: &Reported, particle: usize) -> &Species {
-        &self.species[state.species[particle] as usize]
-    }
-
     fn mass(&self, state: &Reported, particle: usize) -> f64 {
         match (self.mass_unit, state.masses.get(particle)) {
             (Some(unit), Some(mass)) => f64::from(*mass) * unit,
-            _ => self.species_of(state, particle).mass,
+            _ => self.species[state.species[particle] as usize].mass,
         }
     }
 
