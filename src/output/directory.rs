@@ -158,19 +158,12 @@ impl RunDirectory {
 
     /// The names of all files of a kind, sorted.
     pub(super) fn names(&self, kind: impl Fn(&str) -> bool) -> Result<Vec<String>, OutputError> {
-        let list = || -> io::Result<Vec<String>> {
-            let mut names = Vec::new();
-            for entry in fs::read_dir(&self.path)? {
-                if let Ok(name) = entry?.file_name().into_string()
-                    && kind(&name)
-                {
-                    names.push(name);
-                }
-            }
-            names.sort();
-            Ok(names)
-        };
-        list().map_err(OutputError::io("list the directory", &self.path))
+        let entries = fs::read_dir(&self.path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
+        let entries = entries.map_err(OutputError::io("list the directory", &self.path))?;
+        let names = entries.into_iter().filter_map(|entry| entry.file_name().into_string().ok());
+        let mut names: Vec<String> = names.filter(|name| kind(name)).collect();
+        names.sort();
+        Ok(names)
     }
 
     /// Better to learn now that nothing can be written than after an hour of simulation.

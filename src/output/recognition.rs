@@ -12,25 +12,15 @@ impl RunDirectory {
     /// [`OutputError::OtherRun`] names the first such file, [`OutputError::Io`] one that is no regular file of the directory, or means
     /// that the directory cannot be listed.
     pub fn check_run(&self, run: Id, reference: &'static str) -> Result<(), OutputError> {
-        self.check_ids(run, reference, files::is_of_a_run, id_in)
+        self.check_ids(run, reference, files::is_of_a_run)
     }
 
-    /// The same for the pictures of a sweep.
-    pub(crate) fn check_pictures(
-        &self,
-        sweep: Id,
-        reference: &'static str,
-        is_picture: impl Fn(&str) -> bool,
-    ) -> Result<(), OutputError> {
-        self.check_ids(sweep, reference, is_picture, |_, path| picture::id_of(path))
-    }
-
-    fn check_ids(
+    /// The same for files of a kind, with the id of a run or a sweep.
+    pub(crate) fn check_ids(
         &self,
         id: Id,
         reference: &'static str,
         kind: impl Fn(&str) -> bool,
-        id_in: impl Fn(&str, &Path) -> Option<Id>,
     ) -> Result<(), OutputError> {
         for name in self.names(kind)? {
             let path = self.file(&name);
@@ -41,7 +31,7 @@ impl RunDirectory {
     }
 }
 
-/// The id in a file of a run; none where the format has no place for it, or where it cannot be read.
+/// The id in a file of a run or in a picture; none where the format has no place for it, or where it cannot be read.
 fn id_in(name: &str, path: &Path) -> Option<Id> {
     match name {
         files::SUMMARY => in_summary(path),

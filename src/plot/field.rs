@@ -420,10 +420,8 @@ impl Layout<'_> {
         let Some([lowest, highest]) = self.picture.field.extrema() else { return };
         let range = self.scale.bar;
         let ends = [(highest > range.high, bar.top, -1.0, 1.0), (lowest < range.low, bar.bottom, 1.0, 0.0)];
-        for (beyond, base, direction, fraction) in ends.into_iter().filter(|_| self.picture.range.is_some()) {
-            if !beyond {
-                continue;
-            }
+        let drawn = |(beyond, ..): &(bool, f64, f64, f64)| *beyond && self.picture.range.is_some();
+        for (_, base, direction, fraction) in ends.into_iter().filter(drawn) {
             let radius = bar.width() / 3.0_f64.sqrt();
             let centre = [bar.centre()[0], base + direction * 0.5 * radius];
             let angle = direction * std::f64::consts::FRAC_PI_2;

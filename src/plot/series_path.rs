@@ -7,19 +7,10 @@ pub(super) type Run = Vec<[f64; 2]>;
 
 /// Splits points into connected runs at every point that has no place in the panel.
 pub(super) fn runs(points: &[[f64; 2]], place: impl Fn([f64; 2]) -> Option<[f64; 2]>) -> Vec<Run> {
-    let mut runs = Vec::new();
-    let mut run = Run::new();
-    for &point in points {
-        if let Some(pixel) = place(point).filter(|pixel| pixel.iter().all(|coordinate| coordinate.is_finite())) {
-            run.push(pixel);
-        } else if !run.is_empty() {
-            runs.push(std::mem::take(&mut run));
-        }
-    }
-    if !run.is_empty() {
-        runs.push(run);
-    }
-    runs
+    let finite = |pixel: &[f64; 2]| pixel.iter().all(|coordinate| coordinate.is_finite());
+    let pixels: Vec<Option<[f64; 2]>> = points.iter().map(|point| place(*point).filter(finite)).collect();
+    let pieces = pixels.split(Option::is_none).filter(|piece| !piece.is_empty());
+    pieces.map(|piece| piece.iter().flatten().copied().collect()).collect()
 }
 
 /// Keeps the first, lowest, highest and last of all neighbouring points in one pixel column: the picture stays the same.
@@ -30,20 +21,14 @@ pub(super) fn thinned(run: &[[f64; 2]]) -> Run {
         if length <= 4 {
             kept.extend_from_slice(group);
         } else {
-            let (mut low, mut high) = (0, 0);
-            for (index, point) in group.iter().enumerate() {
-                if point[1] < group[low][1] {
-                    low = index;
-                }
-                if point[1] > group[high][1] {
-                    high = index;
-                }
-            }
-            let mut chosen = [0, low, high, length - 1];
+            let by_height = |a: &usize, b: &usize| group[*a][1].total_cmp(&group[*b][1]);
+            // The first of several that are as low or as high.
+            let low = (0..length).min_by(by_height).unwrap_or_default();
+            let high = (0..length).rev().max_by(by_height).unwrap_or_default();
+            let mut chosen = vec![0, low, high, length - 1];
             chosen.sort_unstable();
-            kept.extend(
-                chosen.iter().enumerate().filter(|&(i, c)| i == 0 || chosen[i - 1] != *c).map(|(_, &c)| group[c]),
-            );
+            chosen.dedup();
+            kept.extend(chosen.into_iter().map(|index| group[index]));
         }
     }
     kept

@@ -183,8 +183,15 @@ impl Page {
     fn legend(&self, names: &[String], counts: &[u64]) -> (f64, Vec<Vec<(String, f64)>>) {
         let most = (LEGEND_PART * self.height).max(2.0 * self.line());
         let rows_of = |size: f64| {
-            let texts: Vec<(String, f64)> =
-                names.iter().zip(counts).map(|(name, count)| self.legend_entry(name, *count, size)).collect();
+            let setter = &self.canvas.typesetter;
+            let room = self.legend_room(0, size) - 1.2 * size;
+            let entry = |(name, count): (&String, &u64)| {
+                let text = format!("{name} ({})", grouped(*count));
+                let text = setter.shorten(&text, Weight::Regular, size, room);
+                let width = setter.width(&text, Weight::Regular, size) + 2.2 * size;
+                (text, width)
+            };
+            let texts: Vec<(String, f64)> = names.iter().zip(counts).map(entry).collect();
             let whole = texts.iter().zip(names).all(|((text, _), name)| text.starts_with(name.as_str()));
             (in_rows(texts, |row| self.legend_room(row, size)), whole)
         };
@@ -207,15 +214,6 @@ impl Page {
             last.push((format!("and {} more species", left_out + replaced), 0.0));
         }
         (size, rows)
-    }
-
-    /// The name of a species with its count, and the room that it needs.
-    fn legend_entry(&self, name: &str, count: u64, size: f64) -> (String, f64) {
-        let room = self.legend_room(0, size) - 1.2 * size;
-        let text = format!("{name} ({})", grouped(count));
-        let text = self.canvas.typesetter.shorten(&text, Weight::Regular, size, room);
-        let width = self.canvas.typesetter.width(&text, Weight::Regular, size) + 2.2 * size;
-        (text, width)
     }
 
     /// Width of a row of the legend: the scale bar stands beside the first.

@@ -149,19 +149,14 @@ fn linear_ticks(low: f64, high: f64, count: usize) -> Ticks {
     let factor = 10_f64.powi(-factor_exponent.clamp(-300, 300));
     let label = |value: f64| fixed((value - offset) * factor, decimals);
 
-    let mut multiplier = String::new();
-    if factor_exponent != 0 {
-        multiplier = format!("×10{}", superscript(factor_exponent));
-    }
-    if offset != 0.0 {
-        let sign = if offset < 0.0 { '−' } else { '+' };
-        let lead = if multiplier.is_empty() { String::new() } else { format!("{multiplier} ") };
-        multiplier = format!("{lead}{sign} {}", significant(offset.abs(), span));
-    }
+    let power = (factor_exponent != 0).then(|| format!("×10{}", superscript(factor_exponent)));
+    let sign = if offset < 0.0 { '−' } else { '+' };
+    let shift = (offset != 0.0).then(|| format!("{sign} {}", significant(offset.abs(), span)));
+    let multiplier: Vec<String> = power.into_iter().chain(shift).collect();
     Ticks {
         major: values.into_iter().map(|value| (value, label(value))).collect(),
         minor,
-        multiplier: (!multiplier.is_empty()).then_some(multiplier),
+        multiplier: (!multiplier.is_empty()).then(|| multiplier.join(" ")),
     }
 }
 

@@ -180,6 +180,6 @@ pub(super) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunD
     if !reasons.is_empty() {
         return Err(StudyError::Changed { kind, path, reasons });
     }
-    claimed.check_pictures(record.id(), kind.summary, |name| kind.has_file(name))?;
+    claimed.check_ids(record.id(), kind.summary, |name| kind.has_file(name))?;
     Ok((record, request, claimed))
 }
