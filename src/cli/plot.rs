@@ -59,12 +59,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let found = RunDirectory::open(directory)?;
         run::redraw(&found, &choice, set)?.into_iter().map(str::to_owned).collect()
     };
-    print(&format!(
-        "wrote {}/: {}
-",
-        printable::path(&arguments.directory),
-        written.join(", ")
-    ))
+    print(&format!("wrote {}/: {}\n", printable::path(directory), written.join(", ")))
 }
 
 /// What says when numbered snapshots are taken, which only a run does.

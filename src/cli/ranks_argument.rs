@@ -9,9 +9,12 @@ use mesoscope::scene::{Scene, SceneError, Warning};
 
 use super::{AdapterArgument, Failure, SceneArguments, heading};
 
-/// How many ranks.
+/// How many ranks, and on which adapter.
 #[derive(Debug, clap::Args)]
 pub struct RanksArgument {
+    #[command(flatten)]
+    pub adapter: AdapterArgument,
+
     /// Share the run among this many ranks, each with an adapter of its own, which divide the box; results are those of one, to the last
     /// bit. `1,2,2` says how many along each axis, `auto` takes one for each adapter that is as good as the best [default: 1]
     #[arg(long, help_heading = heading::SEVERAL, value_name = "N", value_parser = asked, allow_negative_numbers = true)]
@@ -44,15 +47,12 @@ fn asked(text: &str) -> Result<Asked, String> {
 
 impl RanksArgument {
     /// The division of the box of a run; none for one rank.
-    pub fn division(
-        &self,
-        (scene, model): (&Scene, &Model),
-        adapter: &AdapterArgument,
-        copies: Option<u32>,
-    ) -> Result<Option<Division>, Failure> {
+    pub fn division(&self, scene: &Scene, model: &Model, copies: Option<u32>) -> Result<Option<Division>, Failure> {
         let ranks = match &self.ranks {
             None if copies.is_none() => return Ok(None),
-            None | Some(Asked::Auto) => Ranks::Count(copies.unwrap_or_else(|| adapters_by_turns(&adapter.choice()))),
+            None | Some(Asked::Auto) => {
+                Ranks::Count(copies.unwrap_or_else(|| adapters_by_turns(&self.adapter.choice())))
+            }
             Some(Asked::Count(count)) => Ranks::Count(*count),
             Some(Asked::Along(along)) => {
                 let dimension = scene.space.lengths.len();
@@ -79,22 +79,17 @@ impl RanksArgument {
     }
 
     /// What ranks of this machine cost each other, if they do; processes tell where they are once they share the run.
-    pub fn warning(division: Option<Division>, adapter: &AdapterArgument, copies: Option<u32>) -> Option<String> {
+    pub fn warning(&self, division: Option<Division>, copies: Option<u32>) -> Option<String> {
         let division = division.filter(|_| copies.is_none())?;
-        sharing(division.ranks(), adapters_by_turns(&adapter.choice()), "this machine")
+        sharing(division.ranks(), adapters_by_turns(&self.adapter.choice()), "this machine")
     }
 
     /// Loads a scene; one that the adapter cannot hold is refused before its particles are read or placed.
-    pub fn load(
-        &self,
-        scene: &SceneArguments,
-        adapter: &AdapterArgument,
-        copies: Option<u32>,
-    ) -> Result<(Scene, Vec<Warning>), SceneError> {
+    pub fn load(&self, scene: &SceneArguments, copies: Option<u32>) -> Result<(Scene, Vec<Warning>), SceneError> {
         scene.load(&|scene| {
             // Whatever else is wrong is said of the whole scene.
-            let Ok(division) = self.division((scene, &Model::new(scene)), adapter, copies) else { return Ok(()) };
-            match run::adapter_for_rank(scene, division, &adapter.choice()) {
+            let Ok(division) = self.division(scene, &Model::new(scene), copies) else { return Ok(()) };
+            match run::adapter_for_rank(scene, division, &self.adapter.choice()) {
                 Err(error @ RunError::TooLarge { .. }) => {
                     Err(SceneError::TooManyParticles { reason: error.to_string() })
                 }

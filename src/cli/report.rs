@@ -6,30 +6,29 @@ use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
 use mesoscope::families::{Model, PictureKind};
-use mesoscope::numbers::{grouped, prefixed};
+use mesoscope::numbers::{counted, grouped, prefixed};
 use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
 
 use super::progress::{bar, say};
-use super::table::{aligned, dimensions, labelled};
-use super::{AdapterArgument, Failure, RanksArgument, line, print};
+use super::table::{aligned, labelled};
+use super::{Failure, RanksArgument, line, print};
 
 /// Executes a run on its ranks and reports on it, with warnings of what they cost before, unless it is to be quiet.
 pub fn execute(
     simulation: Simulation,
     processes: Option<&dyn Processes>,
     ranks: &RanksArgument,
-    adapter: &AdapterArgument,
     directory: &str,
     quiet: bool,
 ) -> Result<(), Failure> {
     let copies = processes.map(Processes::count);
-    let division = ranks.division((simulation.scene(), simulation.model()), adapter, copies)?;
-    let warning = RanksArgument::warning(division, adapter, copies);
+    let division = ranks.division(simulation.scene(), simulation.model(), copies)?;
+    let warning = ranks.warning(division, copies);
     let simulation = simulation.on_ranks(division).mixed(ranks.mixed);
-    let choice = &adapter.choice_of_copy();
+    let choice = &ranks.adapter.choice_of_copy();
     // Other processes wait for word of this one; a run that goes on has its checkpoint.
     let begun = Arc::new(AtomicBool::new(processes.is_some() || simulation.first_step() > 0));
     let simulation = simulation.until(&super::interruption::interrupt(&begun));
@@ -96,7 +95,8 @@ impl Reporter {
         let (model, scene) = (simulation.model(), simulation.scene());
         let particles = model.particle_count();
         let noun = if particles == 1 { "particle" } else { "particles" };
-        let (title, dimensions) = (printable::name(&scene.title), dimensions(scene.space.lengths.len()));
+        let dimensions = counted(scene.space.lengths.len() as u64, "dimension");
+        let title = printable::name(&scene.title);
         Self {
             flows: model.picture() == PictureKind::Fields,
             headline: format!("{title}: {} {noun} in {dimensions}", grouped(particles)),

@@ -8,7 +8,7 @@ use mesoscope::ranks::Processes;
 use mesoscope::run::Simulation;
 use mesoscope::study::Kind;
 
-use super::{AdapterArgument, Failure, RanksArgument, guidance, heading, print, processes, report, whole_number};
+use super::{Failure, RanksArgument, guidance, heading, print, processes, report, whole_number};
 
 /// Continue a run from its last checkpoint
 #[derive(Debug, clap::Args)]
@@ -31,9 +31,6 @@ pub struct Arguments {
     #[command(flatten)]
     ranks: RanksArgument,
 
-    #[command(flatten)]
-    adapter: AdapterArgument,
-
     /// Report errors only
     #[arg(long, help_heading = heading::OUTPUT)]
     quiet: bool,
@@ -41,7 +38,7 @@ pub struct Arguments {
 
 /// Continues the run, with all copies of the program that a launcher has started.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    processes::share(&arguments.adapter, &|processes| resume(arguments, processes))
+    processes::share(&arguments.ranks.adapter, &|processes| resume(arguments, processes))
 }
 
 fn resume(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
@@ -70,5 +67,5 @@ fn resume(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<()
             format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` continues to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
-    report::execute(simulation, processes, &arguments.ranks, &arguments.adapter, &shown, arguments.quiet)
+    report::execute(simulation, processes, &arguments.ranks, &shown, arguments.quiet)
 }

@@ -37,14 +37,13 @@ pub struct Arguments {
 
 /// Simulates the scene, with all copies of the program that a launcher has started.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    processes::share(&arguments.how.adapter, &|processes| simulate(arguments, processes))
+    processes::share(&arguments.ranks.adapter, &|processes| simulate(arguments, processes))
 }
 
 fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
-    let (adapter, copies) = (&arguments.how.adapter, processes.map(Processes::count));
-    let (scene, notices) = arguments.ranks.load(&arguments.scene, adapter, copies)?;
+    let (scene, notices) = arguments.ranks.load(&arguments.scene, processes.map(Processes::count))?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::stem(&arguments.scene.scene).into());
     let shown = printable::path(&directory);
     let simulation = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
-    report::execute(simulation, processes, &arguments.ranks, adapter, &shown, arguments.how.quiet)
+    report::execute(simulation, processes, &arguments.ranks, &shown, arguments.how.quiet)
 }

@@ -1,13 +1,10 @@
 //! Arguments of every command that runs something into a directory.
 
-use super::{AdapterArgument, heading};
+use super::heading;
 
 /// How to run.
 #[derive(Debug, clap::Args)]
 pub struct RunArguments {
-    #[command(flatten)]
-    pub adapter: AdapterArgument,
-
     /// Overwrite the results of an earlier run in the directory
     #[arg(long, help_heading = heading::OUTPUT)]
     pub force: bool,

@@ -53,11 +53,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let run: StabilityRun = study.study(|scene| {
         let references =
             References::parse(&comparison.reference).map_err(|mistakes| StudyError::Arguments { mistakes })?;
-        let request = Request::load_for(scene, &study.set, study.steps, &arguments.vary)?
+        Ok(Request::load_for(scene, &study.set, study.steps, &arguments.vary)?
             .with_tolerance(arguments.tolerance)?
             .with_bisections(arguments.bisections)
-            .with_measures(&arguments.measure, references)?;
-        Ok(request)
+            .with_measures(&arguments.measure, references)?)
     })?;
     study.note(run.request().notices());
     let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));

@@ -10,7 +10,7 @@ use mesoscope::scene::Warning;
 use mesoscope::study::{Kind, LONG, Observer, Record, StudyError, StudyRun};
 
 use super::study_report::Reporter;
-use super::{Failure, RunArguments, guidance, heading, interruption, line, report, whole_number};
+use super::{AdapterArgument, Failure, RunArguments, guidance, heading, interruption, line, report, whole_number};
 
 /// Which scene, where to, and how.
 #[derive(Debug, clap::Args)]
@@ -44,6 +44,9 @@ pub struct StudyArguments {
     /// Run even if it takes more than eight hours
     #[arg(long, help_heading = heading::RUNNING)]
     yes: bool,
+
+    #[command(flatten)]
+    adapter: AdapterArgument,
 
     #[command(flatten)]
     pub how: RunArguments,
@@ -107,7 +110,7 @@ impl StudyArguments {
         execute: impl FnOnce(StudyRun<R>, &AdapterChoice, &mut Observer<'_, R>) -> Result<O, StudyError>,
     ) -> Result<O, Failure> {
         // Copies on one machine take different adapters, where there are several.
-        let adapter = &self.how.adapter.choice_of_copy();
+        let adapter = &self.adapter.choice_of_copy();
         let directory = study.directory().to_path_buf();
         let executed = if self.how.quiet {
             execute(study, adapter, &mut |_| {})

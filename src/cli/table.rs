@@ -21,11 +21,6 @@ pub fn labelled<N: Into<String>>(rows: impl IntoIterator<Item = (N, String)>, in
     aligned(&rows, indent)
 }
 
-/// A number of dimensions.
-pub fn dimensions(count: usize) -> String {
-    format!("{count} dimension{}", if count == 1 { "" } else { "s" })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -7,7 +7,7 @@ use mesoscope::numbers::with_error;
 use mesoscope::printable;
 use mesoscope::study::{StudyError, StudyOutcome};
 use mesoscope::tradeoff::{
-    Choice, ChoiceState, Length, References, Request, Target, TradeoffRun, TradeoffSummary, error_in_words,
+    ChoiceState, Length, References, Request, Target, TradeoffRun, TradeoffSummary, error_in_words,
 };
 
 use super::table::aligned;
@@ -170,7 +170,10 @@ fn results(outcome: &StudyOutcome<TradeoffSummary>, directory: &str) -> String {
             row.push("unstable".to_owned());
         } else {
             row.push(choice.cost.map_or_else(String::new, |cost| with_error(cost.seconds_per_time, None)));
-            row.extend(summary.measures.iter().map(|measure| cell(choice, measure)));
+            row.extend(summary.measures.iter().map(|measure| match choice.error(measure) {
+                Some(error) => format!("{}{}", error_in_words(error), if error.on_front { " *" } else { "" }),
+                None => String::new(),
+            }));
         }
         rows.push(row);
     }
@@ -181,13 +184,6 @@ fn results(outcome: &StudyOutcome<TradeoffSummary>, directory: &str) -> String {
     text.extend(summary.notes().iter().map(|note| format!("note: {note}\n")));
     text.push_str(&summary.advice());
     format!("{text}wrote {directory}/: {}\n", outcome.files.join(", "))
-}
-
-fn cell(choice: &Choice, measure: &str) -> String {
-    choice.error(measure).map_or_else(String::new, |error| {
-        let mark = if error.on_front { " *" } else { "" };
-        format!("{}{mark}", error_in_words(error))
-    })
 }
 
 #[cfg(test)]

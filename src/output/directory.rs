@@ -62,7 +62,9 @@ impl RunDirectory {
     /// Removes the files of an earlier run, if that is allowed, and makes sure that the directory can be written to.
     pub(crate) fn clear(&self, force: bool) -> Result<(), OutputError> {
         let in_the_way = self.in_the_way(force)?;
-        self.probe()?;
+        // Better to learn now that nothing can be written than after an hour of simulation.
+        let probe = Temporary::beside(&self.file(files::SUMMARY));
+        probe.map(drop).map_err(OutputError::io("write to the directory", &self.path))?;
         for name in in_the_way {
             let path = self.file(&name);
             fs::remove_file(&path).map_err(OutputError::io("replace", &path))?;
@@ -164,12 +166,5 @@ impl RunDirectory {
         let mut names: Vec<String> = names.filter(|name| kind(name)).collect();
         names.sort();
         Ok(names)
-    }
-
-    /// Better to learn now that nothing can be written than after an hour of simulation.
-    fn probe(&self) -> Result<(), OutputError> {
-        Temporary::beside(&self.file(files::SUMMARY))
-            .map(drop)
-            .map_err(OutputError::io("write to the directory", &self.path))
     }
 }

@@ -49,11 +49,9 @@ impl DirectoryLock {
                 // A file system without locks, as some network file systems are, is no reason to refuse a run.
                 Ok(()) | Err(TryLockError::Error(_)) => {}
                 Err(TryLockError::WouldBlock) => {
-                    let holder = match read(&mut file) {
-                        Ok(Content::Process(process)) => format!("process {process}"),
-                        // Where locks keep readers out too.
-                        _ => "another process".to_owned(),
-                    };
+                    // Where locks keep readers out too, nothing says which.
+                    let process = read(&mut file).ok().and_then(|text| process_in(&text));
+                    let holder = process.map_or("another process".to_owned(), |process| format!("process {process}"));
                     return Err(OutputError::InUse { directory: directory.into(), holder });
                 }
             }
@@ -61,7 +59,9 @@ impl DirectoryLock {
             if !is_at(&file, &path) {
                 continue;
             }
-            if matches!(read(&mut file).map_err(refused)?, Content::Foreign) {
+            let text = read(&mut file).map_err(refused)?;
+            // A process killed while it wrote its number leaves a part.
+            if process_in(&text).is_none() && !BEFORE.as_bytes().starts_with(&text) {
                 let source = io::Error::new(io::ErrorKind::AlreadyExists, "it is not the lock of a run; move it away");
                 return Err(OutputError::Io { attempted: "lock", path, source });
             }
@@ -93,26 +93,16 @@ fn open(path: &Path) -> io::Result<File> {
     File::options().read(true).write(true).create(true).truncate(false).open(path)
 }
 
-enum Content {
-    /// Nobody has held the lock for long enough to write anything.
-    Nothing,
-    /// The process that holds the lock, or held it when it ended.
-    Process(u32),
-    /// Something that mesoscope did not write.
-    Foreign,
-}
-
-fn read(file: &mut File) -> io::Result<Content> {
+fn read(file: &mut File) -> io::Result<Vec<u8>> {
     let mut text = Vec::new();
     file.rewind()?;
     file.take(BEFORE.len() as u64 + 32).read_to_end(&mut text)?;
-    let process = std::str::from_utf8(&text).ok().and_then(|text| text.strip_prefix(BEFORE)?.trim_end().parse().ok());
-    Ok(match process {
-        Some(process) => Content::Process(process),
-        // A process killed while it wrote its number leaves a part.
-        None if BEFORE.as_bytes().starts_with(&text) => Content::Nothing,
-        None => Content::Foreign,
-    })
+    Ok(text)
+}
+
+/// The process that holds the lock, or held it when it ended.
+fn process_in(text: &[u8]) -> Option<u32> {
+    std::str::from_utf8(text).ok()?.strip_prefix(BEFORE)?.trim_end().parse().ok()
 }
 
 /// Whether a file that is open still has this name; elsewhere than on Unix it is never removed.

@@ -1,7 +1,8 @@
 //! Which run the files in a directory belong to.
 
+use super::id::RUN_KEY;
 use super::{Id, OutputError, RunDirectory, checkpoint, files, own_file, picture, trajectory};
-use serde::Deserialize;
+use serde_json::Value;
 use std::path::Path;
 
 impl RunDirectory {
@@ -34,18 +35,9 @@ impl RunDirectory {
 /// The id in a file of a run or in a picture; none where the format has no place for it, or where it cannot be read.
 fn id_in(name: &str, path: &Path) -> Option<Id> {
     match name {
-        files::SUMMARY => in_summary(path),
+        files::SUMMARY => Id::parse(own_file::json::<Value>(path).ok()?.get(RUN_KEY)?.as_str()?),
         files::CHECKPOINT => checkpoint::id_of(path),
         // What is neither has no id.
         _ => trajectory::id_of(name, path).or_else(|| picture::id_of(path)),
     }
-}
-
-fn in_summary(path: &Path) -> Option<Id> {
-    #[derive(Deserialize)]
-    struct Part {
-        run_id: Id,
-    }
-    let part: Part = own_file::json(path).ok()?;
-    Some(part.run_id)
 }

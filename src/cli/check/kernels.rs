@@ -168,23 +168,20 @@ fn kernel_choices(kernel: &Kernel) -> Result<Vec<Choice>, Failure> {
 
 /// A label and a list, broken into lines of at most 110 characters.
 fn wrapped(text: &mut String, label: &str, items: impl Iterator<Item = String>) {
+    let items: Vec<String> = items.collect();
     let mut line = format!("      {label:<9} ");
     let indent = line.len();
-    let mut items = items.peekable();
-    if items.peek().is_none() {
-        return;
-    }
-    while let Some(item) = items.next() {
-        if line.chars().count() > indent && line.chars().count() + item.chars().count() > 109 {
+    for (place, item) in items.iter().enumerate() {
+        if place > 0 && line.chars().count() + item.chars().count() > 109 {
             let _ = writeln!(text, "{}", line.trim_end());
             line = " ".repeat(indent);
         }
-        line.push_str(&item);
-        if items.peek().is_some() {
-            line.push_str(", ");
-        }
+        line.push_str(item);
+        line.push_str(if place + 1 < items.len() { ", " } else { "\n" });
     }
-    let _ = writeln!(text, "{line}");
+    if !items.is_empty() {
+        text.push_str(&line);
+    }
 }
 
 fn buffers(text: &mut String, plan: &Plan) {

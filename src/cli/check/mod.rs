@@ -10,14 +10,14 @@ use std::fmt::Write as _;
 use mesoscope::engine::EngineError;
 use mesoscope::families::{self, Model};
 use mesoscope::gpu::GpuError;
-use mesoscope::numbers::{bytes, grouped};
+use mesoscope::numbers::{bytes, counted, grouped};
 use mesoscope::plan::{Hardware, Options, Part, Plan};
 use mesoscope::printable;
 use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
 use mesoscope::scene::{Integrator, PairRelaxation, Scene};
 
-use super::table::{dimensions, labelled};
-use super::{AdapterArgument, Failure, RanksArgument, SceneArguments, heading, print, print_exactly};
+use super::table::labelled;
+use super::{Failure, RanksArgument, SceneArguments, heading, print, print_exactly};
 
 /// Check a scene: all mistakes at once, or else what to expect - time, files, errors, warnings - and with -v what it consists of
 #[derive(Debug, clap::Args)]
@@ -44,9 +44,6 @@ pub struct Arguments {
     scene: SceneArguments,
 
     #[command(flatten)]
-    adapter: AdapterArgument,
-
-    #[command(flatten)]
     ranks: RanksArgument,
 
     /// Say more: what the scene consists of, how long its steps may be, when files are written
@@ -64,14 +61,14 @@ pub struct Arguments {
 
 /// Checks the scene.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let (scene, notices) = arguments.ranks.load(&arguments.scene, &arguments.adapter, None)?;
+    let (scene, notices) = arguments.ranks.load(&arguments.scene, None)?;
     let model = Model::new(&scene);
     let mut warnings: Vec<String> =
         notices.iter().chain(&families::warnings(&scene)).map(ToString::to_string).collect();
     warnings.extend(run::lettering(&scene));
-    let division = arguments.ranks.division((&scene, &model), &arguments.adapter, None)?;
-    warnings.extend(RanksArgument::warning(division, &arguments.adapter, None));
-    let opened = match run::adapter_for_rank(&scene, division, &arguments.adapter.choice()) {
+    let division = arguments.ranks.division(&scene, &model, None)?;
+    warnings.extend(arguments.ranks.warning(division, None));
+    let opened = match run::adapter_for_rank(&scene, division, &arguments.ranks.adapter.choice()) {
         Err(error @ (RunError::Scene(_) | RunError::Gpu(GpuError::NoSuchAdapter { .. }))) => return Err(error.into()),
         opened => opened,
     };
@@ -190,14 +187,12 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, trial: Tried<'_>) -> Vec<
     let particles = model.particles_in_words();
     let cells =
         plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × ");
-    let dimensions = dimensions(lengths.len());
+    let dimensions = counted(lengths.len() as u64, "dimension");
     let mut rows =
         vec![("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × "))), ("memory", memory)];
     rows.extend(basis(trial).map(|basis| ("estimate", basis)));
-    rows.extend([(
-        "integrator",
-        format!("{integrator}, time step {}, {} steps", scene.time.step, grouped(scene.time.steps)),
-    )]);
+    let (step, steps) = (scene.time.step, grouped(scene.time.steps));
+    rows.push(("integrator", format!("{integrator}, time step {step}, {steps} steps")));
     rows.extend(families::start_in_words(scene, model).map(|start| ("start", start)));
     rows.extend(model.description(scene, plan, &cells));
     let operations = grouped(plan.operations_per_particle as u64);

@@ -66,7 +66,10 @@ fn unneeded(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Ve
             && let Bath::Memory { rate, .. } = bath
             && BathStep::of(bath, friction, scene.time.step).persistence.abs() < FORGOTTEN
         {
-            let without = without_memory(scene, index);
+            let mut without = scene.clone();
+            if let Some(bath) = without.interactions.get_mut(index).and_then(Interaction::bath_mut) {
+                *bath = Bath::White { temperature: Some(bath.temperature(scene.temperature)) };
+            }
             let other = run::plan(&Model::new(&without), 0, &without.output, hardware, Options::default());
             let (own, less) = (plan.operations_per_particle, other.operations_per_particle);
             let cheaper = if less < own {
@@ -86,13 +89,4 @@ fn unneeded(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Ve
         found.push(format!("species without particles: {}", idle.join(", ")));
     }
     found
-}
-
-/// The scene with a bath of no memory in an interaction.
-fn without_memory(scene: &Scene, index: usize) -> Scene {
-    let mut other = scene.clone();
-    if let Some(bath) = other.interactions.get_mut(index).and_then(Interaction::bath_mut) {
-        *bath = Bath::White { temperature: Some(bath.temperature(scene.temperature)) };
-    }
-    other
 }

@@ -72,22 +72,15 @@ fn id_of(path: &Path) -> Option<Id> {
     comment.split(' ').find_map(key)
 }
 
-/// Names of species, each as one word of the format.
-fn words(description: &Description) -> Vec<String> {
-    let word = |name: &str| -> String {
-        let is_bad = |character: char| character.is_whitespace() || character.is_control();
-        let name = name.replace(is_bad, "_");
-        if name.is_empty() { "_".to_owned() } else { name }
-    };
-    description.species.iter().map(|species| word(&species.name)).collect()
-}
-
 fn write_frame(text: &mut Vec<u8>, description: &Description, state: &Reported) -> std::io::Result<()> {
     let [x, y, z] = description.units.edges();
     let is_periodic = |axis: usize| axis < description.units.dimension.max(1) && description.units.gaps[axis] == 0.0;
     let periodic = [0, 1, 2].map(|axis| if is_periodic(axis) { "T" } else { "F" }).join(" ");
     let time = state.step as f64 * description.time_step;
-    let names = words(description);
+    let is_bad = |character: char| character.is_whitespace() || character.is_control();
+    // Each as one word of the format.
+    let word = |name: &str| if name.is_empty() { "_".to_owned() } else { name.replace(is_bad, "_") };
+    let names: Vec<String> = description.species.iter().map(|species| word(&species.name)).collect();
     let symbols = elements::symbols(&names.iter().map(String::as_str).collect::<Vec<_>>());
     let named = names != symbols;
     let frozen = description.frozen_particles(state).map(|frozen| format!(" {FROZEN}={frozen}")).unwrap_or_default();

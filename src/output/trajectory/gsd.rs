@@ -24,7 +24,7 @@ pub(super) const FORMAT: Format = Format {
     file: files::TRAJECTORY_GSD,
     // Position and velocity in single precision, and the image.
     bytes_per_particle: 36,
-    create: |path| Ok(Box::new(GsdTrajectory::create(path)?)),
+    create: |path| Ok(Box::new(GsdTrajectory::of(path, create_file(path)?, true, Checksum::default())?)),
     resume: |path, written| Ok(Box::new(GsdTrajectory::resume(path, written)?)),
     id_of,
 };
@@ -53,11 +53,6 @@ const SCHEMA: &str = "hoomd";
 const SCHEMA_VERSION: (u16, u16) = (1, 4);
 
 impl GsdTrajectory {
-    fn create(path: &Path) -> Result<Self, OutputError> {
-        let file = create_file(path)?;
-        Self::of(path, file, true, Checksum::default())
-    }
-
     fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
         let mut file = open(path)?;
         let altered = || OutputError::Altered { path: path.to_path_buf() };
