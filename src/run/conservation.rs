@@ -4,7 +4,7 @@ use crate::families::{KeptQuantity, Model};
 use crate::state::State;
 
 /// What a model keeps to the last bit.
-pub(super) fn kept(model: &Model) -> Vec<KeptQuantity> {
+pub(crate) fn kept(model: &Model) -> Vec<KeptQuantity> {
     let mut kept: Vec<KeptQuantity> =
         model.physics().kept(model, &State::default()).into_iter().map(|sum| sum.quantity).collect();
     kept.dedup();

@@ -44,7 +44,7 @@ fn check_the_page(said: &str) {
     assert!(of("pairs beside frozen layers").contains("momentum, including that absorbed by walls"), "{said}");
     assert!(of("pairs in shear").contains("momentum, including that lost at sheared boundaries"), "{said}");
     assert!(
-        of("Voronoi cells with energy").contains("total momentum, mass, energy constant to the last bit"),
+        of("Voronoi cells with energy").contains("mass, total momentum, total energy constant to the last bit"),
         "{said}"
     );
     for family in ["bonds and angles", "coloured noise", "shallow water with a bath", "shallow water, other solver"] {
