@@ -1,6 +1,6 @@
 //! Groups of particles: how many, where they start and how fast.
 
-use super::defaults::{is_zero, one};
+use super::defaults::{is_zero, one, whole};
 use super::{Axis, Space};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -182,7 +182,7 @@ pub enum Velocities {
         /// The largest velocity.
         amplitude: f64,
         /// Number of waves in the box.
-        #[serde(default = "one_period")]
+        #[serde(default = "whole::<1>")]
         #[schemars(range(min = 1, max = 64))]
         periods: u32,
     },
@@ -191,10 +191,6 @@ pub enum Velocities {
         /// One velocity per particle.
         velocities: Vec<Vec<f64>>,
     },
-}
-
-fn one_period() -> u32 {
-    1
 }
 
 impl Chain {

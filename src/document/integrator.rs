@@ -1,6 +1,6 @@
 //! How the equations of motion are integrated.
 
-use super::defaults::half;
+use super::defaults::hundredths;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,7 +21,7 @@ pub enum Integrator {
     /// Groot and Warren's modified velocity Verlet scheme, doi:10.1063/1.474784.
     GrootWarren {
         /// Weight λ of the predicted velocity that enters the friction.
-        #[serde(default = "half")]
+        #[serde(default = "hundredths::<50>")]
         #[schemars(range(min = 0.0, max = 1.0))]
         lambda: f64,
     },

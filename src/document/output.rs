@@ -1,8 +1,9 @@
 //! What a run measures and writes: the keys, and of each analysis what it asks for, its id and its names.
 
+use super::defaults::whole;
 use super::{
-    Axis, ChainOutput, Checkpoint, CorrelatedQuantity, CountedQuantity, DecayFit, Energies, Fields, Frame, Neighbours,
-    PlotStyle, ProfiledQuantity, ShearWave, Snapshot, Trajectory,
+    Axis, Checkpoint, CorrelatedQuantity, CountedQuantity, DecayFit, Energies, Fields, Frame, PlotStyle,
+    ProfiledQuantity, Snapshot, Trajectory,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -32,15 +33,15 @@ pub struct Output {
     /// Mean squared displacement and velocity autocorrelation of the particles that can move.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diffusion: Option<Diffusion>,
-    /// Sizes of chains and molecules: end-to-end distance and radius of gyration.
+    /// Sizes of chains and molecules: squared distance of the ends and squared radius of gyration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub chain_sizes: Option<ChainSizes>,
+    pub chain_sizes: Option<SampleInterval>,
     /// Shear viscosity from the decay of transverse momentum waves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub viscosity: Option<Viscosity>,
     /// Tables and plots of harmonic chains.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub chain: Option<ChainOutput>,
+    pub chain: Option<SampleInterval>,
     /// Normalised autocorrelations of velocities and forces of the particles that can move, each quantity at most once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 16))]
@@ -55,12 +56,13 @@ pub struct Output {
     /// Profiles of density, velocity and temperature along an axis of the box.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub profiles: Option<Profiles>,
-    /// The numbers of neighbours of Voronoi cells, as a table and a plot.
+    /// The numbers of neighbours of Voronoi cells after equilibration, as a table and a plot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub neighbours: Option<Neighbours>,
-    /// The decay of the shear wave that Voronoi cells start with, and the shear viscosity that follows from it.
+    pub neighbours: Option<SampleInterval>,
+    /// The decay after equilibration of the shear wave that Voronoi cells start with, and the shear viscosity that follows from it. The time
+    /// between samples is to be long compared with that in which friction relaxes a single cell, and short compared with the decay of the wave.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub shear_wave: Option<ShearWave>,
+    pub shear_wave: Option<SampleInterval>,
     /// Fields on the mesh of shallow water, as pictures and arrays; left out, depth and potential vorticity at the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fields: Option<Fields>,
@@ -116,13 +118,9 @@ pub struct RadialDistribution {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub range: f64,
     /// Number of bins.
-    #[serde(default = "hundred_bins")]
+    #[serde(default = "whole::<100>")]
     #[schemars(range(min = 1, max = 4096))]
     pub bins: u32,
-}
-
-fn hundred_bins() -> u32 {
-    100
 }
 
 /// Mean squared displacement and velocity autocorrelation.
@@ -137,10 +135,10 @@ pub struct Diffusion {
     pub window: u64,
 }
 
-/// Sizes of the chains of each group: squared distance of the ends and squared radius of gyration.
+/// How often something is measured that has no other settings.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ChainSizes {
+pub struct SampleInterval {
     /// Steps between two samples.
     #[schemars(range(min = 1))]
     pub every: u64,
@@ -188,7 +186,7 @@ pub struct Histogram {
     #[schemars(range(min = 1))]
     pub every: u64,
     /// Number of bins.
-    #[serde(default = "hundred_bins")]
+    #[serde(default = "whole::<100>")]
     #[schemars(range(min = 1, max = 1024))]
     pub bins: u32,
     /// Largest magnitude: components are counted from minus to plus this, speeds from zero. Left out, six times the
@@ -229,7 +227,7 @@ pub struct Profiles {
     /// The axis along which the bins follow each other.
     pub axis: Axis,
     /// Number of bins.
-    #[serde(default = "forty_bins")]
+    #[serde(default = "whole::<40>")]
     #[schemars(range(min = 1, max = 1024))]
     pub bins: u32,
     /// Steps between two samples.
@@ -239,10 +237,6 @@ pub struct Profiles {
     #[serde(default = "usual_profiles")]
     #[schemars(length(min = 1, max = 16))]
     pub quantities: Vec<ProfiledQuantity>,
-}
-
-fn forty_bins() -> u32 {
-    40
 }
 
 fn usual_profiles() -> Vec<ProfiledQuantity> {

@@ -1,5 +1,6 @@
 //! The scene as a whole: box, clock, noise.
 
+use super::defaults::whole;
 use super::{
     DpdInteraction, EarlierRun, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, NumberedGroup,
     Origin, Output, ParticleGroup, Shear, StateFile, StateVelocities, Walls,
@@ -18,7 +19,7 @@ pub struct Scene {
     #[serde(rename = "$schema", default, skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
     /// Version of the scene format.
-    #[serde(default = "current_version")]
+    #[serde(default = "whole::<1>")]
     #[schemars(range(min = 1, max = 1))]
     pub version: u32,
     /// One line that names the scene; it heads every plot.
@@ -163,10 +164,6 @@ impl Scene {
             NumberedGroup { group, first, count }
         })
     }
-}
-
-fn current_version() -> u32 {
-    1
 }
 
 /// An orthogonal box, periodic but for axes with walls; shear displaces what is across a face.

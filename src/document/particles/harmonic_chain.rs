@@ -1,6 +1,6 @@
 //! Harmonic chains side by side: what a scene says about them.
 
-use crate::document::defaults::{half, one};
+use crate::document::defaults::{hundredths, one};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -25,7 +25,7 @@ pub struct HarmonicChainInteraction {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub stiffness: f64,
     /// Friction between clusters in units of √(mκ); ½, the default, is that of the chain of beads.
-    #[serde(default = "half")]
+    #[serde(default = "hundredths::<50>")]
     #[schemars(range(min = 0.0))]
     pub friction: f64,
     /// Distance of beads at rest, long enough that none passes another; that of clusters is n times as long.
@@ -59,13 +59,4 @@ pub struct ChainEquilibrium {
     /// Number n of clusters in a chain; the relative error of averages is about 1/√n, however long the run.
     #[schemars(range(min = 2, max = 65_536))]
     pub clusters: u32,
-}
-
-/// What the run measures of harmonic chains.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct ChainOutput {
-    /// Steps between two samples.
-    #[schemars(range(min = 1))]
-    pub every: u64,
 }

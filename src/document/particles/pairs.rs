@@ -1,7 +1,7 @@
 //! Pair forces in a scene.
 
 use crate::document::Bath;
-use crate::document::defaults::one;
+use crate::document::defaults::{hundredths, one};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,7 @@ pub struct DpdInteraction {
     pub cutoff: f64,
     /// Exponent of the friction weight ω = (1 - r/rc)^exponent of every pair of species that has none of its own in `pairs`; 2 is the
     /// standard choice.
-    #[serde(default = "two")]
+    #[serde(default = "hundredths::<200>")]
     #[schemars(range(min = 0.0, max = 100.0))]
     pub weight_exponent: f64,
     /// Repulsion a of every pair of species not listed in `pairs`; if all are zero there is no conservative force.
@@ -39,7 +39,7 @@ pub struct DpdInteraction {
     /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, beside a coloured
     /// noise, or on a line. With a wide margin the list is rebuilt less often and holds more pairs; no result but the
     /// noise depends on it. Of several `dpd` the largest holds.
-    #[serde(default = "default_skin")]
+    #[serde(default = "hundredths::<30>")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub skin: f64,
 }
@@ -70,7 +70,7 @@ pub struct ManyBody {
     #[schemars(range(min = 0.0))]
     pub repulsion: f64,
     /// Range rd of the force and of the weight of the density; to have a liquid, less than the range of the attraction.
-    #[serde(default = "three_quarters")]
+    #[serde(default = "hundredths::<75>")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub cutoff: f64,
 }
@@ -127,16 +127,4 @@ impl DpdPair {
         key.sort_unstable();
         key
     }
-}
-
-fn default_skin() -> f64 {
-    0.3
-}
-
-fn three_quarters() -> f64 {
-    0.75
-}
-
-fn two() -> f64 {
-    2.0
 }

@@ -1,6 +1,7 @@
 //! Rotating shallow water: what a scene says about it.
 
 use crate::document::BathScheme;
+use crate::document::defaults::whole;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +16,7 @@ pub struct ShallowWaterInteraction {
     pub mesh: [u32; 2],
     /// Order of the B-splines between particles and mesh: 1 linear, 2 quadratic, 3 cubic (default). A lower order is
     /// cheaper and rougher.
-    #[serde(default = "cubic")]
+    #[serde(default = "whole::<3>")]
     #[schemars(range(min = 1, max = 3))]
     pub spline_order: u32,
     /// Speed c₀ of gravity waves.
@@ -36,10 +37,6 @@ pub struct ShallowWaterInteraction {
     /// A heat bath on every mesh node.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bath: Option<MeshBath>,
-}
-
-fn cubic() -> u32 {
-    3
 }
 
 /// The smoothing (1 - Λ²∇²)^-power of the depth.

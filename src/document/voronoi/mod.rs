@@ -1,10 +1,6 @@
 //! Voronoi DPD: what a scene says about it.
 
-mod analyses;
-
-pub use analyses::{Neighbours, ShearWave};
-
-use super::defaults::one;
+use super::defaults::{hundredths, one};
 use super::{Interaction, Scene, Velocities};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -53,7 +49,7 @@ pub struct VoronoiInteraction {
     /// The largest part of a cell's mass, of its internal energy, by conduction and with mass each, and of its volume by the
     /// turning face of close cells, that crosses one face in one step: in a finite step more could cross than there is. The
     /// run counts how often the limit acted.
-    #[serde(default = "tenth")]
+    #[serde(default = "hundredths::<10>")]
     #[schemars(range(max = 0.5), extend("exclusiveMinimum" = 0))]
     pub exchange_limit: f64,
     /// How the integrator `splitting` solves for the velocities after friction.
@@ -157,10 +153,6 @@ impl VoronoiInteraction {
         let regions = self.energy.iter().flat_map(|energy| &energy.initial_temperatures);
         regions.fold(temperature, |most, region| most.max(region.temperature))
     }
-}
-
-fn tenth() -> f64 {
-    0.1
 }
 
 /// The Voronoi interaction of a scene, if it has one.
