@@ -10,7 +10,7 @@ use super::lines::Lines;
 use super::tally::Tally;
 use super::{
     FROZEN, Fits, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements, elements, frozen_layers,
-    place_of_frame, shortened, triclinic,
+    place_of_frame, shortened, triclinic, vector,
 };
 use crate::state::MOST_PARTICLES;
 use std::collections::{HashMap, HashSet};
@@ -119,10 +119,9 @@ struct Columns {
 fn numbers<const COUNT: usize>(keys: &Keys, name: &str, place: &str) -> Result<Option<[f64; COUNT]>, Mistake> {
     let Some(text) = keys.value(name, place)? else { return Ok(None) };
     let separators = |letter: char| letter.is_whitespace() || [',', '[', ']'].contains(&letter);
-    let parts = text.split(separators).filter(|part| !part.is_empty());
-    let numbers = parts.map(real).collect::<Option<Vec<f64>>>().and_then(|numbers| numbers.try_into().ok());
+    let parts: Vec<&str> = text.split(separators).filter(|part| !part.is_empty()).collect();
     let wrong = || Mistake::new(place, format!("found {name}=\"{}\"", shortened(text)), format!("{COUNT} numbers"));
-    numbers.map(Some).ok_or_else(wrong)
+    vector(&parts, real).map(Some).ok_or_else(wrong)
 }
 
 /// What the line of keys says: a file without particles, and the columns of their lines.
@@ -170,14 +169,11 @@ fn header(comment: &str, place: &str) -> Result<(ParticleFile, Columns), Mistake
 /// Three values that are true or false.
 fn truths(text: &str) -> Option<[bool; 3]> {
     let words = text.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
-    let truths: Option<Vec<bool>> = words
-        .map(|word| match word.to_ascii_lowercase().as_str() {
-            "t" | "true" | "1" => Some(true),
-            "f" | "false" | "0" => Some(false),
-            _ => None,
-        })
-        .collect();
-    truths?.try_into().ok()
+    vector(&words.collect::<Vec<_>>(), |word| match word.to_ascii_lowercase().as_str() {
+        "t" | "true" | "1" => Some(true),
+        "f" | "false" | "0" => Some(false),
+        _ => None,
+    })
 }
 
 impl Columns {
@@ -256,11 +252,6 @@ struct Particle<'a> {
     mass: Option<f64>,
     image: Option<[i64; 3]>,
     id: Option<u64>,
-}
-
-/// Three numbers.
-fn vector<T>(words: &[&str], read: impl Fn(&str) -> Option<T>) -> Option<[T; 3]> {
-    words.iter().map(|word| read(word)).collect::<Option<Vec<T>>>()?.try_into().ok()
 }
 
 impl Columns {
@@ -353,12 +344,7 @@ fn particles(
         file.numbers.extend(read.id);
     }
     let mut seen = HashSet::new();
-    let mut again = Tally::default();
-    for number in &file.numbers {
-        if !seen.insert(number) {
-            again.add(|| number.to_string());
-        }
-    }
+    let again: Tally = file.numbers.iter().filter(|number| !seen.insert(**number)).collect();
     mistakes.extend(again.mistake("particle", "more than once", "a number of its own for every particle"));
     if columns.is_atomic_number {
         let symbol = |number: &String| number.parse().ok().and_then(elements::symbol);
@@ -367,5 +353,6 @@ fn particles(
         file.numerals = std::mem::replace(&mut file.species, symbols);
     }
     file.masses = masses.finish(&file.species, &mut mistakes);
-    if mistakes.is_empty() { Ok(file) } else { Err(mistakes) }
+    mistakes.refuse()?;
+    Ok(file)
 }

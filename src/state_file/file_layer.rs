@@ -11,7 +11,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 const MAGIC: u64 = 0x65df_65df_65df_65df;
-const HEADER: u64 = 256;
+const HEADER: u64 = size_of::<Header>() as u64;
 const ENTRY: u64 = size_of::<Chunk>() as u64;
 /// Bytes of a name in version 1, and the unit of the length of the list in both.
 const NAME: u64 = 64;
@@ -107,59 +107,39 @@ impl Chunk {
     }
 }
 
-fn word(bytes: &[u8], at: usize) -> u64 {
-    bytes.get(at..at + 8).and_then(|word| word.try_into().ok()).map_or(0, u64::from_le_bytes)
-}
-
-fn half_word(bytes: &[u8], at: usize) -> u32 {
-    bytes.get(at..at + 4).and_then(|word| word.try_into().ok()).map_or(0, u32::from_le_bytes)
-}
-
 const fn version_word((major, minor): (u16, u16)) -> u32 {
     (major as u32) << 16 | minor as u32
 }
 
-/// The beginning of a file.
-#[derive(Debug, Clone)]
+/// The beginning of a file, as it is there.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Pod, Zeroable)]
 struct Header {
+    magic: u64,
     /// Where the index is, and the number of entries it has room for.
     index: [u64; 2],
     /// Where the names are, and the room for them in units of 64 bytes.
     names: [u64; 2],
     schema_version: u32,
     version: u32,
-    application: String,
-    schema: String,
+    application: [u8; NAME as usize],
+    schema: [u8; NAME as usize],
+    reserved: [u64; 10],
 }
 
-impl Header {
-    fn parse(bytes: &[u8]) -> Self {
-        let text = |field: &[u8]| String::from_utf8_lossy(until_zero(field)).into_owned();
-        Self {
-            index: [word(bytes, 8), word(bytes, 16)],
-            names: [word(bytes, 24), word(bytes, 32)],
-            schema_version: half_word(bytes, 40),
-            version: half_word(bytes, 44),
-            application: text(&bytes[48..112]),
-            schema: text(&bytes[112..176]),
-        }
-    }
-
-    fn bytes(&self) -> [u8; HEADER as usize] {
-        let mut bytes = [0; HEADER as usize];
-        let words = [MAGIC, self.index[0], self.index[1], self.names[0], self.names[1]];
-        for (place, word) in bytes.chunks_exact_mut(8).zip(words) {
-            place.copy_from_slice(&word.to_le_bytes());
-        }
-        bytes[40..44].copy_from_slice(&self.schema_version.to_le_bytes());
-        bytes[44..48].copy_from_slice(&self.version.to_le_bytes());
-        bytes[48..48 + self.application.len()].copy_from_slice(self.application.as_bytes());
-        bytes[112..112 + self.schema.len()].copy_from_slice(self.schema.as_bytes());
-        bytes
-    }
+/// A text as the header has it, which is shorter than its field.
+fn field(text: &str) -> [u8; NAME as usize] {
+    let mut field = [0; NAME as usize];
+    field[..text.len()].copy_from_slice(text.as_bytes());
+    field
 }
 
-fn until_zero(field: &[u8]) -> &[u8] {
+/// A text that is ended by a zero.
+fn text(field: &[u8]) -> &str {
+    until_zero(field).utf8_chunks().next().map_or("", |part| part.valid())
+}
+
+pub(super) fn until_zero(field: &[u8]) -> &[u8] {
     field.split(|byte| *byte == 0).next().unwrap_or_default()
 }
 
@@ -199,7 +179,7 @@ impl GsdReader {
         if !is_one(&start) {
             return Err(GsdError::Format);
         }
-        let header = Header::parse(&start);
+        let header: Header = bytemuck::pod_read_unaligned(&start);
         let version = header.version >> 16;
         if ![1, 2].contains(&version) {
             return Err(GsdError::Version(version));
@@ -227,13 +207,13 @@ impl GsdReader {
     /// The program that wrote the file.
     #[must_use]
     pub fn application(&self) -> &str {
-        &self.header.application
+        text(&self.header.application)
     }
 
     /// What the names of arrays mean, by the name of a schema.
     #[must_use]
     pub fn schema(&self) -> &str {
-        &self.header.schema
+        text(&self.header.schema)
     }
 
     /// The version of the schema, major and minor.
@@ -370,15 +350,17 @@ impl GsdWriter {
         }
         let [entries, names] = ROOM;
         let header = Header {
+            magic: MAGIC,
             index: [HEADER, entries],
             names: [HEADER + entries * ENTRY, names],
             schema_version: version_word(schema_version),
             version: VERSION,
-            application: application.to_owned(),
-            schema: schema.to_owned(),
+            application: field(application),
+            schema: field(schema),
+            reserved: [0; 10],
         };
         let mut file = File::options().read(true).write(true).create(true).truncate(true).open(path)?;
-        file.write_all(&header.bytes())?;
+        file.write_all(bytemuck::bytes_of(&header))?;
         let length = header.names[0] + names * NAME;
         file.set_len(length)?;
         file.sync_all()?;
@@ -504,12 +486,12 @@ impl GsdWriter {
     /// Where they cannot be written; the frames of the last time are still there.
     pub fn sync(&mut self) -> io::Result<()> {
         self.write_buffer()?;
-        let mut header = self.header.clone();
+        let mut header = self.header;
         self.list_names(&mut header)?;
         self.make_room(&mut header)?;
         self.file.sync_all()?;
         if (header.index, header.names) != (self.header.index, self.header.names) {
-            self.write_at(0, &header.bytes())?;
+            self.write_at(0, bytemuck::bytes_of(&header))?;
             self.file.sync_all()?;
         }
         self.header = header;

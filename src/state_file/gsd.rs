@@ -3,7 +3,7 @@
 //! A file that is damaged, or changes meanwhile, is refused, and of a long trajectory nothing but two frames is read. A frame takes
 //! what it lacks from the first one, and that from the defaults of the schema.
 
-use super::file_layer::{Chunk, Cursor, GsdError, GsdReader};
+use super::file_layer::{Chunk, Cursor, GsdError, GsdReader, until_zero};
 use super::{
     FROZEN_IN_GSD, Fits, Links, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements,
     frozen_layers, place_of_frame, triclinic,
@@ -136,8 +136,7 @@ impl Gsd {
         }
         let bytes = self.bytes(name, entry)?;
         let rows = bytes.chunks(entry.columns.max(1) as usize);
-        let text =
-            |row: &[u8]| String::from_utf8_lossy(row.split(|byte| *byte == 0).next().unwrap_or_default()).into_owned();
+        let text = |row: &[u8]| String::from_utf8_lossy(until_zero(row)).into_owned();
         let names: Vec<String> = rows.map(text).collect();
         Ok(Some(names).filter(|names| !names.is_empty()))
     }
@@ -162,10 +161,7 @@ impl Gsd {
         rows: u64,
         first_serves: bool,
     ) -> Result<Option<Vec<[f64; COLUMNS]>>, Mistakes> {
-        match self.entry_or_first(name, first_serves) {
-            Some(entry) => self.numbers(name, entry, rows).map(Some),
-            None => Ok(None),
-        }
+        self.entry_or_first(name, first_serves).map(|entry| self.numbers(name, entry, rows)).transpose()
     }
 
     /// Bonds or angles, type by type.
@@ -227,9 +223,7 @@ impl Gsd {
         }
         let masses = masses.finish(&species, &mut mistakes);
         let (bonds, angles) = (self.links("bonds")?, self.links("angles")?);
-        if !mistakes.is_empty() {
-            return Err(mistakes);
-        }
+        mistakes.refuse()?;
         Ok(ParticleFile {
             labelled: true,
             types,

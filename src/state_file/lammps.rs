@@ -6,7 +6,7 @@
 use super::atom_style::AtomStyle;
 use super::lines::Lines;
 use super::tally::Tally;
-use super::{FORMATS, Fits, Links, Mistake, Mistakes, ParticleFile, box_mistake, shortened, triclinic};
+use super::{FORMATS, Fits, Links, Mistake, Mistakes, ParticleFile, box_mistake, shortened, triclinic, vector};
 use crate::state::MOST_PARTICLES;
 use std::collections::HashMap;
 use std::fs::File;
@@ -204,7 +204,7 @@ impl Reader<'_> {
         for (types, name) in self.kinds.iter_mut().zip(["atom types", "bond types", "angle types"]) {
             types.count = self.header.count(name) as u32;
         }
-        if self.mistakes.is_empty() { Ok(()) } else { Err(std::mem::take(&mut self.mistakes)) }
+        std::mem::take(&mut self.mistakes).refuse()
     }
 
     fn header_line(&mut self, text: &str, length: u64) {
@@ -353,7 +353,7 @@ impl Reader<'_> {
             Section::Velocities => {
                 let read = || {
                     let [id, velocity @ ..] = words else { return None };
-                    Some((id.parse().ok()?, vector(velocity)?))
+                    Some((id.parse().ok()?, vector(velocity, |word| word.parse().ok())?))
                 };
                 self.velocities.push(read().ok_or("an id and three numbers")?);
             }
@@ -389,8 +389,8 @@ impl Reader<'_> {
     ) -> Result<([u64; LENGTH], u32), String> {
         let [_, kind, ends @ ..] = words else { return Err(accepted.to_owned()) };
         let kind = self.kinds[of].place(kind).ok_or_else(|| self.accepted_type(of))?;
-        let ids: Option<Vec<u64>> = ends.iter().take(LENGTH).map(|word| word.parse().ok()).collect();
-        Ok((ids.and_then(|ids| ids.try_into().ok()).ok_or(accepted)?, kind))
+        let ids = ends.get(..LENGTH).and_then(|ends| vector(ends, |word| word.parse().ok()));
+        Ok((ids.ok_or(accepted)?, kind))
     }
 
     fn accepted_type(&self, of: usize) -> String {
@@ -429,13 +429,11 @@ impl Reader<'_> {
         let atom = style.split(words).ok_or_else(|| style.accepted())?;
         let id = atom.id.parse::<u64>().map_err(|_| style.accepted())?;
         let kind = self.kinds[0].place(atom.kind).ok_or_else(|| self.accepted_type(0))?;
-        let position = vector(atom.position).ok_or_else(|| style.accepted())?;
-        let turns: Option<Vec<i32>> = atom.images.iter().map(|word| word.parse().ok()).collect();
-        let image = match turns.as_deref() {
-            Some([]) => None,
-            Some([x, y, z]) => Some([*x, *y, *z]),
-            _ => return Err("images, whole numbers from -2147483648 to 2147483647".to_owned()),
-        };
+        let position = vector(atom.position, |word| word.parse().ok()).ok_or_else(|| style.accepted())?;
+        // There are three, or none.
+        let image = (!atom.images.is_empty()).then(|| vector(atom.images, |word| word.parse().ok()));
+        let accepted = "images, whole numbers from -2147483648 to 2147483647";
+        let image = image.map(|image| image.ok_or(accepted)).transpose()?;
         self.atoms.push(Atom { id, kind, position, image });
         Ok(())
     }
@@ -446,7 +444,7 @@ impl Reader<'_> {
             return (Vec::new(), Vec::new());
         }
         let mut velocities = vec![None; ids.len()];
-        let (mut strange, mut again, mut missing) = (Tally::default(), Tally::default(), Tally::default());
+        let (mut strange, mut again) = (Tally::default(), Tally::default());
         for (id, velocity) in &self.velocities {
             match ids.binary_search(id).map(|place| &mut velocities[place]) {
                 Ok(known @ None) => *known = Some(*velocity),
@@ -454,9 +452,8 @@ impl Reader<'_> {
                 Err(_) => strange.add(|| id.to_string()),
             }
         }
-        for (id, _) in ids.iter().zip(&velocities).filter(|(_, velocity)| velocity.is_none()) {
-            missing.add(|| id.to_string());
-        }
+        let missing = ids.iter().zip(&velocities).filter(|(_, velocity)| velocity.is_none());
+        let missing: Tally = missing.map(|(id, _)| id).collect();
         let accepted =
             "one line for every atom of the section `Atoms`; or `velocities` that are \"thermal\" or \"rest\"";
         let found = [
@@ -470,14 +467,10 @@ impl Reader<'_> {
 
     fn finish(mut self) -> Result<ParticleFile, Mistakes> {
         // What a line that is refused should have said is missing elsewhere.
-        if !self.mistakes.is_empty() {
-            return Err(self.mistakes);
-        }
+        std::mem::take(&mut self.mistakes).refuse()?;
         self.atoms.sort_by_key(|atom| atom.id);
-        let mut again = Tally::default();
-        for pair in self.atoms.windows(2).filter(|pair| pair[0].id == pair[1].id) {
-            again.add(|| pair[0].id.to_string());
-        }
+        let pairs = self.atoms.windows(2);
+        let again: Tally = pairs.filter(|pair| pair[0].id == pair[1].id).map(|pair| pair[0].id).collect();
         self.mistakes.extend(again.mistake("atom", "more than once", "an id of its own for every atom"));
         let numbers: Vec<u64> = self.atoms.iter().map(|atom| atom.id).collect();
         let place = |id: u64| numbers.binary_search(&id).ok();
@@ -492,9 +485,7 @@ impl Reader<'_> {
         if self.atoms.is_empty() && self.mistakes.is_empty() && self.header.count("atoms") > 0 {
             self.mistakes.push(Mistake::new("", "there are no atoms", FORMATS));
         }
-        if !self.mistakes.is_empty() {
-            return Err(self.mistakes);
-        }
+        self.mistakes.refuse()?;
         self.masses.resize(self.kinds[0].count as usize, None);
         let bounds = self.header.bounds.map(Option::unwrap_or_default);
         Ok(ParticleFile {
@@ -515,12 +506,6 @@ impl Reader<'_> {
             ..ParticleFile::default()
         })
     }
-}
-
-/// Three numbers.
-fn vector(words: &[&str]) -> Option<[f64; 3]> {
-    let numbers: Option<Vec<f64>> = words.iter().map(|word| word.parse().ok()).collect();
-    numbers?.try_into().ok()
 }
 
 /// Bonds or angles by type, with places in place of ids.

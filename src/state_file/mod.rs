@@ -158,6 +158,11 @@ impl Mistakes {
         self.listed.is_empty()
     }
 
+    /// Refuses the file if there are any.
+    fn refuse(self) -> Result<(), Self> {
+        if self.is_empty() { Ok(()) } else { Err(self) }
+    }
+
     fn into_list(mut self) -> Vec<Mistake> {
         if self.unlisted > 0 {
             let count = self.unlisted;
@@ -395,12 +400,12 @@ impl ParticleFile {
     #[must_use]
     pub fn mistakes_of_velocities(&self, dimension: usize) -> Vec<Mistake> {
         let mut mistakes = self.velocity_mistakes.clone();
-        let mut endless = Tally::default();
-        for (particle, velocity) in self.velocities.iter().enumerate() {
-            if velocity[..dimension].iter().any(|value| !value.is_finite()) {
-                endless.add(|| self.number(particle).to_string());
-            }
-        }
+        let is_endless = |velocity: &[f64; 3]| velocity[..dimension].iter().any(|value| !value.is_finite());
+        let velocities = self.velocities.iter().enumerate();
+        let endless: Tally = velocities
+            .filter(|(_, velocity)| is_endless(velocity))
+            .map(|(particle, _)| self.number(particle))
+            .collect();
         let what = "with velocities that are no finite numbers";
         mistakes.extend(endless.mistake("particle", what, "finite numbers"));
         mistakes
@@ -409,7 +414,7 @@ impl ParticleFile {
     /// Bonds and angles join particles that are there, all different, and each set of them once.
     fn check_links<const LENGTH: usize>(&self, all: &[Links<LENGTH>], noun: &str, mistakes: &mut Mistakes) {
         for links in all {
-            let (mut missing, mut repeated, mut again) = (Tally::default(), Tally::default(), Tally::default());
+            let (mut missing, mut repeated) = (Tally::default(), Tally::default());
             let named = |members: &[u32; LENGTH]| {
                 let numbers: Vec<String> =
                     members.iter().map(|member| self.number(*member as usize).to_string()).collect();
@@ -427,9 +432,7 @@ impl ParticleFile {
                 }
             }
             known.sort_unstable();
-            for pair in known.windows(2).filter(|pair| pair[0] == pair[1]) {
-                again.add(|| named(&pair[0]));
-            }
+            let again = known.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| named(&pair[0])).collect();
             let mut refuse = |tally: Tally, what: &str, accepted: &str| {
                 mistakes.extend(tally.mistake(noun, &format!("of type `{}`, {what}", links.name), accepted));
             };
@@ -439,6 +442,11 @@ impl ParticleFile {
             refuse(again, "more than once", &format!("every {noun} once"));
         }
     }
+}
+
+/// Numbers that as many words say.
+fn vector<T, const LENGTH: usize>(words: &[&str], read: impl Fn(&str) -> Option<T>) -> Option<[T; LENGTH]> {
+    words.iter().map(|word| read(word)).collect::<Option<Vec<T>>>()?.try_into().ok()
 }
 
 /// What lengths and masses may differ by, as parts of themselves: files in single precision round.

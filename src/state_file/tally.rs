@@ -1,6 +1,7 @@
 //! Things of one kind: a few named, all counted.
 
 use super::Mistake;
+use std::fmt::Display;
 
 /// Things of one kind: a few named, all counted.
 #[derive(Debug, Clone, Default)]
@@ -38,17 +39,23 @@ impl Tally {
     }
 }
 
+impl<T: Display> FromIterator<T> for Tally {
+    fn from_iter<I: IntoIterator<Item = T>>(names: I) -> Self {
+        let mut tally = Self::default();
+        names.into_iter().for_each(|name| tally.add(|| name.to_string()));
+        tally
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_few_are_named_and_all_counted() {
-        let mut tally = Tally::default();
-        assert_eq!(tally.phrase("atom"), None);
-        tally.add(|| "7".to_owned());
-        assert_eq!(tally.phrase("atom").as_deref(), Some("atom 7"));
-        (0..9).for_each(|number| tally.add(|| number.to_string()));
-        assert_eq!(tally.phrase("atom").as_deref(), Some("atoms 7, 0, 1, 2, 3 and 5 more"));
+        let phrase = |numbers: &[u64]| numbers.iter().collect::<Tally>().phrase("atom");
+        assert_eq!(phrase(&[]), None);
+        assert_eq!(phrase(&[7]).as_deref(), Some("atom 7"));
+        assert_eq!(phrase(&[7, 0, 1, 2, 3, 4, 5, 6, 7, 8]).as_deref(), Some("atoms 7, 0, 1, 2, 3 and 5 more"));
     }
 }
