@@ -178,18 +178,13 @@ const LISTED: usize = 20;
 
 fn list(scene: &str, problems: &[Problem], more: usize) -> String {
     let count = problems.len() + more;
-    let mut text =
-        format!("scene `{}` has {count} mistake{}:", printable::name(scene), if count == 1 { "" } else { "s" });
-    for problem in problems.iter().take(LISTED) {
-        text.push_str("\n  ");
-        text.push_str(&problem.to_string());
-    }
+    let plural = if count == 1 { "" } else { "s" };
+    let mut lines = vec![format!("scene `{}` has {count} mistake{plural}:", printable::name(scene))];
+    lines.extend(problems.iter().take(LISTED).map(ToString::to_string));
     if count > LISTED {
-        text.push_str("\n  and ");
-        text.push_str(&(count - LISTED).to_string());
-        text.push_str(" more");
+        lines.push(format!("and {} more", count - LISTED));
     }
-    text
+    lines.join("\n  ")
 }
 
 /// The name nearest to one that is not known, as a question in brackets.
