@@ -53,7 +53,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let run: StabilityRun = study.study(|scene| {
         let references =
             References::parse(&comparison.reference).map_err(|mistakes| StudyError::Arguments { mistakes })?;
-        Ok(Request::load_for(scene, &study.set, study.steps, &arguments.vary)?
+        Ok(Request::load(scene, &study.set, study.steps, &arguments.vary)?
             .with_tolerance(arguments.tolerance)?
             .with_bisections(arguments.bisections)
             .with_measures(&arguments.measure, references)?)

@@ -83,7 +83,7 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
             row.extend(shown(&variant.means, &is_spoilt));
             row.push(format!("{:.2} s", variant.wall_seconds));
         } else {
-            row.push(variant.state.name().to_owned());
+            row.push(variant.state.to_string());
         }
         rows.push(row);
     }

@@ -121,7 +121,7 @@ fn request(scene: &str, arguments: &Arguments) -> Result<Request, Failure> {
     }
     let length = Length { error: arguments.error, budget: arguments.budget };
     let VariantArguments { vary, also } = &arguments.variants;
-    Ok(Request::load_for(scene, &arguments.study.set, arguments.study.steps, vary, also)?
+    Ok(Request::load(scene, &arguments.study.set, arguments.study.steps, vary, also)?
         .with_length(length)
         .with_measures(&arguments.measure)?
         .with_references(references)?

@@ -23,15 +23,16 @@ use std::path::Path;
 /// assert_ne!(Id::of_run(&scene("seed=2")?), id);
 /// # Ok::<(), mesoscope::scene::SceneError>(())
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub struct Id {
     kind: Kind,
     checksum: u64,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 enum Kind {
+    #[default]
     Run,
     Sweep,
 }

@@ -130,13 +130,13 @@ mod tests {
         let directory = tempfile::tempdir().unwrap();
         let path = directory.path().join("oscillators.json");
         std::fs::write(&path, scene).unwrap();
-        let request = Request::load(path.to_str().unwrap(), &[], &["time.step=0.01..2/6".to_owned()]).unwrap();
+        let request = Request::load(path.to_str().unwrap(), &[], None, &["time.step=0.01..2/6".to_owned()]).unwrap();
         let found = bounds(&request, 0).unwrap();
         assert_eq!((found.within.len(), found.outside.len()), (1, 0), "{found:?}");
         assert!((found.within[0].at - 0.5).abs() < 1e-3 && found.within[0].is_of_stability, "{found:?}");
         // It does not vanish where it lies beyond the values, or below them.
         for range in ["0.01..0.1/3", "0.8..2/3", "0.1..0.2/2:linear", "0.3,0.4"] {
-            let request = Request::load(path.to_str().unwrap(), &[], &[format!("time.step={range}")]).unwrap();
+            let request = Request::load(path.to_str().unwrap(), &[], None, &[format!("time.step={range}")]).unwrap();
             let found = bounds(&request, 0).unwrap();
             assert_eq!((found.within.len(), found.outside.len()), (0, 1), "{range}: {found:?}");
             assert!((found.outside[0].at - 0.5).abs() < 1e-3, "{range}: {found:?}");

@@ -19,7 +19,7 @@ const PARTS: [f64; 3] = [0.25, 0.5, 1.0];
 const FEW: u64 = 3;
 
 /// What became of one scene of a map.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Cell {
     /// The value of the key along its row.
     pub value: f64,
@@ -44,24 +44,9 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// A scene before it has run.
-    fn before(value: f64) -> Self {
-        Self {
-            value,
-            verdict: Verdict::Right,
-            is_certain: true,
-            steps: 0,
-            time_step: None,
-            errors: Vec::new(),
-            reason: None,
-            unequilibrated: Vec::new(),
-            undefined: Vec::new(),
-        }
-    }
-
     /// A scene that is none.
     pub(super) fn refused(value: f64, reason: String) -> Self {
-        Self { verdict: Verdict::Refused, reason: Some(reason), ..Self::before(value) }
+        Self { value, verdict: Verdict::Refused, is_certain: true, reason: Some(reason), ..Self::default() }
     }
 
     /// Why it was refused, or became unstable, in a line.
@@ -92,7 +77,8 @@ impl Cell {
 impl fmt::Display for Cell {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let nothing_is_known = self.verdict == Verdict::Right && self.errors.is_empty() && !self.undefined.is_empty();
-        formatter.write_str(if nothing_is_known { "ran to its end" } else { self.verdict.name() })?;
+        let verdict = if nothing_is_known { "ran to its end".to_owned() } else { self.verdict.to_string() };
+        formatter.write_str(&verdict)?;
         let what = match self.verdict {
             _ if nothing_is_known => self.lacks().unwrap_or_default(),
             Verdict::Right | Verdict::Biased if self.reason.is_none() => {
@@ -130,21 +116,16 @@ pub(super) fn evaluate(
     let mut trial = Trial::new(&gpu, scene)?;
     let (equilibration, every) = (scene.time.equilibration, scene.output.energies.every.max(1));
     let averaged = scene.time.steps.saturating_sub(equilibration);
-    let mut cell = Cell { time_step: Some(scene.time.step), ..Cell::before(value) };
+    let mut cell = Cell { value, time_step: Some(scene.time.step), ..Cell::default() };
     for part in PARTS {
         let more = ((part * averaged as f64 / every as f64).ceil() as u64).saturating_mul(every);
         match trial.advance(equilibration.saturating_add(more), interrupt)? {
             Stop::Interrupted => return Ok(None),
             Stop::Unstable(reason) => {
-                let (verdict, steps) = (Verdict::Unstable, trial.step());
-                return Ok(Some(Cell {
-                    verdict,
-                    is_certain: true,
-                    reason: Some(reason),
-                    steps,
-                    errors: Vec::new(),
-                    ..cell
-                }));
+                (cell.verdict, cell.is_certain, cell.reason) = (Verdict::Unstable, true, Some(reason));
+                cell.steps = trial.step();
+                cell.errors.clear();
+                return Ok(Some(cell));
             }
             Stop::Reached => {}
         }
@@ -171,8 +152,8 @@ pub(super) fn evaluate(
 }
 
 /// Names of measures in a sentence.
-fn listed(measures: &[String]) -> String {
-    measures.iter().map(|measure| format!("`{measure}`")).collect::<Vec<_>>().join(", ")
+pub(super) fn listed<'m>(measures: impl IntoIterator<Item = &'m String>) -> String {
+    measures.into_iter().map(|measure| format!("`{measure}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// How far measures are off, and which are not numbers.
@@ -180,8 +161,7 @@ fn compare(trial: &Trial<'_>, scene: &Scene, measures: &[String], given: &Refere
     let (means, further) = (trial.means(), tradeoff::of_table(&trial.table(), scene));
     let (mut errors, mut lost) = (Vec::new(), Vec::new());
     for measure in measures {
-        let reference = given.find(measure).cloned().or_else(|| tradeoff::predicted(measure, scene));
-        let Some(reference) = reference else { continue };
+        let Some(reference) = given.known(measure, scene) else { continue };
         let mean = || {
             let estimate = means.iter().find(|(name, _)| name == measure).and_then(|(_, estimate)| *estimate);
             estimate.map(|found| Measured {

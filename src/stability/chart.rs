@@ -83,7 +83,7 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
         let name = match verdict {
             Verdict::Right if !summary.compares_nothing() => format!("right within {percent}"),
             Verdict::Right => summary.right_in_a_word().to_owned(),
-            other => other.name().to_owned(),
+            other => other.to_string(),
         };
         panel.series.push(Series::markers(&name, points).with_ink(SeriesInk::Numbered(verdict as usize)));
     }
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn the_line_of_the_first_unstable_run_is_where_that_run_is() {
-        let request = Request::load("dpd-fluid", &[], &["time.step=0.1..0.4/3".to_owned()]).unwrap();
+        let request = Request::load("dpd-fluid", &[], None, &["time.step=0.1..0.4/3".to_owned()]).unwrap();
         let mut summary = StabilitySummary::before(&request);
         for (value, verdict) in [(0.1, Verdict::Right), (0.2, Verdict::Biased), (0.4, Verdict::Unstable)] {
             summary.rows[0].add(Cell { verdict, ..Cell::refused(value, String::new()) });

@@ -1,7 +1,7 @@
 //! The page of a map, in words: how far a scene may go, and where laws and measurement part.
 
 use super::bounds::Bound;
-use super::cell::Cell;
+use super::cell::{Cell, listed};
 use super::request::Request;
 use super::summary::{Row, StabilitySummary};
 use super::verdict::Verdict;
@@ -9,6 +9,7 @@ use crate::numbers::{short, three_digits};
 use crate::study::by_key;
 use crate::study::table::markdown;
 use crate::tradeoff;
+use std::collections::BTreeSet;
 
 /// A law and a measured edge are said to part if they differ by more than this factor.
 const APART: f64 = 1.25;
@@ -139,11 +140,10 @@ fn same_rows(summary: &StabilitySummary) -> Vec<String> {
 pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
     let keys = request.short_keys();
     let key = keys.short(&summary.key);
-    let measures: Vec<String> = summary.measures.iter().map(|measure| format!("`{measure}`")).collect();
     let meaning = if summary.compares_nothing() {
         "Nothing is compared, so that nobody knows whether what ran to its end is right.".to_owned()
     } else {
-        format!("Right means that {} are within {} %.", measures.join(", "), short(100.0 * summary.tolerance()))
+        format!("Right means that {} are within {} %.", listed(&summary.measures), short(100.0 * summary.tolerance()))
     };
     let begun = summary.adapter.as_ref().map(|adapter| {
         let (date, version) = (&summary.date, &summary.mesoscope_version);
@@ -175,7 +175,7 @@ impl StabilitySummary {
     /// What the best of runs are called: right, or only run to the end where nothing is compared.
     #[must_use]
     pub fn right_in_a_word(&self) -> &'static str {
-        if self.compares_nothing() { "ran to its end" } else { Verdict::Right.name() }
+        if self.compares_nothing() { "ran to its end" } else { "right" }
     }
 
     /// What the mark of errors from few samples means, where there are any.
@@ -199,11 +199,8 @@ impl StabilitySummary {
         }
         let few = count(&|cell| !cell.undefined.is_empty());
         if few > 0 {
-            let mut undefined: Vec<String> =
-                cells().flat_map(|cell| &cell.undefined).map(|name| format!("`{name}`")).collect();
-            undefined.sort();
-            undefined.dedup();
-            let undefined = undefined.join(", ");
+            let undefined: BTreeSet<&String> = cells().flat_map(|cell| &cell.undefined).collect();
+            let undefined = listed(undefined);
             lines.push(format!(
                 "{few} of {runs} runs have so few particles that they have no {undefined}, which cannot be compared: of these it is known where runs end, and no more"
             ));
@@ -239,7 +236,7 @@ mod tests {
 
     /// A row that is biased from .04 and unstable from .09.
     fn findings_with(laws: &[(&str, bool, f64)]) -> Vec<String> {
-        let request = Request::load("dpd-fluid", &[], &["time.step=0.02..0.1/3".to_owned()]).unwrap();
+        let request = Request::load("dpd-fluid", &[], None, &["time.step=0.02..0.1/3".to_owned()]).unwrap();
         let mut summary = StabilitySummary::before(&request);
         for (value, verdict) in [(0.03, Verdict::Right), (0.05, Verdict::Biased), (0.1, Verdict::Unstable)] {
             summary.rows[0].add(Cell { verdict, ..Cell::refused(value, String::new()) });

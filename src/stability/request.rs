@@ -6,7 +6,7 @@ use crate::families::StepCheck;
 use crate::output::Id;
 use crate::run;
 use crate::scene::{self, PlotStyle, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
-use crate::study::{LENGTHS, Setting, ShortKeys, StudyError, steps_of};
+use crate::study::{LENGTHS, Setting, ShortKeys, StudyError, WrittenScene};
 use crate::tradeoff::{References, Stretch};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -42,15 +42,9 @@ pub struct Request {
 /// A request as it is written into the summary, and read from there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Arguments {
-    /// The name of the scene in messages.
-    pub scene: String,
-    /// Its text.
-    pub text: String,
-    /// Overrides of all runs.
-    pub set: Vec<String>,
-    /// The number of steps of the scene, to which what is longer is shortened.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub steps: Option<u64>,
+    /// The scene.
+    #[serde(flatten)]
+    pub scene: WrittenScene,
     /// Keys and their values, one or two.
     pub vary: Vec<String>,
     /// The largest error of what is right.
@@ -67,28 +61,19 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// The scene with these overrides and any time step.
-    fn scene(&self, set: &[String]) -> Result<Scene, SceneError> {
-        Ok(self.scene_and_notices(set)?.0)
-    }
-
     /// Refuses single values that make no scene whatever the others are, such as a time step of zero; a key that takes none of its
     /// values is refused with the scene.
     fn check_values(&self, ranges: &[Range]) -> Result<(), StudyError> {
         let mistake = |key: &str, value: &Value| {
             let setting = Setting { key: key.to_owned(), value: value.clone() }.argument();
-            let set: Vec<String> = self.set.iter().cloned().chain([setting]).collect();
-            scene::misshapen(&self.scene, &self.text, &set).map(|problem| format!("`--vary {key}=…`: {problem}"))
+            let problem = scene::misshapen(&self.scene.name, &self.scene.text, &self.scene.overrides([setting]))?;
+            Some(format!("`--vary {key}=…`: {problem}"))
         };
         let of_range = |range: &Range| {
             let wrong: Vec<String> = range.values.iter().filter_map(|value| mistake(&range.key, value)).collect();
             if wrong.len() < range.values.len() { wrong } else { Vec::new() }
         };
         StudyError::refuse(ranges.iter().flat_map(of_range).collect())
-    }
-
-    fn scene_and_notices(&self, set: &[String]) -> Result<(Scene, Vec<Warning>), SceneError> {
-        scene::parse_with(&self.state_files, &self.scene, &self.text, set, self.steps, StepCheck::Allow)
     }
 }
 
@@ -104,29 +89,17 @@ impl Request {
     /// Varies the scene in a file, or a built-in one.
     ///
     /// Each of `vary` is a key with a range, `key=low..high/points`, or with values, `key=value,value,…`. One of them makes a
-    /// row, two a map: `time.step`, or else the second, is varied along rows. Without any the time step is.
+    /// row, two a map: `time.step`, or else the second, is varied along rows. Without any the time step is. With `steps` the
+    /// scene has so many, to which its equilibration is shortened where it does not fit, as [`scene::load_for`] does it; an override of
+    /// `time.steps` is such a number too.
     ///
     /// # Errors
     /// [`StudyError::Arguments`] with all mistakes at once, [`StudyError::Scene`] where no scene of the map is accepted.
-    pub fn load(source: &str, set: &[String], vary: &[String]) -> Result<Self, StudyError> {
-        Self::load_for(source, set, None, vary)
-    }
-
-    /// The same for so many steps of the scene, to which its equilibration is shortened where it does not fit, as
-    /// [`scene::load_for`] does it; an override of `time.steps` is such a number too.
-    ///
-    /// # Errors
-    /// As [`Request::load`].
-    pub fn load_for(source: &str, set: &[String], steps: Option<u64>, vary: &[String]) -> Result<Self, StudyError> {
-        let mut set = set.to_vec();
-        let set_steps = steps_of(&mut set);
-        let (scene, text) = scene::read(source)?;
+    pub fn load(source: &str, set: &[String], steps: Option<u64>, vary: &[String]) -> Result<Self, StudyError> {
+        let scene = WrittenScene::read(source, set, steps)?;
         Self::new(Arguments {
-            state_files: StateFiles::of(&scene),
+            state_files: StateFiles::of(&scene.name),
             scene,
-            text,
-            set,
-            steps: steps.or(set_steps),
             vary: vary.to_vec(),
             tolerance: 0.05,
             references: References::default(),
@@ -154,7 +127,7 @@ impl Request {
         if arguments.vary.len() > 2 {
             mistakes.push(format!("{} keys are varied; accepted: one for a row, two for a map", arguments.vary.len()));
         }
-        let (base, notices) = arguments.scene_and_notices(&arguments.set)?;
+        let (base, notices) = arguments.scene.with([], &arguments.state_files, StepCheck::Allow)?;
         arguments.state_files.note(&base);
         if ranges.is_empty() && mistakes.is_empty() {
             let ([low, high], points) = USUAL;
@@ -228,7 +201,7 @@ impl Request {
                 let near = did_you_mean(near.as_deref());
                 mistakes
                     .push(format!("no run of this scene measures `{measure}`{near}; accepted: {}", known.join(", ")));
-            } else if references.find(measure).is_none() && crate::tradeoff::predicted(measure, &self.base).is_none() {
+            } else if references.known(measure, &self.base).is_none() {
                 mistakes.push(format!("no law says what `{measure}` should be; add `--reference {measure}=VALUE`"));
             }
         }
@@ -264,10 +237,8 @@ impl Request {
 
     /// The look of pictures with changes to it, given as overrides of the scene.
     pub(super) fn style(&self, overrides: &[String]) -> Result<PlotStyle, SceneError> {
-        if overrides.is_empty() {
-            return Ok(self.base.output.plot.clone());
-        }
-        Ok(self.arguments.scene(&[self.arguments.set.as_slice(), overrides].concat())?.output.plot)
+        let Arguments { scene, state_files, .. } = &self.arguments;
+        scene.style(&self.base, [], overrides, state_files)
     }
 
     /// What was shortened in the scene to suit the number of steps.
@@ -324,16 +295,12 @@ impl Request {
         ShortKeys::of(&self.row_key().into_iter().chain([self.along.key.as_str()]).collect::<Vec<_>>())
     }
 
-    /// The overrides of a scene of the map.
-    fn overrides(&self, row: usize, value: f64) -> Vec<String> {
-        let along = Setting { key: self.along.key.clone(), value: number_of(value) };
-        let settings = self.setting(row).into_iter().chain([along]);
-        self.arguments.set.iter().cloned().chain(settings.map(|setting| setting.argument())).collect()
-    }
-
     /// A scene of the map, with the length that the base has.
     pub(super) fn varied(&self, row: usize, value: f64) -> Result<Scene, SceneError> {
-        self.arguments.scene(&self.overrides(row, value))
+        let along = Setting { key: self.along.key.clone(), value: number_of(value) };
+        let settings = self.setting(row).into_iter().chain([along]).map(|setting| setting.argument());
+        let Arguments { scene, state_files, .. } = &self.arguments;
+        Ok(scene.with(settings, state_files, StepCheck::Allow)?.0)
     }
 
     /// A scene of the map, over the common stretch of time.
@@ -370,7 +337,7 @@ mod tests {
 
     fn request(vary: &[&str]) -> Result<Request, StudyError> {
         let vary: Vec<String> = vary.iter().map(|text| (*text).to_owned()).collect();
-        Request::load("dpd-fluid", &["space.box=[6,6,6]".to_owned()], &vary)
+        Request::load("dpd-fluid", &["space.box=[6,6,6]".to_owned()], None, &vary)
     }
 
     #[test]
@@ -426,9 +393,9 @@ mod tests {
         assert!(text.contains("did you mean `pressure`?") && text.contains("--reference pressure=VALUE"), "{text}");
         assert_eq!(measures(&["temperature"]).unwrap().measures(), ["temperature"]);
         assert_eq!(request(&[]).unwrap().measures(), ["temperature", "configurational_temperature"]);
-        let cells = Request::load("voronoi-energy", &[], &[]).unwrap();
+        let cells = Request::load("voronoi-energy", &[], None, &[]).unwrap();
         assert_eq!(cells.measures(), ["limited_exchange_share"]);
-        let water = Request::load("shallow-water", &[], &[]).unwrap();
+        let water = Request::load("shallow-water", &[], None, &[]).unwrap();
         assert_eq!(water.measures(), ["energy_drift"]);
     }
 }

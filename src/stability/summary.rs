@@ -42,7 +42,7 @@ pub struct StabilitySummary {
 }
 
 /// Scenes that differ in one number.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Row {
     /// What it is called; empty for a single row.
     pub label: String,
@@ -149,13 +149,7 @@ impl Record for StabilitySummary {
     const KIND: &'static Kind = &STABILITY;
 
     fn before(request: &Request) -> Self {
-        let row = |row: usize| Row {
-            label: request.row_label(row),
-            setting: request.setting(row),
-            cells: Vec::new(),
-            bounds: Vec::new(),
-            outside: Vec::new(),
-        };
+        let row = |row| Row { label: request.row_label(row), setting: request.setting(row), ..Row::default() };
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
             date: jiff::Timestamp::now().strftime("%Y-%m-%d").to_string(),
@@ -212,8 +206,7 @@ mod tests {
     use super::*;
 
     fn row(verdicts: &[(f64, Verdict)]) -> Row {
-        let (label, bounds, outside) = (String::new(), Vec::new(), Vec::new());
-        let mut row = Row { label, setting: None, cells: Vec::new(), bounds, outside };
+        let mut row = Row::default();
         for (value, verdict) in verdicts {
             row.add(Cell { verdict: *verdict, ..Cell::refused(*value, String::new()) });
         }

@@ -13,7 +13,7 @@ fn columns(summary: &StabilitySummary, row: &Row, cell: &Cell) -> Vec<(String, S
     let setting = row.setting.iter().map(|setting| (setting.key.clone(), plain(&setting.value)));
     let of_run = [
         (summary.key.as_str(), number(Some(cell.value))),
-        ("verdict", cell.verdict.name().to_owned()),
+        ("verdict", cell.verdict.to_string()),
         ("certain", cell.is_certain.to_string()),
         ("steps", cell.steps.to_string()),
         ("time_step", number(cell.time_step)),

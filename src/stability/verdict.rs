@@ -1,16 +1,15 @@
 //! What became of a scene.
 
-use crate::tradeoff::Deviation;
+use crate::tradeoff::{self, Deviation};
 use serde::{Deserialize, Serialize};
-
-/// Standard errors by which a deviation has to be away from the tolerance for a verdict that is certain.
-const CERTAIN: f64 = 2.0;
+use std::fmt;
 
 /// What became of a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// It ran, and everything that is compared is within the tolerance.
+    #[default]
     Right,
     /// It ran, and something is beyond the tolerance.
     Biased,
@@ -23,36 +22,26 @@ pub enum Verdict {
 impl Verdict {
     /// All of them.
     pub(super) const ALL: [Self; 4] = [Self::Right, Self::Biased, Self::Unstable, Self::Refused];
+}
 
-    /// Its word.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Right => "right",
-            Self::Biased => "biased",
-            Self::Unstable => "unstable",
-            Self::Refused => "refused",
-        }
+impl fmt::Display for Verdict {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(formatter)
     }
 }
 
 /// The verdict on a run that came to its end, and whether its deviations are certain enough for it.
 pub(super) fn verdict(deviations: &[Deviation], tolerance: f64) -> (Verdict, bool) {
-    let beyond = |deviation: &Deviation| !deviation.size().is_finite() || deviation.size() > tolerance;
-    let margin =
-        |deviation: &Deviation| (deviation.size() - tolerance) / deviation.uncertainty.unwrap_or(f64::INFINITY);
-    if deviations.iter().any(beyond) {
-        // One that is certain is enough; what is not a number is certainly not right.
-        let is_certain = |deviation: &&Deviation| {
-            !deviation.size().is_finite() || deviation.uncertainty == Some(0.0) || margin(deviation) > CERTAIN
-        };
-        return (
-            Verdict::Biased,
-            deviations.iter().filter(|deviation| beyond(deviation)).any(|found| is_certain(&found)),
-        );
+    // What is not a number is certainly not right.
+    let within = |deviation: &Deviation| {
+        if deviation.size().is_finite() { deviation.within(tolerance) } else { tradeoff::Verdict::Misses }
+    };
+    let mut verdicts = deviations.iter().map(within);
+    if deviations.iter().all(|deviation| deviation.size() <= tolerance) {
+        return (Verdict::Right, verdicts.all(|verdict| verdict == tradeoff::Verdict::Meets));
     }
-    let certain = deviations.iter().all(|found| found.uncertainty == Some(0.0) || margin(found) < -CERTAIN);
-    (Verdict::Right, certain)
+    // One that is certain is enough.
+    (Verdict::Biased, verdicts.any(|verdict| verdict == tradeoff::Verdict::Misses))
 }
 
 #[cfg(test)]

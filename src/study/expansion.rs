@@ -4,6 +4,7 @@ use super::error::{Mistake, StudyError};
 use super::lists::each_once;
 use super::naming::{self, ShortKeys};
 use super::variation::{Setting, Variation, settings};
+use super::written_scene::WrittenScene;
 use crate::families::StepCheck;
 use crate::scene::{self, Scene, SceneError, StateFiles, Warning};
 use serde_json::Value;
@@ -18,14 +19,10 @@ pub(crate) const LENGTHS: [&str; 6] =
 /// A scene, what is varied in it, and the variants that follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
-    /// File or built-in name of the scene.
-    pub(crate) scene: String,
-    /// The scene as it was written.
+    /// The scene, with the number of steps of all variants that do not set it.
+    pub(crate) scene: WrittenScene,
+    /// The scene as JSON.
     pub(crate) base: Value,
-    /// Overrides that apply to all variants.
-    pub(crate) set: Vec<String>,
-    /// The number of steps of all variants that do not set it, to which what is longer is shortened.
-    pub(crate) steps: Option<u64>,
     pub(crate) vary: Vec<Variation>,
     pub(crate) also: Vec<Vec<Setting>>,
     /// Files that variants start from.
@@ -80,15 +77,14 @@ impl Sweep {
         also: &[String],
     ) -> Result<Self, StudyError> {
         let (name, text) = scene::read(source).map_err(StudyError::Scene)?;
-        Self::of_text(&name, &text, (set, steps), vary, also, StateFiles::of(&name), StepCheck::Refuse)
+        let files = StateFiles::of(&name);
+        Self::of_arguments(WrittenScene { name, text, set: set.to_vec(), steps }, vary, also, files, StepCheck::Refuse)
     }
 
-    /// Varies a scene that was read already; `name` is what messages call it, `files` are those that its scenes start from, `step` is
-    /// whether a variant may have a time step that cannot be stable.
-    pub(crate) fn of_text(
-        name: &str,
-        text: &str,
-        (set, steps): (&[String], Option<u64>),
+    /// Varies a scene that was read already; `files` are those that its scenes start from, `step` is whether a variant may have a time
+    /// step that cannot be stable.
+    pub(crate) fn of_arguments(
+        scene: WrittenScene,
         vary: &[String],
         also: &[String],
         files: StateFiles,
@@ -122,27 +118,24 @@ impl Sweep {
             mistakes.push(format!("there are more than {MOST_VARIANTS} combinations of values to vary"));
         }
         StudyError::refuse(mistakes)?;
-        let Ok(base) = serde_json::from_str(text.trim_start_matches('\u{feff}')) else {
-            // The reader of scenes says what is wrong in better words.
-            return Err(scene::parse(name, text, set)
-                .err()
-                .map_or_else(|| StudyError::mistake("the scene is not JSON"), StudyError::Scene));
-        };
-        let (scene, set, variants) = (name.to_owned(), set.to_vec(), Vec::new());
-        Self { scene, base, set, steps, vary: read, also: further, files, variants }.expand(text, step)
+        Self::new(scene, read, further, files, step)
     }
 
-    /// The sweep of a summary.
-    pub(crate) fn again(
-        scene: String,
-        base: Value,
-        (set, steps): (Vec<String>, Option<u64>),
+    /// The variants of a scene, all of which are checked.
+    pub(crate) fn new(
+        scene: WrittenScene,
         vary: Vec<Variation>,
         also: Vec<Vec<Setting>>,
         files: StateFiles,
+        step: StepCheck,
     ) -> Result<Self, StudyError> {
-        let text = base.to_string();
-        Self { scene, base, set, steps, vary, also, files, variants: Vec::new() }.expand(&text, StepCheck::Refuse)
+        let Ok(base) = serde_json::from_str(scene.text.trim_start_matches('\u{feff}')) else {
+            // The reader of scenes says what is wrong in better words.
+            return Err(scene::parse(&scene.name, &scene.text, &scene.set)
+                .err()
+                .map_or_else(|| StudyError::mistake("the scene is not JSON"), StudyError::Scene));
+        };
+        Self { scene, base, vary, also, files, variants: Vec::new() }.expand(step)
     }
 
     /// The variants, in order.
@@ -163,8 +156,8 @@ impl Sweep {
         each_once(varied.chain(self.also.iter().flatten().map(|setting| setting.key.as_str())))
     }
 
-    /// The same with its variants, of the scene in a text.
-    fn expand(mut self, text: &str, step: StepCheck) -> Result<Self, StudyError> {
+    /// The same with its variants.
+    fn expand(mut self, step: StepCheck) -> Result<Self, StudyError> {
         let counts: Vec<usize> = self.vary.iter().map(|variation| variation.values.len()).collect();
         let combined = combinations(&counts).into_iter().map(|places| {
             let setting = |(variation, place): (&Variation, &usize)| Setting {
@@ -180,11 +173,11 @@ impl Sweep {
         let mut variants = Vec::new();
         let mut mistakes: Vec<Mistake> = Vec::new();
         for ((settings, places), variant) in all.into_iter().zip(names) {
-            let overrides: Vec<String> =
-                self.set.iter().cloned().chain(settings.iter().map(Setting::argument)).collect();
+            let overrides = self.scene.overrides(settings.iter().map(Setting::argument));
             let sets_steps = settings.iter().any(|setting| ["time", "time.steps"].contains(&setting.key.as_str()));
-            let steps = self.steps.filter(|_| !sets_steps);
-            let read = |step| scene::parse_with(&self.files, &self.scene, text, &overrides, steps, step);
+            let WrittenScene { name, text, .. } = &self.scene;
+            let steps = self.scene.steps.filter(|_| !sets_steps);
+            let read = |step| scene::parse_with(&self.files, name, text, &overrides, steps, step);
             let (found, refusal) = match (read(StepCheck::Refuse), step) {
                 (Err(SceneError::Invalid { problems, .. }), StepCheck::Allow) => {
                     (read(StepCheck::Allow), problems.first().map(ToString::to_string))
@@ -279,10 +272,10 @@ mod tests {
     fn a_sweep_is_the_same_when_it_is_read_again() {
         let found = sweep(&["temperature=0.1,.30000000000000004", "space.box=[6,6,6],[7,7,7]"], &[]).unwrap();
         let text = serde_json::to_string(&(&found.base, &found.vary, &found.also)).unwrap();
-        let (base, vary, also) = serde_json::from_str(&text).unwrap();
-        let files = found.files.clone();
-        let again = Sweep::again(found.scene.clone(), base, (found.set.clone(), None), vary, also, files).unwrap();
-        assert_eq!(again, found);
+        let (base, vary, also): (Value, _, _) = serde_json::from_str(&text).unwrap();
+        let scene = WrittenScene { text: base.to_string(), ..found.scene.clone() };
+        let again = Sweep::new(scene, vary, also, found.files.clone(), StepCheck::Refuse).unwrap();
+        assert_eq!(Sweep { scene: found.scene.clone(), ..again }, found);
     }
 
     #[test]

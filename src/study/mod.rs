@@ -20,6 +20,7 @@ mod shard_places;
 pub(crate) mod table;
 mod variation;
 mod version;
+mod written_scene;
 
 pub(crate) use concurrency::at_once;
 pub use concurrency::default_jobs;
@@ -37,5 +38,6 @@ pub use run::{LONG, Observer, StudyEvent, StudyOutcome, StudyRun, redraw};
 pub(crate) use run::{in_hours, largest};
 pub use shard::Shard;
 pub(crate) use shard_places::{RECORD as SHARD_RECORD, claim as claim_shard, claim_study, name_in_study};
+pub(crate) use variation::settings;
 pub use variation::{Setting, Variation};
-pub(crate) use variation::{settings, steps_of};
+pub(crate) use written_scene::WrittenScene;

@@ -1,5 +1,6 @@
 //! Tables of numbers and words, as comma-separated text and in Markdown.
 
+use super::variation::Setting;
 use crate::numbers::push_exact;
 use crate::output::quoted;
 use serde_json::Value;
@@ -34,6 +35,12 @@ pub(crate) fn number(value: Option<f64>) -> String {
 /// The value of a setting: text bare, and all else as JSON.
 pub(crate) fn plain(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// The values of keys in the settings of a run, under the names of the keys; nothing where they are not set.
+pub(crate) fn settings_of_keys(settings: &[Setting], keys: &[&str]) -> Vec<(String, String)> {
+    let value = |key: &&str| settings.iter().find(|setting| setting.key == *key).map(|setting| plain(&setting.value));
+    keys.iter().map(|key| ((*key).to_owned(), value(key).unwrap_or_default())).collect()
 }
 
 /// A table in Markdown whose first column is aligned to the left, and the others as `rule` says: `---`, or `--:` for numbers.

@@ -21,19 +21,19 @@ pub(crate) struct Observable {
 /// All numbers of a variant, in order.
 pub(super) fn observables(variant: &VariantSummary) -> Vec<Observable> {
     let is_spoilt = |name: &str| variant.unequilibrated.as_ref().is_some_and(|found| found.includes(name));
-    let mean = |name: &String, mean: &Value| {
-        Some(Observable { unequilibrated: is_spoilt(name), ..observable(name.clone(), mean)? })
-    };
-    let means = variant.means.iter().filter_map(|(name, found)| mean(name, found));
-    let results = variant.results.iter().flat_map(|(name, result)| results(name, result));
-    means.chain(results).collect()
+    let noted = |found: Observable| Observable { unequilibrated: is_spoilt(&found.name), ..found };
+    numbers_of(&variant.means, &variant.results).into_iter().map(noted).collect()
 }
 
 /// The numbers among the means and results of a run.
 pub(crate) fn numbers_of(means: &Map<String, Value>, results: &Map<String, Value>) -> Vec<Observable> {
     let means = means.iter().filter_map(|(name, found)| observable(name.clone(), found));
-    let results = results.iter().flat_map(|(name, result)| self::results(name, result));
-    means.chain(results).collect()
+    // Those in the result of an analysis: `radial_distribution.peak_height`.
+    let of_analysis = |(name, result): (&String, &Value)| {
+        let entries = result.as_object().into_iter().flatten();
+        entries.filter_map(|(key, value)| observable(format!("{name}.{key}"), value)).collect::<Vec<_>>()
+    };
+    means.chain(results.iter().flat_map(of_analysis)).collect()
 }
 
 /// A number, or an object with a mean or a value and maybe a standard error.
@@ -42,10 +42,4 @@ pub(super) fn observable(name: String, found: &Value) -> Option<Observable> {
     let error = found["standard_error"].as_f64();
     let from_few_samples = error.is_some() && found["converged"] == false;
     Some(Observable { name, value, error, from_few_samples, unequilibrated: false })
-}
-
-/// The numbers in the result of an analysis: `radial_distribution.peak_height`.
-fn results(name: &str, result: &Value) -> Vec<Observable> {
-    let entries = result.as_object().into_iter().flatten();
-    entries.filter_map(|(key, value)| observable(format!("{name}.{key}"), value)).collect()
 }

@@ -4,28 +4,9 @@ use super::run::SweepOutcome;
 use super::summary::SweepSummary;
 use super::variant::{VariantState, VariantSummary};
 use crate::gpu::AdapterChoice;
-use crate::output::summary::AdapterSummary;
-use crate::output::{Id, OutputError, RunDirectory};
+use crate::output::RunDirectory;
 use crate::study::{self, Observer, Record, SHARD_RECORD, Shard, StudyError, StudyEvent, StudyRun};
-use serde::Serialize;
-
-/// What a shard says of itself in its own directory.
-#[derive(Serialize)]
-struct ShardSummary<'s> {
-    mesoscope_version: &'static str,
-    sweep_id: Id,
-    shard: String,
-    adapter: Option<&'s AdapterSummary>,
-    variants: Vec<Entry<'s>>,
-}
-
-#[derive(Serialize)]
-struct Entry<'s> {
-    name: &'s str,
-    state: VariantState,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    failure: Option<&'s str>,
-}
+use serde_json::json;
 
 impl StudyRun<SweepSummary> {
     /// Runs the variants of one shard that are not finished, and leaves tables and plots of the sweep to who gathers them: the sweep
@@ -135,18 +116,20 @@ impl StudyRun<SweepSummary> {
     fn note(&self, place: &RunDirectory, shard: Shard, own: &[usize]) -> Result<(), StudyError> {
         let entry = |number: &usize| {
             let VariantSummary { name, state, failure, .. } = &self.summary.variants[*number];
-            Entry { name, state: *state, failure: failure.as_deref() }
+            let mut entry = json!({"name": name, "state": state});
+            entry
+                .as_object_mut()?
+                .extend(failure.iter().map(|failure| ("failure".to_owned(), failure.as_str().into())));
+            Some(entry)
         };
-        let summary = ShardSummary {
-            mesoscope_version: env!("CARGO_PKG_VERSION"),
-            sweep_id: self.summary.sweep_id,
-            shard: shard.to_string(),
-            adapter: self.summary.adapter.as_ref(),
-            variants: own.iter().map(entry).collect(),
-        };
-        let text = serde_json::to_string_pretty(&summary)
-            .map_err(|source| OutputError::Json { path: place.file(SHARD_RECORD), source })?;
-        place.write(SHARD_RECORD, |writer| writeln!(writer, "{text}"))?;
+        let summary = json!({
+            "mesoscope_version": env!("CARGO_PKG_VERSION"),
+            "sweep_id": self.summary.sweep_id,
+            "shard": shard.to_string(),
+            "adapter": self.summary.adapter,
+            "variants": own.iter().filter_map(entry).collect::<Vec<_>>(),
+        });
+        place.write(SHARD_RECORD, |writer| writeln!(writer, "{summary:#}"))?;
         Ok(())
     }
 }

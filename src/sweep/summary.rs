@@ -4,10 +4,11 @@ use super::averages::{SeedAverage, averages};
 use super::look::Look;
 use super::variant::{VariantState, VariantSummary};
 use super::{files, plots, table};
+use crate::families::StepCheck;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, RunDirectory};
-use crate::scene::{self, PlotStyle, SceneError, StateFiles};
-use crate::study::{self, Charts, Kind, Record, SWEEP, Setting, StudyError, Sweep, Variation};
+use crate::scene::{PlotStyle, SceneError, StateFiles};
+use crate::study::{self, Charts, Kind, Record, SWEEP, Setting, StudyError, Sweep, Variation, WrittenScene};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::convert::Infallible;
@@ -103,12 +104,12 @@ impl Record for SweepSummary {
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
             sweep_id: Id::of_sweep(variants.iter().map(|variant| variant.run_id)),
-            scene: sweep.scene.clone(),
+            scene: sweep.scene.name.clone(),
             adapter: None,
             vary: sweep.vary.clone(),
             also: sweep.also.clone(),
-            set: sweep.set.clone(),
-            steps: sweep.steps,
+            set: sweep.scene.set.clone(),
+            steps: sweep.scene.steps,
             plots: Look::default(),
             variants,
             averages: Vec::new(),
@@ -118,9 +119,9 @@ impl Record for SweepSummary {
     }
 
     fn request(&self) -> Result<Sweep, StudyError> {
-        let (scene, base, set) = (self.scene.clone(), self.base.clone(), self.set.clone());
-        let files = self.state_files.clone();
-        Sweep::again(scene, base, (set, self.steps), self.vary.clone(), self.also.clone(), files)
+        let (name, text, set) = (self.scene.clone(), self.base.to_string(), self.set.clone());
+        let scene = WrittenScene { name, text, set, steps: self.steps };
+        Sweep::new(scene, self.vary.clone(), self.also.clone(), self.state_files.clone(), StepCheck::Refuse)
     }
 
     fn checks(&self, sweep: &Sweep) -> Vec<(bool, &'static str)> {
@@ -164,12 +165,7 @@ impl Record for SweepSummary {
     /// That of the first variant.
     fn style(&self, sweep: &Sweep, overrides: &[String]) -> Result<PlotStyle, SceneError> {
         let Some(first) = sweep.variants().first() else { return Ok(PlotStyle::default()) };
-        if overrides.is_empty() {
-            return Ok(first.scene.output.plot.clone());
-        }
-        let settings: Vec<String> = first.settings.iter().map(Setting::argument).collect();
-        let overrides = [self.set.as_slice(), &settings, overrides].concat();
-        Ok(scene::parse_for(&self.scene, &self.base.to_string(), &overrides, self.steps)?.0.output.plot)
+        sweep.scene.style(&first.scene, first.settings.iter().map(Setting::argument), overrides, &sweep.files)
     }
 
     fn progress(&self) -> String {

@@ -4,8 +4,8 @@ use super::averages::{SEED, SeedAverage};
 use super::observables::{Observable, observable, observables};
 use super::summary::SweepSummary;
 use super::variant::VariantSummary;
-use crate::study::table::{number, plain, rows};
-use crate::study::{Setting, by_key};
+use crate::study::by_key;
+use crate::study::table::{number, rows, settings_of_keys};
 
 /// The table of variants; `keys` are those that distinguish them.
 pub(super) fn text(summary: &SweepSummary, keys: &[&str]) -> String {
@@ -18,8 +18,8 @@ pub(super) fn text(summary: &SweepSummary, keys: &[&str]) -> String {
             ("particle_steps_per_second", variant.particle_steps_per_second),
         ];
         let mut cells = vec![("variant".to_owned(), variant.name.clone())];
-        cells.extend(values(&variant.settings, keys));
-        cells.push(("state".to_owned(), variant.state.name().to_owned()));
+        cells.extend(settings_of_keys(&variant.settings, keys));
+        cells.push(("state".to_owned(), variant.state.to_string()));
         cells.extend(of_run.map(|(name, value)| (name.to_owned(), number(has_ended.then_some(value)))));
         (cells, observables(variant))
     };
@@ -30,7 +30,7 @@ pub(super) fn text(summary: &SweepSummary, keys: &[&str]) -> String {
 pub(super) fn averages_text(summary: &SweepSummary, keys: &[&str]) -> Option<String> {
     let keys: Vec<&str> = keys.iter().copied().filter(|key| *key != SEED).collect();
     let row = |average: &SeedAverage| {
-        let mut cells = values(&average.settings, &keys);
+        let mut cells = settings_of_keys(&average.settings, &keys);
         cells.push(("seeds".to_owned(), average.seeds.to_string()));
         let means = average.means.iter().filter_map(|(name, mean)| observable(name.clone(), mean));
         (cells, means.collect())
@@ -40,12 +40,6 @@ pub(super) fn averages_text(summary: &SweepSummary, keys: &[&str]) -> Option<Str
 
 /// Names of columns and cells in front, and what was measured.
 type Row = (Vec<(String, String)>, Vec<Observable>);
-
-/// The values of keys in the settings of a variant; nothing where they are not set.
-fn values(settings: &[Setting], keys: &[&str]) -> Vec<(String, String)> {
-    let value = |key: &&str| settings.iter().find(|setting| setting.key == *key).map(|setting| plain(&setting.value));
-    keys.iter().map(|key| ((*key).to_owned(), value(key).unwrap_or_default())).collect()
-}
 
 /// Lines of cells in front and of all observables with their errors.
 fn table(table: Vec<Row>) -> String {
@@ -74,6 +68,7 @@ mod tests {
     use super::*;
     use crate::output::Id;
     use crate::scene::StateFiles;
+    use crate::study::Setting;
     use serde_json::{Map, Value, json};
 
     fn variant(name: &str, setting: Option<Value>, means: Value, results: Value) -> VariantSummary {

@@ -11,7 +11,7 @@ use std::fmt;
 use std::path::Path;
 
 /// What came out of one variant.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct VariantSummary {
     /// Name of its directory.
     pub name: String,
@@ -46,10 +46,11 @@ pub struct VariantSummary {
 }
 
 /// How far a variant came.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum VariantState {
     /// It has not ended yet.
+    #[default]
     Waiting,
     /// It reached its last step.
     Finished,
@@ -57,15 +58,9 @@ pub enum VariantState {
     Failed,
 }
 
-impl VariantState {
-    /// The word that tables and messages use.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Waiting => "waiting",
-            Self::Finished => "finished",
-            Self::Failed => "failed",
-        }
+impl fmt::Display for VariantState {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(formatter)
     }
 }
 
@@ -77,16 +72,7 @@ impl VariantSummary {
             run_id: Id::of_run(&variant.scene),
             label: variant.label.clone(),
             settings: variant.settings.clone(),
-            state: VariantState::Waiting,
-            failure: None,
-            particles: 0,
-            steps: 0,
-            wall_seconds: 0.0,
-            particle_steps_per_second: 0.0,
-            means: Map::new(),
-            results: Map::new(),
-            unequilibrated: None,
-            warnings: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -94,20 +80,13 @@ impl VariantSummary {
     #[cfg(test)]
     pub(super) fn blank(settings: Vec<Setting>) -> Self {
         Self {
-            name: String::new(),
-            run_id: Id::of_sweep([]),
-            label: String::new(),
             settings,
             state: VariantState::Finished,
-            failure: None,
             particles: 8,
             steps: 10,
             wall_seconds: 0.5,
             particle_steps_per_second: 160.0,
-            means: Map::new(),
-            results: Map::new(),
-            unequilibrated: None,
-            warnings: Vec::new(),
+            ..Self::default()
         }
     }
 

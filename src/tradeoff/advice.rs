@@ -232,8 +232,7 @@ fn nearest(summary: &TradeoffSummary) -> Option<(&Choice, &Target, f64)> {
         let factor = |target| {
             let target: &Target = target;
             let (error, reference) = (choice.error(&target.measure)?, summary.reference(&target.measure)?);
-            let upper = error.size() + 2.0 * error.uncertainty.unwrap_or(0.0);
-            Some((choice, target, upper / target.most(reference.value, error.relative)))
+            Some((choice, target, error.largest() / target.most(reference.value, error.relative)))
         };
         // A choice that lacks a measure is not near.
         let factors: Option<Vec<_>> = summary.arguments.targets.iter().map(factor).collect();
@@ -335,9 +334,7 @@ fn section(summary: &TradeoffSummary, measure: &str) -> Vec<String> {
     }
     paragraphs.extend(front.into_iter().chain(of_schemes));
     let cheapest = |bound: f64| {
-        let is_within = |error: &Deviation| {
-            error.relative && error.uncertainty.is_some_and(|known| error.size() + 2.0 * known <= bound)
-        };
+        let is_within = |error: &Deviation| error.relative && error.within(bound) == Verdict::Meets;
         let (choice, _) = known.iter().find(|(_, error)| is_within(error))?;
         Some(format!("The cheapest within {} %: {}.", short(100.0 * bound), choice.label))
     };

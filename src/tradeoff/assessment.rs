@@ -18,27 +18,20 @@ impl TradeoffSummary {
         let summary = self;
         let arguments = &request.arguments;
         if summary.measures.is_empty() {
-            let finished = summary.choices.iter().find(|choice| choice.state == ChoiceState::Finished);
+            let finished = summary.finished().next();
             let usual = finished.map(|choice| measures::usual(&choice.measured)).unwrap_or_default();
             let measures = if arguments.measures.is_empty() { usual } else { arguments.measures.clone() };
             let further = arguments.targets.iter().map(|target| target.measure.clone());
             let further = further.chain(arguments.references.measures().map(str::to_owned));
             summary.measures = each_once(measures.into_iter().chain(further));
         }
-        let is_finished = |choice: &&Choice| choice.state == ChoiceState::Finished;
-        if summary.choices.iter().any(|choice| is_finished(&choice)) {
-            let lacks = |measure: &&String| {
-                summary.choices.iter().filter(is_finished).all(|choice| choice.value(measure).is_none())
-            };
+        if summary.finished().next().is_some() {
+            let lacks = |measure: &&String| summary.finished().all(|choice| choice.value(measure).is_none());
             let mistake = |measure| format!("no run measured `{measure}`");
             StudyError::refuse(summary.measures.iter().filter(lacks).map(mistake).collect())?;
         }
         let finer: Vec<&[Measured]> = summary.finer.iter().map(|run| run.measured.as_slice()).collect();
-        let reference = |measure: &String| {
-            let given = arguments.references.find(measure).cloned();
-            let predicted = || reference::predicted(measure, &request.base);
-            given.or_else(predicted).or_else(|| reference::finer(measure, FINER, &finer))
-        };
+        let reference = |measure: &String| request.known(measure).or_else(|| reference::finer(measure, FINER, &finer));
         summary.references = summary.measures.iter().filter_map(reference).collect();
         for (choice, variant) in summary.choices.iter_mut().zip(request.sweep.variants()) {
             let error = |reference: &Reference| {

@@ -2,7 +2,11 @@
 
 use super::measures::{self, Measured};
 use super::reference::Reference;
+use super::target::Verdict;
 use serde::{Deserialize, Serialize};
+
+/// Standard errors that an error may lie beyond what was found: one in twenty does by chance.
+const CONFIDENCE: f64 = 2.0;
 
 /// The error of a measure, with its uncertainty.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -62,6 +66,24 @@ impl Deviation {
         self.error.abs()
     }
 
+    /// The largest that the error may be by its uncertainty.
+    pub(super) fn largest(&self) -> f64 {
+        self.size() + CONFIDENCE * self.uncertainty.unwrap_or(0.0)
+    }
+
+    /// Whether it is at most so large, whatever its uncertainty; open where nothing is known of that.
+    pub(crate) fn within(&self, most: f64) -> Verdict {
+        let Some(uncertainty) = self.uncertainty else { return Verdict::Open };
+        let (size, margin) = (self.size(), CONFIDENCE * uncertainty);
+        if size + margin <= most {
+            Verdict::Meets
+        } else if size - margin > most {
+            Verdict::Misses
+        } else {
+            Verdict::Open
+        }
+    }
+
     /// Where it lies on a logarithmic axis, which has no zero: what is zero by chance lies at its uncertainty.
     pub(crate) fn on_log_axis(&self) -> Option<f64> {
         if self.size() > 0.0 { Some(self.size()) } else { self.uncertainty.filter(|error| *error > 0.0) }
@@ -70,7 +92,7 @@ impl Deviation {
     /// Whether the error may as well be zero: it is within two standard errors.
     #[must_use]
     pub fn is_within_noise(&self) -> bool {
-        self.uncertainty.is_some_and(|uncertainty| self.size() <= 2.0 * uncertainty)
+        self.uncertainty.is_some_and(|uncertainty| self.size() <= CONFIDENCE * uncertainty)
     }
 }
 

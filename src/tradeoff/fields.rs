@@ -56,7 +56,7 @@ pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<
     }
     let distances = distances_of(fields.into_iter());
     let mut found: Vec<Measured> =
-        distances.into_iter().map(|(field, distance)| measured(field, DISTANCE, distance)).collect();
+        distances.into_iter().map(|(field, distance)| measured(field, DISTANCE, distance, None)).collect();
     let name = AnalysisId::RadialDistribution.name();
     let [own, other] = [run, finer].map(|place| place.file(&format!("{name}.csv")));
     if own.exists() && other.exists() {
@@ -66,15 +66,14 @@ pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<
             && !own.is_empty()
         {
             let squares: f64 = own.iter().zip(&other).map(|(a, b)| (a - b).powi(2)).sum();
-            found.push(measured(name, DISTANCE, (squares / own.len() as f64).sqrt()));
+            found.push(measured(name, DISTANCE, (squares / own.len() as f64).sqrt(), None));
         }
     }
     Ok(found)
 }
 
-fn measured(name: &str, end: &str, value: f64) -> Measured {
-    let measure = format!("{name}{end}");
-    Measured { measure, value, standard_error: None, fluctuates: false, from_few_samples: false }
+fn measured(name: &str, end: &str, value: f64, standard_error: Option<f64>) -> Measured {
+    Measured::of_one_sample(format!("{name}{end}"), value, standard_error)
 }
 
 /// Fields that say how far a flow is from another, whatever a scene draws.
@@ -115,10 +114,7 @@ pub(super) fn from_exact(scene: &Scene, run: &RunDirectory) -> Result<Vec<Measur
         let exact = (own.0.clone(), exact);
         fields.push((field.stem(), on_common_nodes(&own, &exact)));
     }
-    let from_exact = |(field, distance): (&str, f64)| Measured {
-        standard_error: Some(0.0),
-        ..measured(field, FROM_EXACT, distance)
-    };
+    let from_exact = |(field, distance)| measured(field, FROM_EXACT, distance, Some(0.0));
     Ok(distances_of(fields.into_iter()).into_iter().map(from_exact).collect())
 }
 

@@ -15,7 +15,7 @@ pub(super) const MEASURE: &str = "pressure";
 pub(super) fn summary(vary: &[&str], target: &str, choices: &[Option<(f64, f64, f64)>]) -> (Request, TradeoffSummary) {
     let vary: Vec<String> = vary.iter().map(|varied| (*varied).to_owned()).collect();
     let target = Target::parse(&format!("{MEASURE}={target}")).unwrap();
-    let request = Request::load("dpd-fluid", &[], &vary, &[]).unwrap().with_targets(vec![target]).unwrap();
+    let request = Request::load("dpd-fluid", &[], None, &vary, &[]).unwrap().with_targets(vec![target]).unwrap();
     let given = Reference { measure: MEASURE.to_owned(), value: 20.0, uncertainty: Some(0.0), source: Source::Given };
     let request = request.with_references(super::References::parse(&[format!("{MEASURE}=20")]).unwrap()).unwrap();
     let mut summary = TradeoffSummary::before(&request);

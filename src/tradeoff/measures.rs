@@ -47,6 +47,11 @@ pub struct Measured {
 }
 
 impl Measured {
+    /// A number that more samples make no more certain.
+    pub(super) fn of_one_sample(measure: impl Into<String>, value: f64, standard_error: Option<f64>) -> Self {
+        Self { measure: measure.into(), value, standard_error, fluctuates: false, from_few_samples: false }
+    }
+
     /// The standard error that counts: of what is from few samples it is taken to be larger than what they say.
     #[must_use]
     pub fn uncertainty(&self) -> Option<f64> {
@@ -70,7 +75,9 @@ pub(super) fn of_run(summary: &Summary, scene: &Scene, directory: &RunDirectory)
         .collect();
     let table = run::read_energies(&directory.file(run_files::ENERGIES), scene, summary.steps)?;
     measured.extend(of_table(&table, scene));
-    measured.extend(run::circulation_change(summary).map(|change| certain(CIRCULATION_DRIFT, change)));
+    measured.extend(
+        run::circulation_change(summary).map(|change| Measured::of_one_sample(CIRCULATION_DRIFT, change, Some(0.0))),
+    );
     measured.extend(fields::from_exact(scene, directory)?);
     Ok(measured)
 }
@@ -93,13 +100,8 @@ fn limited_exchange_share(table: &Table, scene: &Scene) -> Option<Measured> {
     let change = |values: Vec<f64>| Some(values.last()? - values.first()?);
     let (cut, steps) = (change(cut?)?, change(times?)? / scene.time.step);
     let faces = FACES_A_CELL * Model::new(scene).particle_count() as f64;
-    (steps > 0.0 && faces > 0.0).then(|| certain(LIMITED_EXCHANGES, cut / (faces * steps)))
-}
-
-/// What has no statistical error.
-fn certain(measure: &str, value: f64) -> Measured {
-    let (measure, standard_error) = (measure.to_owned(), Some(0.0));
-    Measured { measure, value, standard_error, fluctuates: false, from_few_samples: false }
+    let share = || Measured::of_one_sample(LIMITED_EXCHANGES, cut / (faces * steps), Some(0.0));
+    (steps > 0.0 && faces > 0.0).then(share)
 }
 
 /// How far the total energy of a table has gone from its first value; none where that is zero or one is not a number.
@@ -110,7 +112,7 @@ fn energy_drift(table: &Table) -> Option<Measured> {
         return None;
     }
     let value = energies.iter().map(|energy| ((energy - first) / first).abs()).fold(0.0, f64::max);
-    Some(certain(ENERGY_DRIFT, value))
+    Some(Measured::of_one_sample(ENERGY_DRIFT, value, Some(0.0)))
 }
 
 /// Whether the energy of a scene would be constant if its equations of motion were solved exactly, so that its drift is an error.

@@ -20,7 +20,7 @@
 //! # let results = directory.path().join("steps");
 //! let small = ["space.box=[4,4,4]", "time.equilibration=20", "time.steps=120", r#"output={"energies":{"every":2}}"#];
 //! let vary = ["time.step=0.02,0.04".to_owned()];
-//! let request = Request::load("dpd-fluid", &small.map(str::to_owned), &vary, &[])?
+//! let request = Request::load("dpd-fluid", &small.map(str::to_owned), None, &vary, &[])?
 //!     .with_length(Length::default())
 //!     .with_measures(&["temperature".to_owned()])?;
 //! let outcome = TradeoffRun::start(request, &results, false).execute(&AdapterChoice::Best, &mut |_| {})?;

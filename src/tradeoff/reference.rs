@@ -88,6 +88,11 @@ impl References {
         self.0.iter().find(|known| known.measure == measure)
     }
 
+    /// The one of a measure, else what the measure has if equations of motion are solved exactly, where that is known.
+    pub(crate) fn known(&self, measure: &str, scene: &Scene) -> Option<Reference> {
+        self.find(measure).cloned().or_else(|| predicted(measure, scene))
+    }
+
     /// The measures that have one.
     pub(crate) fn measures(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(|reference| reference.measure.as_str())

@@ -1,14 +1,14 @@
 //! What a tradeoff is asked for.
 
 use super::length::Length;
-use super::reference::{self, Reference, References};
+use super::reference::{Reference, References};
 use super::target::Target;
 use super::{fields, measures};
 use crate::families::Model;
 use crate::families::StepCheck;
 use crate::run;
-use crate::scene::{self, AnalysisId, PlotStyle, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
-use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, each_once, settings, steps_of};
+use crate::scene::{AnalysisId, PlotStyle, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
+use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, WrittenScene, each_once, settings};
 use serde::{Deserialize, Serialize};
 
 /// Names of the runs that give references.
@@ -28,17 +28,11 @@ pub struct Request {
 }
 
 /// A request as it is written into the summary, and read from there.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Arguments {
-    /// The name of the scene in messages.
-    pub scene: String,
-    /// Its text.
-    pub text: String,
-    /// Overrides of all runs.
-    pub set: Vec<String>,
-    /// The number of steps of the scene, to which what is longer is shortened.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub steps: Option<u64>,
+    /// The scene.
+    #[serde(flatten)]
+    pub scene: WrittenScene,
     /// Keys and their values.
     pub vary: Vec<String>,
     /// Further choices.
@@ -62,60 +56,34 @@ pub(super) struct Arguments {
 }
 
 impl Arguments {
-    /// The scene with these overrides; its step may be too large, for what becomes of it is a result.
-    pub(super) fn scene(&self, set: &[String]) -> Result<Scene, SceneError> {
-        Ok(self.scene_and_notices(set)?.0)
-    }
-
-    fn scene_and_notices(&self, set: &[String]) -> Result<(Scene, Vec<Warning>), SceneError> {
-        scene::parse_with(&self.state_files, &self.scene, &self.text, set, self.steps, StepCheck::Allow)
+    /// The scene with further overrides; its step may be too large, for what becomes of it is a result.
+    pub(super) fn scene(&self, own: impl IntoIterator<Item = String>) -> Result<Scene, SceneError> {
+        Ok(self.scene.with(own, &self.state_files, StepCheck::Allow)?.0)
     }
 }
 
 impl Request {
-    /// Varies the scene in a file, or a built-in one, as [`Sweep::load`] does, but for time steps that cannot be stable: they are run, too.
+    /// Varies the scene in a file, or a built-in one, as [`Sweep::load`] does, but for time steps that cannot be stable: they are run, too. With
+    /// `steps` the scene has so many, to which its equilibration is shortened where it does not fit, as [`crate::scene::load_for`] does it; an
+    /// override of `time.steps` is such a number too.
     ///
     /// # Errors
     /// [`StudyError::Variants`] or [`StudyError::Arguments`] with all mistakes at once; [`StudyError::Scene`] when there is no such scene.
-    pub fn load(source: &str, set: &[String], vary: &[String], also: &[String]) -> Result<Self, StudyError> {
-        Self::load_for(source, set, None, vary, also)
-    }
-
-    /// The same for so many steps of the scene, to which its equilibration is shortened where it does not fit, as
-    /// [`scene::load_for`] does it; an override of `time.steps` is such a number too.
-    ///
-    /// # Errors
-    /// As [`Request::load`].
-    pub fn load_for(
+    pub fn load(
         source: &str,
         set: &[String],
         steps: Option<u64>,
         vary: &[String],
         also: &[String],
     ) -> Result<Self, StudyError> {
-        let mut set = set.to_vec();
-        let set_steps = steps_of(&mut set);
-        let (scene, text) = scene::read(source)?;
-        Self::new(Arguments {
-            state_files: StateFiles::of(&scene),
-            scene,
-            text,
-            set,
-            steps: steps.or(set_steps),
-            vary: vary.to_vec(),
-            also: also.to_vec(),
-            finer: None,
-            still_finer: None,
-            length: Length::default(),
-            references: References::default(),
-            targets: Vec::new(),
-            measures: Vec::new(),
-        })
+        let scene = WrittenScene::read(source, set, steps)?;
+        let (state_files, vary, also) = (StateFiles::of(&scene.name), vary.to_vec(), also.to_vec());
+        Self::new(Arguments { scene, vary, also, state_files, ..Arguments::default() })
     }
 
     /// The request of a summary, or of a command line.
     pub(super) fn new(mut arguments: Arguments) -> Result<Self, StudyError> {
-        let Arguments { scene, text, set, steps, vary, also, .. } = &arguments;
+        let Arguments { scene, vary, also, .. } = &arguments;
         let varied = vary.iter().filter_map(|argument| Some(Variation::parse(argument).ok()?.key));
         let further = also.iter().filter_map(|argument| settings(argument).ok()).flatten().map(|setting| setting.key);
         let keys: Vec<String> = varied.chain(further).collect();
@@ -127,14 +95,14 @@ impl Request {
         let lengths = LENGTHS.into_iter().filter(|key| keys.iter().any(|known| known == key));
         StudyError::refuse(lengths.map(mistake).collect())?;
         let files = arguments.state_files.clone();
-        let sweep = Sweep::of_text(scene, text, (set, *steps), vary, also, files, StepCheck::Allow)?;
+        let sweep = Sweep::of_arguments(scene.clone(), vary, also, files, StepCheck::Allow)?;
         if sweep.variants().iter().any(|variant| [FINER, COARSER, STILL_FINER].contains(&variant.name.as_str())) {
             return Err(StudyError::mistake(format!(
                 "`{FINER}` and `{STILL_FINER}` are names of runs that references are taken from"
             )));
         }
         arguments.state_files = sweep.files.clone();
-        let (base, notices) = arguments.scene_and_notices(&arguments.set)?;
+        let (base, notices) = arguments.scene.with([], &arguments.state_files, StepCheck::Allow)?;
         arguments.state_files.note(&base);
         Ok(Self { arguments, sweep, base, notices })
     }
@@ -157,9 +125,8 @@ impl Request {
     }
 
     /// The reference of a measure that is known before anything runs.
-    fn known(&self, measure: &str) -> Option<Reference> {
-        let given = self.arguments.references.find(measure).cloned();
-        given.or_else(|| reference::predicted(measure, &self.base))
+    pub(super) fn known(&self, measure: &str) -> Option<Reference> {
+        self.arguments.references.known(measure, &self.base)
     }
 
     /// Those of some measures that are not known to be zero: errors of the others are no parts of anything, and more samples make them no
@@ -228,10 +195,8 @@ impl Request {
         let scene = |name: &'static str| {
             let further = if name == STILL_FINER { &still_finer[..] } else { &[] };
             let step = if name == COARSER { 2.0 * step } else { step_of(further).unwrap_or(step) };
-            let asked = finer.iter().chain(further).map(Setting::argument);
-            let set: Vec<String> =
-                self.arguments.set.iter().cloned().chain(asked).chain([format!("time.step={step}")]).collect();
-            let scene = self.arguments.scene(&set).map_err(|source| StudyError::of_variant(name, source))?;
+            let asked = finer.iter().chain(further).map(Setting::argument).chain([format!("time.step={step}")]);
+            let scene = self.arguments.scene(asked).map_err(|source| StudyError::of_variant(name, source))?;
             Ok((name, scene))
         };
         self.finer_names().into_iter().map(scene).collect()
@@ -245,10 +210,8 @@ impl Request {
 
     /// The look of pictures with changes to it, given as overrides of the scene.
     pub(super) fn style(&self, overrides: &[String]) -> Result<PlotStyle, SceneError> {
-        if overrides.is_empty() {
-            return Ok(self.base.output.plot.clone());
-        }
-        Ok(self.arguments.scene(&[self.arguments.set.as_slice(), overrides].concat())?.output.plot)
+        let Arguments { scene, state_files, .. } = &self.arguments;
+        scene.style(&self.base, [], overrides, state_files)
     }
 
     /// What was shortened in the scene to suit the number of steps.
@@ -328,7 +291,7 @@ mod tests {
 
     fn request(vary: &[&str]) -> Result<Request, StudyError> {
         let owned: Vec<String> = vary.iter().map(|text| (*text).to_owned()).collect();
-        Request::load("dpd-fluid", &[], &owned, &[])
+        Request::load("dpd-fluid", &[], None, &owned, &[])
     }
 
     #[test]

@@ -13,7 +13,7 @@ const STRESS: &str = "stress";
 const MOST_LAGS: u64 = 100_000;
 
 /// A stretch of simulated time: what passes before means are taken, and what they are taken over.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Stretch {
     /// Time of equilibration.
     pub equilibration: f64,

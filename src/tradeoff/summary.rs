@@ -18,7 +18,7 @@ use std::fmt;
 use std::path::Path;
 
 /// What was asked, and what every choice costs and misses.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct TradeoffSummary {
     /// Version of the program that began it.
     pub mesoscope_version: String,
@@ -144,14 +144,9 @@ pub enum ChoiceState {
     Unstable,
 }
 
-impl ChoiceState {
-    /// Its word.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Waiting => "waiting",
-            Self::Finished => "finished",
-            Self::Unstable => "unstable",
-        }
+impl fmt::Display for ChoiceState {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(formatter)
     }
 }
 
@@ -206,8 +201,8 @@ impl TradeoffSummary {
     /// The scene of a choice: its name in messages, its text, and the overrides that make the choice.
     pub(crate) fn scene_of(&self, choice: &Choice) -> (&str, &str, Vec<String>) {
         let settings = choice.settings.iter().map(Setting::argument);
-        let overrides = self.arguments.set.iter().cloned().chain(settings).collect();
-        (&self.arguments.scene, &self.arguments.text, overrides)
+        let scene = &self.arguments.scene;
+        (&scene.name, &scene.text, scene.overrides(settings))
     }
 
     /// Choices that came to their end.
@@ -218,9 +213,8 @@ impl TradeoffSummary {
     /// What a choice changes in the scene, with the numbers of steps that cover the simulated time of the scene where the step differs.
     pub(super) fn lines_of(&self, choice: &Choice) -> Vec<Setting> {
         let mut settings = choice.settings.clone();
-        let parsed = |overrides: &[String]| self.arguments.scene(overrides).ok();
-        let (_, _, overrides) = self.scene_of(choice);
-        let Some((base, chosen)) = parsed(&self.arguments.set).zip(parsed(&overrides)) else { return settings };
+        let parsed = |settings: &[Setting]| self.arguments.scene(settings.iter().map(Setting::argument)).ok();
+        let Some((base, chosen)) = parsed(&[]).zip(parsed(&settings)) else { return settings };
         if base.time.step != chosen.time.step {
             let stretch = Stretch::of(&base);
             let setting = |key: &str, value: u64| Setting { key: key.to_owned(), value: value.into() };
@@ -240,10 +234,9 @@ impl TradeoffSummary {
     pub fn chosen_scene(&self) -> Result<Option<String>, StudyError> {
         let Some(choice) = self.choice() else { return Ok(None) };
         let settings = self.lines_of(choice);
-        let overrides = self.arguments.set.iter().cloned().chain(settings.iter().map(Setting::argument));
-        let Arguments { scene, text, state_files, .. } = &self.arguments;
-        let text = scene::with_overrides(state_files, scene, text, &overrides.collect::<Vec<_>>())?;
-        Ok(Some(text))
+        let Arguments { scene, state_files, .. } = &self.arguments;
+        let overrides = scene.overrides(settings.iter().map(Setting::argument));
+        Ok(Some(scene::with_overrides(state_files, &scene.name, &scene.text, &overrides)?))
     }
 
     /// Reads the summary in the directory of a tradeoff.
@@ -282,20 +275,12 @@ impl Record for TradeoffSummary {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
             date: jiff::Timestamp::now().strftime("%Y-%m-%d").to_string(),
             tradeoff_id: Self::id_of(request),
-            adapter: None,
             arguments: request.arguments.clone(),
             stretch: Stretch::of(&request.base),
-            spent: 0.0,
-            is_long_enough: false,
-            extensions: 0,
-            is_short: false,
-            wanted: None,
-            measures: Vec::new(),
-            references: Vec::new(),
             physical_keys: request.physical_keys().into_iter().map(str::to_owned).collect(),
             choices: variants.iter().map(choice).collect(),
             finer: request.finer_names().into_iter().map(reference).collect(),
-            chosen: None,
+            ..Self::default()
         }
     }
 

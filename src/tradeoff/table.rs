@@ -2,8 +2,7 @@
 
 use super::cost::Cost;
 use super::summary::{Choice, TradeoffSummary};
-use super::target::Verdict;
-use crate::study::table::{number, plain, rows};
+use crate::study::table::{number, rows, settings_of_keys};
 
 pub(super) fn text(summary: &TradeoffSummary, keys: &[&str]) -> String {
     rows(summary.choices.iter().map(|choice| row(summary, choice, keys)))
@@ -16,16 +15,12 @@ fn is_known_of_schemes(summary: &TradeoffSummary, measure: &str) -> bool {
 
 /// Names of columns and cells.
 fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<(String, String)> {
-    let setting = |key: &&str| {
-        let found = choice.settings.iter().find(|setting| setting.key == *key);
-        ((*key).to_owned(), found.map(|setting| plain(&setting.value)).unwrap_or_default())
-    };
     let mut row = vec![("choice".to_owned(), choice.name.clone())];
-    row.extend(keys.iter().map(setting));
+    row.extend(settings_of_keys(&choice.settings, keys));
     let of_cost = |value: fn(Cost) -> f64| number(choice.cost.map(value));
     let stretch = choice.float64_stretch;
     let of_run = [
-        ("state", choice.state.name().to_owned()),
+        ("state", choice.state.to_string()),
         ("steps", choice.steps.to_string()),
         ("seconds_per_time", of_cost(|cost| cost.seconds_per_time)),
         ("seconds_per_time_fastest", of_cost(|cost| cost.fastest)),
@@ -52,7 +47,7 @@ fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<(String
         row.extend(of_measure.into_iter().chain(of_scheme).map(|(end, cell)| (format!("{measure}{end}"), cell)));
     }
     if !summary.arguments.targets.is_empty() {
-        row.push(("verdict".to_owned(), choice.verdict.map(Verdict::name).unwrap_or_default().to_owned()));
+        row.push(("verdict".to_owned(), choice.verdict.map(|verdict| verdict.to_string()).unwrap_or_default()));
     }
     row
 }

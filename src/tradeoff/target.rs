@@ -6,9 +6,6 @@ use super::reference::Reference;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Standard errors that an error may lie beyond what was found: one in twenty does by chance.
-const CONFIDENCE: f64 = 2.0;
-
 /// The largest error that a measure may have.
 ///
 /// ```
@@ -50,14 +47,9 @@ pub enum Verdict {
     Misses,
 }
 
-impl Verdict {
-    /// Its word.
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Meets => "meets",
-            Self::Open => "open",
-            Self::Misses => "misses",
-        }
+impl fmt::Display for Verdict {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(formatter)
     }
 }
 
@@ -122,16 +114,7 @@ impl Target {
         if self.is_part_where(deviation.relative) {
             return Verdict::Open;
         }
-        let most = self.most(reference, deviation.relative);
-        let Some(uncertainty) = deviation.uncertainty else { return Verdict::Open };
-        let (size, margin) = (deviation.size(), CONFIDENCE * uncertainty);
-        if size + margin <= most {
-            Verdict::Meets
-        } else if size - margin > most {
-            Verdict::Misses
-        } else {
-            Verdict::Open
-        }
+        deviation.within(self.most(reference, deviation.relative))
     }
 }
 

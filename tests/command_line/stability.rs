@@ -187,7 +187,7 @@ fn what_no_law_applies_to_is_not_certain() {
 fn an_interrupted_map_goes_on() {
     let place = place();
     let request =
-        || Request::load(&place.scene(), &[], &["time.step=0.05..0.4/4".to_owned()]).unwrap().with_bisections(0);
+        || Request::load(&place.scene(), &[], None, &["time.step=0.05..0.4/4".to_owned()]).unwrap().with_bisections(0);
     let whole = StabilityRun::start(request(), place.path("whole"), false).with_jobs(Some(1));
     let whole = whole.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
     let interrupt = Interrupt::default();

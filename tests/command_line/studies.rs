@@ -94,7 +94,7 @@ fn a_map_has_one_start() {
         [|place: &Place| write_start(place, 0.25), |place: &Place| drop(fs::remove_file(place.path("start.xyz")))]
     {
         write_start(&place, 0.5);
-        let request = Request::load(&place.scene(), &[], &vary).unwrap().with_bisections(0);
+        let request = Request::load(&place.scene(), &[], None, &vary).unwrap().with_bisections(0);
         let run = StabilityRun::start(request, place.path("out"), true).with_jobs(Some(1));
         // The second run may have begun by then, the third has not.
         let ended = run.execute(&AdapterChoice::Best, &mut |event| {
@@ -110,7 +110,7 @@ fn a_map_has_one_start() {
     write_start(&place, 0.5);
     fs::copy(place.path("start.xyz"), place.path("other.xyz")).unwrap();
     let vary = [r"state.file=start.xyz,other.xyz".to_owned(), vary[0].clone()];
-    let request = Request::load(&place.scene(), &[], &vary).unwrap().with_bisections(0);
+    let request = Request::load(&place.scene(), &[], None, &vary).unwrap().with_bisections(0);
     fs::remove_file(place.path("other.xyz")).unwrap();
     let run = StabilityRun::start(request, place.path("out"), true).with_jobs(Some(1));
     let message = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap_err().to_string();
@@ -204,7 +204,7 @@ fn laws_are_those_of_the_state_that_was_read() {
     place.scene["interactions"] = json!([{"type": "tether", "stiffness": 16}]);
     place.scene["integrator"] = json!({"type": "cotter-reich"});
     let vary = ["time.step=0.1,0.2,0.8".to_owned()];
-    let request = || Request::load(&place.scene(), &[], &vary).unwrap().with_bisections(0);
+    let request = || Request::load(&place.scene(), &[], None, &vary).unwrap().with_bisections(0);
     let early = request();
     write_start(&place, 0.25);
     let run = StabilityRun::start(early, place.path("out"), false);

@@ -302,7 +302,7 @@ fn an_interrupted_tradeoff_goes_on() {
     let place = place();
     let request = || {
         let vary = ["time.step=0.02,0.04".to_owned()];
-        Request::load(&place.scene(), &[], &vary, &[]).unwrap().with_measures(&["pressure".to_owned()]).unwrap()
+        Request::load(&place.scene(), &[], None, &vary, &[]).unwrap().with_measures(&["pressure".to_owned()]).unwrap()
     };
     let whole = TradeoffRun::start(request(), place.path("whole"), false);
     let whole = whole.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
@@ -343,7 +343,7 @@ fn an_interrupted_tradeoff_goes_on() {
 /// by more where rows depend on each other.
 fn longer(place: &Place) -> Request {
     let vary = ["time.step=0.04,0.2".to_owned()];
-    let request = Request::load(&place.scene(), &[], &vary, &[]).unwrap();
+    let request = Request::load(&place.scene(), &[], None, &vary, &[]).unwrap();
     let length = Length { error: Some(ERROR), budget: None };
     request.with_length(length).with_measures(&["temperature".to_owned()]).unwrap()
 }
@@ -591,7 +591,7 @@ fn errors_from_few_samples_decide_nothing() {
         ["--vary", "time.step=0.02,0.04", "--set", "time.steps=80", "--measure", "temperature", "--budget", "1000s"];
     let request = |target: &str| {
         let (set, vary) = (["time.steps=80".to_owned()], ["time.step=0.02,0.04".to_owned()]);
-        let request = Request::load(&place.scene(), &set, &vary, &[]).unwrap();
+        let request = Request::load(&place.scene(), &set, None, &vary, &[]).unwrap();
         let request = request.with_measures(&["temperature".to_owned()]).unwrap();
         request.with_targets(vec![mesoscope::tradeoff::Target::parse(target).unwrap()]).unwrap()
     };
@@ -623,7 +623,7 @@ fn errors_from_few_samples_decide_nothing() {
 fn an_error_that_takes_too_long_wants_to_be_said_twice() {
     let place = place();
     let request = |error: Option<f64>| {
-        let request = Request::load(&place.scene(), &[], &["time.step=0.02,0.04".to_owned()], &[]).unwrap();
+        let request = Request::load(&place.scene(), &[], None, &["time.step=0.02,0.04".to_owned()], &[]).unwrap();
         request.with_length(Length { error, budget: None }).with_measures(&["temperature".to_owned()]).unwrap()
     };
     let begun = Instant::now();
