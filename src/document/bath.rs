@@ -41,12 +41,6 @@ impl Default for Bath {
 }
 
 impl Bath {
-    /// Whether this is the bath of a scene that does not mention one.
-    #[must_use]
-    pub fn is_plain(&self) -> bool {
-        *self == Self::default()
-    }
-
     /// Whether it does anything to what has such a friction.
     #[must_use]
     pub fn acts(&self, friction: f64) -> bool {

@@ -14,7 +14,7 @@ pub(in crate::document) fn hundredths<const NUMBER: u32>() -> f64 {
     f64::from(NUMBER) / 100.0
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
-pub(in crate::document) fn is_zero(value: &f64) -> bool {
-    *value == 0.0
+/// Whether a key may be left out, for its value is that of one which is.
+pub(in crate::document) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }

@@ -1,6 +1,6 @@
 //! Groups of particles: how many, where they start and how fast.
 
-use super::defaults::{is_zero, one, whole};
+use super::defaults::{is_default, one, whole};
 use super::{Axis, Space};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -93,7 +93,7 @@ pub enum Placement {
     /// The smallest nearly cubic (square) lattice that holds the group, filled evenly.
     Lattice {
         /// Largest random shift of a particle along each axis, as a part of the spacing. Not for chains.
-        #[serde(default, skip_serializing_if = "is_zero")]
+        #[serde(default, skip_serializing_if = "is_default")]
         #[schemars(range(min = 0.0, max = 1.0))]
         jitter: f64,
     },

@@ -1,7 +1,7 @@
 //! Boundaries that shear what is in the box.
 
 use super::Axis;
-use super::defaults::is_zero;
+use super::defaults::is_default;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +19,7 @@ pub struct Shear {
     pub gradient: Axis,
     /// How far the copy of the box above it is displaced along `flow` at the start. A run that starts from the state of one with shear
     /// takes it from there.
-    #[serde(default, skip_serializing_if = "is_zero")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub displacement: f64,
 }
 

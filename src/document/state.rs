@@ -1,5 +1,6 @@
 //! The state that a scene of particles starts from, where it is in a file.
 
+use super::defaults::is_default;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +31,7 @@ pub struct StateFile {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub atom_style: Option<String>,
     /// What becomes of positions outside the box.
-    #[serde(default, skip_serializing_if = "OutsidePositions::is_default")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub outside: OutsidePositions,
     /// CRC-32 of what was read, as `run.json` has it; a file with another one is refused.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -50,13 +51,6 @@ pub enum OutsidePositions {
     Refuse,
     /// They are taken modulo the box, along axes without walls, and the turns are counted, on top of those that the file has.
     Wrap,
-}
-
-impl OutsidePositions {
-    #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands over references")]
-    fn is_default(&self) -> bool {
-        *self == Self::default()
-    }
 }
 
 /// Where the velocities of a state from a file come from.

@@ -1,6 +1,7 @@
 //! Forces that act on every particle from outside.
 
 use crate::document::Axis;
+use crate::document::defaults::is_default;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct BodyForceInteraction {
     /// How the force varies in space.
-    #[serde(default, skip_serializing_if = "ForceProfile::is_uniform")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub profile: ForceProfile,
     /// The force on a particle, a component for each axis of the box; of a sine the amplitude.
     #[schemars(length(min = 1, max = 3))]

@@ -1,5 +1,6 @@
 //! Bonds and angles in a scene.
 
+use crate::document::defaults::is_default;
 use crate::document::{Bath, Links, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -27,7 +28,7 @@ pub struct BondsInteraction {
     #[schemars(range(min = 0.0))]
     pub friction: f64,
     /// The heat bath of every bond, coupled to its length.
-    #[serde(default, skip_serializing_if = "Bath::is_plain")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub bath: Bath,
     /// Whether bonded particles do not repel each other.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]

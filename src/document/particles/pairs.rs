@@ -1,7 +1,7 @@
 //! Pair forces in a scene.
 
 use crate::document::Bath;
-use crate::document::defaults::{hundredths, one};
+use crate::document::defaults::{hundredths, is_default, one};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -34,7 +34,7 @@ pub struct DpdInteraction {
     #[schemars(length(max = 32896))]
     pub pairs: Vec<DpdPair>,
     /// The heat bath of every pair, coupled to φ(r) with φ' = √ω.
-    #[serde(default, skip_serializing_if = "Bath::is_plain")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub bath: Bath,
     /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, beside a coloured
     /// noise, or on a line. With a wide margin the list is rebuilt less often and holds more pairs; no result but the

@@ -1,6 +1,7 @@
 //! What acts on particles one by one: baths, random forces and springs.
 
 use crate::document::Bath;
+use crate::document::defaults::is_default;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -17,7 +18,7 @@ pub struct LangevinInteraction {
     #[schemars(length(max = 256))]
     pub species: Vec<SpeciesFriction>,
     /// The heat bath of every coordinate.
-    #[serde(default, skip_serializing_if = "Bath::is_plain")]
+    #[serde(default, skip_serializing_if = "is_default")]
     pub bath: Bath,
     /// In a sheared box, the velocity that friction acts on: `peculiar` if left out.
     #[serde(default, skip_serializing_if = "Option::is_none")]
