@@ -152,7 +152,7 @@ pub(crate) fn check_version<R: Record>(record: &R, directory: &Path) -> Result<(
     let Some(version) = Version::parse(record.version()) else {
         return Err(StudyError::Changed { kind, path, reasons: vec!["has a `mesoscope_version` that is no version"] });
     };
-    if Version::parse(env!("CARGO_PKG_VERSION")).is_some_and(|own| version.is_later(&own)) {
+    if Version::parse(env!("CARGO_PKG_VERSION")).is_some_and(|own| version > own) {
         return Err(StudyError::Later { kind, path, version: record.version().to_owned() });
     }
     Ok(())
