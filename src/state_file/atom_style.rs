@@ -5,7 +5,7 @@ use std::fmt;
 
 /// A column of a line of an atom; a place has three.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Column {
+pub(super) enum Column {
     Id,
     Kind,
     Place,
@@ -33,13 +33,13 @@ const UNREAD: &str = "\
     rheo/thermal smd sph sphere sphere/temp spin tdpd template tri wavepacket meso";
 
 /// The style of which others are made.
-const HYBRID: &str = "hybrid";
+pub(super) const HYBRID: &str = "hybrid";
 
 /// What a line of an atom has.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct AtomStyle {
-    name: String,
-    columns: Vec<Column>,
+    pub(super) name: String,
+    pub(super) columns: Vec<Column>,
 }
 
 /// The words of a line by what they are.
@@ -115,6 +115,7 @@ impl AtomStyle {
         if count == 5 {
             return Self::of("atomic");
         }
+        let width = |columns: &[Column]| columns.iter().map(|column| column.width()).sum();
         let fits = |columns: &[Column]| [0, 3].contains(&count.wrapping_sub(width(columns)));
         let fitting = READ.into_iter().filter(|(_, columns)| fits(columns));
         let names: Vec<&str> = fitting.map(|(name, _)| name).collect();
@@ -128,16 +129,6 @@ impl AtomStyle {
             "`\"atom_style\": \"{example}\"` in `state`, or `Atoms # {example}` in the file, with the style that its lines are of"
         );
         Err(Mistake::new("", format!("found `Atoms` without a style, and {count} columns{among}"), accepted))
-    }
-
-    /// Whether it is made of several.
-    pub(super) fn is_hybrid(&self) -> bool {
-        self.name.starts_with(HYBRID)
-    }
-
-    /// Whether lines of another style have the same columns.
-    pub(super) fn has_columns_of(&self, other: &Self) -> bool {
-        self.columns == other.columns
     }
 
     /// What its lines have that no scene uses, in words.
@@ -187,10 +178,6 @@ impl Column {
     fn width(self) -> usize {
         if self == Place { 3 } else { 1 }
     }
-}
-
-fn width(columns: &[Column]) -> usize {
-    columns.iter().map(|column| column.width()).sum()
 }
 
 #[cfg(test)]

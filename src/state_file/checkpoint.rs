@@ -96,7 +96,10 @@ pub(crate) fn read<E: From<ContentError>>(
     // What was checked is read once more, rather than kept: a state may fill the memory.
     file.seek(SeekFrom::Start(HEADER as u64)).map_err(ContentError::Io)?;
     let mut payload = Payload { file: BufReader::with_capacity(BUFFER, file), left: length };
-    let content = payload.content(check)?;
+    let (run_id, scene) = (payload.text()?, payload.text()?);
+    let (step, count) = (payload.number()?, payload.number()?);
+    check(&scene, step, count)?;
+    let content = payload.content(run_id, scene, step, count)?;
     if payload.left > 0 {
         return Err(ContentError::Malformed(format!("{} bytes follow its content", payload.left)).into());
     }
@@ -181,17 +184,8 @@ impl Payload {
         String::from_utf8(self.elements(length)?).map_err(|_| malformed("a text is not UTF-8"))
     }
 
-    fn content<E: From<ContentError>>(
-        &mut self,
-        check: impl FnOnce(&str, u64, u64) -> Result<(), E>,
-    ) -> Result<Content, E> {
-        let (run_id, scene) = (self.text()?, self.text()?);
-        let (step, count) = (self.number()?, self.number()?);
-        check(&scene, step, count)?;
-        Ok(self.arrays(run_id, scene, step, count)?)
-    }
-
-    fn arrays(&mut self, run_id: String, scene: String, step: u64, count: u64) -> Result<Content, ContentError> {
+    /// All that follows the number of particles.
+    fn content(&mut self, run_id: String, scene: String, step: u64, count: u64) -> Result<Content, ContentError> {
         let (positions, momenta, species) = (self.words(count)?, self.words(count)?, self.words(count)?);
         let mut state = State { step, positions, momenta, species, ..State::default() };
         let mut known: Vec<String> = Vec::new();

@@ -3,7 +3,7 @@
 //! Atoms of the styles that [`AtomStyle`] knows, with or without image flags; Masses, Velocities, Bonds, Angles and labels of types. Other
 //! sections are skipped, and named. Atoms are put in the order of their ids, as LAMMPS writes them in any.
 
-use super::atom_style::AtomStyle;
+use super::atom_style::{AtomStyle, HYBRID};
 use super::lines::Lines;
 use super::tally::Tally;
 use super::{FORMATS, Fits, Links, Mistake, Mistakes, ParticleFile, box_mistake, shortened, triclinic, vector};
@@ -404,10 +404,10 @@ impl Reader<'_> {
         match (AtomStyle::in_comment(comment, self.style.is_some()), self.style) {
             (None, given) => Ok(given.cloned()),
             // LAMMPS writes nothing of the styles that a hybrid one is made of.
-            (Some("hybrid"), Some(given)) if given.is_hybrid() => Ok(Some(given.clone())),
+            (Some(HYBRID), Some(given)) if given.name.starts_with(HYBRID) => Ok(Some(given.clone())),
             (Some(named), given) => {
                 let style = AtomStyle::of(named)?;
-                match given.filter(|given| !given.has_columns_of(&style)) {
+                match given.filter(|given| given.columns != style.columns) {
                     None => Ok(Some(style)),
                     Some(given) => Err(Mistake::new(
                         "",
