@@ -364,18 +364,7 @@ impl GsdWriter {
         let length = header.names[0] + names * NAME;
         file.set_len(length)?;
         file.sync_all()?;
-        Ok(Self {
-            file,
-            header,
-            names: Vec::new(),
-            listed: 0,
-            indexed: 0,
-            chunks: Vec::new(),
-            ended: 0,
-            frame: 0,
-            length,
-            buffer: Vec::new(),
-        })
+        Ok(Self::of(GsdReader { file, length, header, names: Vec::new() }, 0, 0))
     }
 
     /// Continues a file of version 2 that is open for writing.
@@ -391,9 +380,14 @@ impl GsdWriter {
         while let Some(chunk) = reader.next(&mut cursor)? {
             (indexed, frame) = (indexed + 1, chunk.frame + 1);
         }
-        let GsdReader { file, length, header, names } = reader;
+        Ok(Self::of(reader, indexed, frame))
+    }
+
+    /// Goes on after so many entries and frames of a file.
+    fn of(file: GsdReader, indexed: u64, frame: u64) -> Self {
+        let GsdReader { file, length, header, names } = file;
         let (listed, chunks, buffer) = (names.len(), Vec::new(), Vec::new());
-        Ok(Self { file, header, names, listed, indexed, chunks, ended: 0, frame, length, buffer })
+        Self { file, header, names, listed, indexed, chunks, ended: 0, frame, length, buffer }
     }
 
     /// Adds an array to the frame.

@@ -106,26 +106,16 @@ impl Cursor<'_> {
     /// Takes the next key or value.
     fn item(&mut self, is_key: bool) -> Result<Item, String> {
         let start = self.rest;
-        let opened = start.chars().next().unwrap_or_default();
-        let (text, length, is_bare) = match opened {
-            '"' => {
-                let (text, length) = quoted(start).ok_or_else(|| open(start))?;
-                (text, length, false)
-            }
-            '[' | '{' => {
-                let length = group(start).ok_or_else(|| open(start))?;
-                // Braces hold a text, brackets a list: those around all of it are no part of either.
-                (start[1..length - 1].to_owned(), length, false)
-            }
-            '\'' if !is_key && single_quoted(start).is_some() => {
-                let length = single_quoted(start).unwrap_or_default();
-                (start[1..length - 1].to_owned(), length, true)
-            }
-            _ => {
-                let (text, length) = bare(start, is_key).ok_or_else(|| open(start))?;
-                (text, length, true)
-            }
+        let inside = |length: usize| (start[1..length - 1].to_owned(), length);
+        let (found, is_bare) = match start.chars().next().unwrap_or_default() {
+            '"' => (quoted(start), false),
+            // Braces hold a text, brackets a list: those around all of it are no part of either.
+            '[' | '{' => (group(start).map(inside), false),
+            '\'' if !is_key && single_quoted(start).is_some() => (single_quoted(start).map(inside), true),
+            _ => (bare(start, is_key), true),
         };
+        let open = || format!("found quotes or brackets that do not close, in {}", shortened(start));
+        let (text, length) = found.ok_or_else(open)?;
         self.rest = &start[length..];
         let ends =
             self.rest.is_empty() || self.rest.starts_with(char::is_whitespace) || is_key && self.rest.starts_with('=');
@@ -135,11 +125,6 @@ impl Cursor<'_> {
             Err(format!("found no blank after {}", shortened(&start[..length])))
         }
     }
-}
-
-/// What is said of quotes or brackets without an end.
-fn open(text: &str) -> String {
-    format!("found quotes or brackets that do not close, in {}", shortened(text))
 }
 
 /// A text in double quotes at the beginning of another, and the bytes that it takes.
