@@ -60,7 +60,7 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
         panel.series.push(series.with_labels(labels));
     }
     panel.series.push(Series::compared("Pareto front", front));
-    let of_this = |target: &&super::Target| target.measure == measure && !target.is_part_of_nothing(reference);
+    let of_this = |target: &&super::Target| target.measure == measure && !target.is_part_of_nothing(relative);
     if let Some(target) = summary.arguments.targets.iter().find(of_this) {
         panel = panel.with_reference("target", scale * target.most(reference.value, relative));
     }

@@ -354,7 +354,7 @@ impl StudyRun<TradeoffSummary> {
             let (error, reference) = (choice.error(&target.measure)?, summary.reference(&target.measure)?);
             let is_known = error.uncertainty.is_some() && choice.value(&target.measure)?.fluctuates;
             // More samples make no part of nothing.
-            let has_parts = !target.is_part_of_nothing(reference);
+            let has_parts = !target.is_part_of_nothing(!reference.is_zero());
             Some(is_known && has_parts && target.verdict(error, reference.value) == Verdict::Open)
         };
         let targets = &self.request.arguments.targets;

@@ -76,26 +76,21 @@ impl Target {
         Ok(Self { measure: measure.to_owned(), amount })
     }
 
-    /// Whether it is a part of a reference of which there is none: zero is what drifts and distances should be, and these are parts of
-    /// something else.
-    pub(super) fn is_part_of_nothing(&self, reference: &Reference) -> bool {
-        self.is_part_where(!reference.is_zero())
+    /// Whether it is a part of a reference of which there is none, as errors are not `relative` to it: zero is what drifts and distances
+    /// should be, and these are parts of something else.
+    pub(super) fn is_part_of_nothing(&self, relative: bool) -> bool {
+        matches!(self.amount, Amount::Relative(_)) && !relative && !measures::is_part(&self.measure)
     }
 
     /// What to say where it is one.
     pub(super) fn part_of_nothing(&self, reference: &Reference) -> Option<String> {
         let measure = &self.measure;
         let reference_is = if reference.value == 0.0 { "is 0" } else { "cannot be told from 0" };
-        self.is_part_of_nothing(reference).then(|| {
+        self.is_part_of_nothing(!reference.is_zero()).then(|| {
             format!(
                 "the reference of `{measure}` {reference_is}, so that a percentage of it means nothing: give an error in its own units, `--target {measure}=VALUE`"
             )
         })
-    }
-
-    /// The same where errors are parts of the reference, or are not.
-    fn is_part_where(&self, relative: bool) -> bool {
-        matches!(self.amount, Amount::Relative(_)) && !relative && !measures::is_part(&self.measure)
     }
 
     /// The largest error allowed, for a reference of this value; as a part of it if `relative`.
@@ -111,7 +106,7 @@ impl Target {
     /// The verdict on an error, for a reference of this value. An error that nothing is known about stays open, and so does a part of nothing.
     #[must_use]
     pub fn verdict(&self, deviation: &Deviation, reference: f64) -> Verdict {
-        if self.is_part_where(deviation.relative) {
+        if self.is_part_of_nothing(deviation.relative) {
             return Verdict::Open;
         }
         deviation.within(self.most(reference, deviation.relative))
