@@ -91,10 +91,11 @@ impl<'a> Runner<'a> {
         Ok(())
     }
 
-    /// The cost, for so many bytes on the device; none where there was no turn.
-    fn cost(mut self, bytes: u64) -> Option<Cost> {
+    /// The cost, with the room that it has come to; none where there was no turn.
+    fn cost(mut self, gpu: &Gpu) -> Option<Cost> {
         self.times.sort_by(f64::total_cmp);
         let particles = self.choice.state.len() as f64;
+        let bytes = steps_of(self.choice, Hardware::from(gpu), self.options).bytes();
         let median = *self.times.get(self.times.len() / 2)?;
         Some(Cost {
             seconds_per_time: median,
@@ -142,8 +143,7 @@ pub(super) fn measure(
         requirements.storage_buffers = requirements.storage_buffers.max(plan.storage_buffers);
     }
     let gpu = Gpu::open(adapter, requirements)?;
-    let bytes: Vec<u64> = plans(Hardware::from(&gpu)).map(|plan| plan.bytes()).collect();
-    let shares = bytes.iter().sum::<u64>() <= SHARED;
+    let shares = plans(Hardware::from(&gpu)).map(|plan| plan.bytes()).sum::<u64>() <= SHARED;
     let runner = |choice| {
         let options = Options::default();
         Runner { choice, options, engine: None, steps: None, times: Vec::new(), has_ended: false }
@@ -164,7 +164,7 @@ pub(super) fn measure(
             }
         }
     }
-    Ok(runners.into_iter().zip(bytes).map(|(runner, bytes)| runner.cost(bytes)).collect())
+    Ok(runners.into_iter().map(|runner| runner.cost(&gpu)).collect())
 }
 
 /// Whether an error says something about the choice, not about the machine.
@@ -184,4 +184,34 @@ pub(super) fn is_unstable(error: &RunError) -> bool {
 fn steps_of(choice: &Timed<'_>, hardware: Hardware, options: Options) -> Plan {
     let scene = choice.scene;
     run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, hardware, options).without_reports()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::{families, scene};
+
+    /// All particles lie in the first cells along x, for which the plan of a fluid that fills the box has no room.
+    #[test]
+    fn a_crowded_choice_is_timed_with_more_room_which_it_costs() {
+        let set = [
+            "space.box=[16,8,8]",
+            r#"particles=[{"species":"A","count":3000}]"#,
+            r#"integrator={"type":"groot-warren"}"#,
+            "interactions.0.repulsion=0.01",
+            "temperature=0.01",
+            "time.step=0.002",
+        ];
+        let scene = scene::load("dpd-fluid", &set.map(str::to_owned)).unwrap();
+        let mut state = families::initial_state(&scene, &Model::new(&scene));
+        for position in &mut state.positions {
+            position[0] = (position[0] >> 6).wrapping_sub(1 << 25);
+        }
+        let choice = Timed { name: "crowd", scene: &scene, state };
+        let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default()).unwrap();
+        let usual = steps_of(&choice, Hardware::from(&gpu), Options::default()).bytes();
+        let cost = measure(&[choice], &AdapterChoice::Best, &|| Ok(())).unwrap()[0].unwrap();
+        assert!(3000.0 * cost.bytes_per_particle > usual as f64, "{cost:?}: {usual}");
+    }
 }
