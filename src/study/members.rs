@@ -12,6 +12,8 @@ use std::path::Path;
 
 /// A run of a study.
 pub(crate) struct Member {
+    /// Its place in the summary.
+    pub entry: usize,
     /// Name of its directory.
     pub name: String,
     /// Its scene, with the step to end with.
@@ -59,9 +61,9 @@ impl Member {
     }
 }
 
-/// What a study does when the run of this number has ended.
-type TakeUp<'t, R> =
-    dyn FnMut(&mut StudyRun<R>, usize, Result<Summary, RunError>, &mut Observer<'_, R>) -> Result<(), StudyError> + 't;
+/// What a study does when this run has ended.
+type TakeUp<'t, R> = dyn FnMut(&mut StudyRun<R>, &Member, Result<Summary, RunError>, &mut Observer<'_, R>) -> Result<(), StudyError>
+    + 't;
 
 /// What a run under way reports.
 enum Message {
@@ -108,7 +110,7 @@ impl<R: Record> StudyRun<R> {
                 Message::Ended(ended) => match *ended {
                     // It waits to be continued.
                     Err(RunError::Interrupted { .. } | RunError::NotBegun) => {}
-                    ended => return take_up(self, number, ended, observer),
+                    ended => return take_up(self, &members[number], ended, observer),
                 },
             }
             Ok(())

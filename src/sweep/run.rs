@@ -96,25 +96,24 @@ impl StudyRun<SweepSummary> {
         observer: &mut Observer<'_, SweepSummary>,
         note: &dyn Fn(&mut Self) -> Result<(), StudyError>,
     ) -> Result<Vec<(usize, RunError)>, StudyError> {
-        let member = |number: &usize| {
-            let variant = self.request.variants()[*number].clone();
-            let id = self.summary.variants[*number].run_id;
-            Member { name: variant.name, scene: variant.scene, id, notices: variant.notices }
+        let member = |entry: &usize| {
+            let variant = self.request.variants()[*entry].clone();
+            let id = self.summary.variants[*entry].run_id;
+            Member { entry: *entry, name: variant.name, scene: variant.scene, id, notices: variant.notices }
         };
         let members: Vec<Member> = waiting.iter().map(member).collect();
         let mut failures = Vec::new();
-        self.simulate(&members, jobs, adapter, observer, &mut |sweep, place, ended, observer| {
-            let number = waiting[place];
-            let entry = &mut sweep.summary.variants[number];
+        self.simulate(&members, jobs, adapter, observer, &mut |sweep, member, ended, observer| {
+            let entry = &mut sweep.summary.variants[member.entry];
             match ended {
                 Ok(run) => entry.finish(&run),
                 Err(error) => {
                     entry.fail(error.to_string());
-                    failures.push((number, error));
+                    failures.push((member.entry, error));
                 }
             }
             let saved = note(sweep);
-            let ended = &sweep.summary.variants[number];
+            let ended = &sweep.summary.variants[member.entry];
             observer(StudyEvent::Ended { run: &ended.name, ended });
             saved
         })?;

@@ -90,7 +90,7 @@ impl StudyRun<TradeoffSummary> {
         let seconds = self.plan_pilot(&waiting, adapter)?;
         // Every run opens the adapter for itself, this is to know it.
         let gpu = Gpu::open(adapter, Requirements::default())?;
-        let largest = study::largest(waiting.iter().map(|(_, member)| &member.scene)).unwrap_or(&self.request.base);
+        let largest = study::largest(waiting.iter().map(|member| &member.scene)).unwrap_or(&self.request.base);
         let jobs = self.jobs_for(largest, waiting.len(), &gpu);
         // Steps follow from the stretch, which may be shorter now; all else stays.
         let place = self.open_place()?;
@@ -159,30 +159,30 @@ impl StudyRun<TradeoffSummary> {
         (0..choices).find(|twin| index >= choices && runs[*twin].1 == runs[index].1)
     }
 
-    /// The runs that have to come to the end of the stretch, with the numbers of their entries: not those that became unstable, nor
-    /// those that another entry has.
-    fn members(&mut self, runs: &[(String, Scene)]) -> Vec<(usize, Member)> {
+    /// The runs that have to come to the end of the stretch: not those that became unstable, nor those that another entry has.
+    fn members(&mut self, runs: &[(String, Scene)]) -> Vec<Member> {
         let stretch = self.summary.stretch;
         let mut members = Vec::new();
-        for (index, (name, scene)) in runs.iter().enumerate() {
-            if self.twin(runs, index).is_some() || self.entry(index).state == ChoiceState::Unstable {
+        for (entry, (name, scene)) in runs.iter().enumerate() {
+            if self.twin(runs, entry).is_some() || self.entry(entry).state == ChoiceState::Unstable {
                 continue;
             }
             let mut scene = scene.clone();
             scene.time.steps = stretch.steps(&scene);
             // The id stays that of the version of the program that began the run.
-            let id = *self.entry(index).run_id.get_or_insert_with(|| Id::of_run(&scene));
-            members.push((index, Member { name: name.clone(), id, scene, notices: Vec::new() }));
+            let id = *self.entry(entry).run_id.get_or_insert_with(|| Id::of_run(&scene));
+            members.push(Member { entry, name: name.clone(), id, scene, notices: Vec::new() });
         }
         members
     }
 
     /// Those of them that have not come there yet.
-    fn waiting(&mut self, runs: &[(String, Scene)]) -> Vec<(usize, Member)> {
-        let members = self.members(runs);
+    fn waiting(&mut self, runs: &[(String, Scene)]) -> Vec<Member> {
+        let mut members = self.members(runs);
         // What stands in the place of a new study is not of it.
         let is_begun = !self.is_new() || self.summary.adapter.is_some();
-        members.into_iter().filter(|(_, member)| !(is_begun && self.finished(member).is_some())).collect()
+        members.retain(|member| !(is_begun && self.finished(member).is_some()));
+        members
     }
 
     /// What a run that came to the end of the stretch says.
@@ -191,9 +191,9 @@ impl StudyRun<TradeoffSummary> {
     }
 
     /// The seconds that runs are expected to take, after the stretch of time was shortened to what a budget leaves for a pilot.
-    fn plan_pilot(&mut self, waiting: &[(usize, Member)], adapter: &AdapterChoice) -> Result<f64, StudyError> {
+    fn plan_pilot(&mut self, waiting: &[Member], adapter: &AdapterChoice) -> Result<f64, StudyError> {
         let mut seconds = 0.0;
-        for (_, Member { name, scene, .. }) in waiting {
+        for Member { name, scene, .. } in waiting {
             match run::adapter_for(scene, adapter).and_then(|gpu| run::expected_time(scene, &gpu)) {
                 Ok(expected) => seconds += expected.seconds,
                 // What cannot be stable takes no time.
@@ -239,23 +239,22 @@ impl StudyRun<TradeoffSummary> {
         adapter: &AdapterChoice,
         observer: &mut Observer<'_, TradeoffSummary>,
     ) -> Result<(), StudyError> {
-        let (mut own, mut members) = (Vec::new(), Vec::new());
-        for (index, member) in self.members(runs) {
+        let mut members = Vec::new();
+        for member in self.members(runs) {
             // One may have come to its end without being noted: the process was killed.
             if let Some(summary) = self.finished(&member) {
-                self.take_up(index, &member, Ok(summary))?;
+                self.take_up(&member, Ok(summary))?;
             } else {
-                own.push(index);
                 members.push(member);
             }
         }
         self.save()?;
         let (start, before) = (Instant::now(), self.summary.spent);
-        let simulated = self.simulate(&members, jobs, adapter, observer, &mut |study, place, ended, observer| {
+        let simulated = self.simulate(&members, jobs, adapter, observer, &mut |study, member, ended, observer| {
             // With every result, so that a budget holds after the process was killed.
             study.summary.spent = before + start.elapsed().as_secs_f64();
-            let entry = study.take_up(own[place], &members[place], ended)?;
-            observer(StudyEvent::Ended { run: &members[place].name, ended: entry });
+            let entry = study.take_up(member, ended)?;
+            observer(StudyEvent::Ended { run: &member.name, ended: entry });
             Ok(study.save()?)
         });
         self.summary.spent = before + start.elapsed().as_secs_f64();
@@ -272,9 +271,9 @@ impl StudyRun<TradeoffSummary> {
     }
 
     /// Notes what a run measured, or that it became unstable.
-    fn take_up(&mut self, index: usize, run: &Member, ended: Result<Summary, RunError>) -> Result<&Choice, StudyError> {
+    fn take_up(&mut self, run: &Member, ended: Result<Summary, RunError>) -> Result<&Choice, StudyError> {
         let directory = self.directory().join(&run.name);
-        let entry = self.entry(index);
+        let entry = self.entry(run.entry);
         entry.time_step = run.scene.time.step;
         match ended {
             Ok(summary) => {
