@@ -9,12 +9,12 @@ pub(in crate::document) fn whole<const NUMBER: u32>() -> u32 {
     NUMBER
 }
 
-/// So many hundredths.
+/// A number in hundredths.
 pub(in crate::document) fn hundredths<const NUMBER: u32>() -> f64 {
     f64::from(NUMBER) / 100.0
 }
 
-/// Whether a key may be left out, for its value is that of one which is.
+/// True if a value is that of a key which is left out.
 pub(in crate::document) fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }

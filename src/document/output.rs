@@ -135,7 +135,7 @@ pub struct Diffusion {
     pub window: u64,
 }
 
-/// How often something is measured that has no other settings.
+/// The interval of a measurement that has no other settings.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SampleInterval {

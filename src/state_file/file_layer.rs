@@ -364,7 +364,7 @@ impl GsdWriter {
         let length = header.names[0] + names * NAME;
         file.set_len(length)?;
         file.sync_all()?;
-        Ok(Self::of(GsdReader { file, length, header, names: Vec::new() }, 0, 0))
+        Ok(Self::from_reader(GsdReader { file, length, header, names: Vec::new() }, 0, 0))
     }
 
     /// Continues a file of version 2 that is open for writing.
@@ -380,11 +380,11 @@ impl GsdWriter {
         while let Some(chunk) = reader.next(&mut cursor)? {
             (indexed, frame) = (indexed + 1, chunk.frame + 1);
         }
-        Ok(Self::of(reader, indexed, frame))
+        Ok(Self::from_reader(reader, indexed, frame))
     }
 
-    /// Goes on after so many entries and frames of a file.
-    fn of(file: GsdReader, indexed: u64, frame: u64) -> Self {
+    /// The writer that goes on after these entries and frames of a file.
+    fn from_reader(file: GsdReader, indexed: u64, frame: u64) -> Self {
         let GsdReader { file, length, header, names } = file;
         let (listed, chunks, buffer) = (names.len(), Vec::new(), Vec::new());
         Self { file, header, names, listed, indexed, chunks, ended: 0, frame, length, buffer }

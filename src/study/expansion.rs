@@ -78,12 +78,13 @@ impl Sweep {
     ) -> Result<Self, StudyError> {
         let (name, text) = scene::read(source).map_err(StudyError::Scene)?;
         let files = StateFiles::of(&name);
-        Self::of_arguments(WrittenScene { name, text, set: set.to_vec(), steps }, vary, also, files, StepCheck::Refuse)
+        let scene = WrittenScene { name, text, set: set.to_vec(), steps };
+        Self::from_arguments(scene, vary, also, files, StepCheck::Refuse)
     }
 
     /// Varies a scene that was read already; `files` are those that its scenes start from, `step` is whether a variant may have a time
     /// step that cannot be stable.
-    pub(crate) fn of_arguments(
+    pub(crate) fn from_arguments(
         scene: WrittenScene,
         vary: &[String],
         also: &[String],

@@ -117,17 +117,17 @@ impl StudyRun<SweepSummary> {
         let entry = |number: &usize| {
             let VariantSummary { name, state, failure, .. } = &self.summary.variants[*number];
             let mut entry = json!({"name": name, "state": state});
+            if let Some(failure) = failure {
+                entry["failure"] = failure.as_str().into();
+            }
             entry
-                .as_object_mut()?
-                .extend(failure.iter().map(|failure| ("failure".to_owned(), failure.as_str().into())));
-            Some(entry)
         };
         let summary = json!({
             "mesoscope_version": env!("CARGO_PKG_VERSION"),
             "sweep_id": self.summary.sweep_id,
             "shard": shard.to_string(),
             "adapter": self.summary.adapter,
-            "variants": own.iter().filter_map(entry).collect::<Vec<_>>(),
+            "variants": own.iter().map(entry).collect::<Vec<_>>(),
         });
         place.write(SHARD_RECORD, |writer| writeln!(writer, "{summary:#}"))?;
         Ok(())

@@ -73,7 +73,7 @@ pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<
 }
 
 fn measured(name: &str, end: &str, value: f64, standard_error: Option<f64>) -> Measured {
-    Measured::of_one_sample(format!("{name}{end}"), value, standard_error)
+    Measured::from_one_sample(format!("{name}{end}"), value, standard_error)
 }
 
 /// Fields that say how far a flow is from another, whatever a scene draws.

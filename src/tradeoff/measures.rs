@@ -48,7 +48,7 @@ pub struct Measured {
 
 impl Measured {
     /// A number that more samples make no more certain.
-    pub(super) fn of_one_sample(measure: impl Into<String>, value: f64, standard_error: Option<f64>) -> Self {
+    pub(super) fn from_one_sample(measure: impl Into<String>, value: f64, standard_error: Option<f64>) -> Self {
         Self { measure: measure.into(), value, standard_error, fluctuates: false, from_few_samples: false }
     }
 
@@ -76,7 +76,7 @@ pub(super) fn of_run(summary: &Summary, scene: &Scene, directory: &RunDirectory)
     let table = run::read_energies(&directory.file(run_files::ENERGIES), scene, summary.steps)?;
     measured.extend(of_table(&table, scene));
     measured.extend(
-        run::circulation_change(summary).map(|change| Measured::of_one_sample(CIRCULATION_DRIFT, change, Some(0.0))),
+        run::circulation_change(summary).map(|change| Measured::from_one_sample(CIRCULATION_DRIFT, change, Some(0.0))),
     );
     measured.extend(fields::from_exact(scene, directory)?);
     Ok(measured)
@@ -100,7 +100,7 @@ fn limited_exchange_share(table: &Table, scene: &Scene) -> Option<Measured> {
     let change = |values: Vec<f64>| Some(values.last()? - values.first()?);
     let (cut, steps) = (change(cut?)?, change(times?)? / scene.time.step);
     let faces = FACES_A_CELL * Model::new(scene).particle_count() as f64;
-    let share = || Measured::of_one_sample(LIMITED_EXCHANGES, cut / (faces * steps), Some(0.0));
+    let share = || Measured::from_one_sample(LIMITED_EXCHANGES, cut / (faces * steps), Some(0.0));
     (steps > 0.0 && faces > 0.0).then(share)
 }
 
@@ -112,7 +112,7 @@ fn energy_drift(table: &Table) -> Option<Measured> {
         return None;
     }
     let value = energies.iter().map(|energy| ((energy - first) / first).abs()).fold(0.0, f64::max);
-    Some(Measured::of_one_sample(ENERGY_DRIFT, value, Some(0.0)))
+    Some(Measured::from_one_sample(ENERGY_DRIFT, value, Some(0.0)))
 }
 
 /// Whether the energy of a scene would be constant if its equations of motion were solved exactly, so that its drift is an error.

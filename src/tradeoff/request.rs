@@ -95,7 +95,7 @@ impl Request {
         let lengths = LENGTHS.into_iter().filter(|key| keys.iter().any(|known| known == key));
         StudyError::refuse(lengths.map(mistake).collect())?;
         let files = arguments.state_files.clone();
-        let sweep = Sweep::of_arguments(scene.clone(), vary, also, files, StepCheck::Allow)?;
+        let sweep = Sweep::from_arguments(scene.clone(), vary, also, files, StepCheck::Allow)?;
         if sweep.variants().iter().any(|variant| [FINER, COARSER, STILL_FINER].contains(&variant.name.as_str())) {
             return Err(StudyError::mistake(format!(
                 "`{FINER}` and `{STILL_FINER}` are names of runs that references are taken from"
