@@ -82,6 +82,12 @@ impl BlockSums {
             .collect();
     }
 
+    /// Numbers in a row.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
     /// Number of samples.
     #[must_use]
     pub fn samples(&self) -> u64 {

@@ -16,25 +16,32 @@ pub const RANDOM_POINTS: [f64; 14] =
 /// ```
 /// use mesoscope::{measure::neighbours::NeighbourCounts, tessellation::Tessellation};
 ///
-/// let mut counts = NeighbourCounts::default();
-/// counts.push(&Tessellation::new([3.0, 2.0], &[[0.1, 0.2], [1.1, 0.1], [2.3, 0.6], [0.6, 1.2], [1.5, 1.4]]));
+/// let cells = Tessellation::new([3.0, 2.0], &[[0.1, 0.2], [1.1, 0.1], [2.3, 0.6], [0.6, 1.2], [1.5, 1.4]]);
+/// let counts = NeighbourCounts::from_samples(&[NeighbourCounts::of_cells(&cells)]);
 /// // By Euler's formula, whatever the points.
 /// assert_eq!(counts.mean().map(|found| found.mean), Some(6.0));
 /// ```
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct NeighbourCounts {
     samples: Vec<[f64; MOST_NEIGHBOURS + 1]>,
 }
 
 impl NeighbourCounts {
-    /// Counts the faces of all cells. Of a cell that meets another at several faces, or itself, all faces count: the mean
+    /// Counts of samples, each of which [`Self::of_cells`] has made.
+    #[must_use]
+    pub fn from_samples(samples: &[[f64; MOST_NEIGHBOURS + 1]]) -> Self {
+        Self { samples: samples.to_vec() }
+    }
+
+    /// Cells by the number of their faces. Of a cell that meets another at several faces, or itself, all faces count: the mean
     /// is then 6 in any tessellation without corners of more than three cells.
-    pub fn push(&mut self, tessellation: &Tessellation) {
+    #[must_use]
+    pub fn of_cells(tessellation: &Tessellation) -> [f64; MOST_NEIGHBOURS + 1] {
         let mut counts = [0.0; MOST_NEIGHBOURS + 1];
         for cell in &tessellation.cells {
             counts[cell.faces.len().min(MOST_NEIGHBOURS)] += 1.0;
         }
-        self.samples.push(counts);
+        counts
     }
 
     /// Number of samples.
@@ -47,18 +54,6 @@ impl NeighbourCounts {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.samples.is_empty()
-    }
-
-    /// All numbers, for [`Self::restored`].
-    pub fn numbers(&self) -> impl Iterator<Item = f64> {
-        self.samples.as_flattened().iter().copied()
-    }
-
-    /// Counts from [`Self::numbers`].
-    #[must_use]
-    pub fn restored(numbers: &[f64]) -> Self {
-        let (samples, _) = numbers.as_chunks();
-        Self { samples: samples.to_vec() }
     }
 
     /// The fraction of cells with so many neighbours.
@@ -108,8 +103,7 @@ mod tests {
     #[test]
     fn random_points_have_the_fractions_of_the_literature() {
         let count = 60_000;
-        let mut counts = NeighbourCounts::default();
-        counts.push(&random(count));
+        let counts = NeighbourCounts::from_samples(&[NeighbourCounts::of_cells(&random(count))]);
         assert_eq!(counts.mean().unwrap().mean, 6.0);
         for (neighbours, expected) in RANDOM_POINTS.iter().enumerate() {
             let found = counts.fraction(neighbours).unwrap().mean;
@@ -122,12 +116,10 @@ mod tests {
     }
 
     #[test]
-    fn counts_survive_as_numbers_and_squares_have_four() {
+    fn squares_have_four() {
         let places: Vec<[f64; 2]> = (0..16).map(|site| [f64::from(site % 4), f64::from(site / 4)]).collect();
-        let mut counts = NeighbourCounts::default();
-        counts.push(&Tessellation::new([4.0, 4.0], &places));
-        counts.push(&random(16));
-        assert_eq!(NeighbourCounts::restored(&counts.numbers().collect::<Vec<_>>()), counts);
+        let samples = [Tessellation::new([4.0, 4.0], &places), random(16)];
+        let counts = NeighbourCounts::from_samples(&samples.each_ref().map(NeighbourCounts::of_cells));
         assert_eq!((counts.len(), counts.samples[0][4]), (2, 16.0));
         assert_eq!(counts.mean().unwrap().mean, 5.0);
     }

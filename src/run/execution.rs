@@ -1,6 +1,6 @@
 //! A run under way: from one event to the next, and its files.
 
-use super::analyses::{Analyses, needs};
+use super::analyses::{Analyses, Setting, needs};
 use super::conservation::{conserved, not_conserved};
 use super::energies::{self, EnergyRecorder};
 use super::kept_sums::{KeptSums, Sharing};
@@ -75,7 +75,7 @@ impl<'a> Run<'a> {
         let path = directory.file(files::CHECKPOINT);
         let sections = Sections::new(&path, step, &start.sections);
         // What is wrong with the checkpoint is found before a file is touched.
-        let analyses = Analyses::new(scene, model, engine.plan(), &sections)?;
+        let analyses = Analyses::new(&Setting { scene, model, plan: engine.plan() }, &sections)?;
         analyses.continue_windows(engine, &sections)?;
         let carried = Carried::new(model, &sections)?;
         let ranks = engine.ranks();
@@ -205,7 +205,8 @@ impl<'a> Run<'a> {
             let most = most_shown(self.scene, self.model);
             let all = if taken { Shown::all(engine.reported()?) } else { engine.shown(most)? };
             let state = &all.state;
-            self.analyses.add_state(state, self.model);
+            let setting = Setting { scene: self.scene, model: self.model, plan: engine.plan() };
+            self.analyses.add_state(state, &setting);
             if self.model.picture() == PictureKind::Fields {
                 let depth = mesh_depth(engine, self.model)?;
                 for number in number.map(Some).into_iter().chain(last.then_some(None)) {
@@ -264,6 +265,7 @@ impl<'a> Run<'a> {
     }
 
     fn record(&mut self, samples: &[Sample], engine: &dyn Stepper) -> Result<(), RunError> {
+        let setting = Setting { scene: self.scene, model: self.model, plan: engine.plan() };
         for sample in samples {
             if sample.sampler == 0 {
                 self.kept_sums.compare(sample);
@@ -275,7 +277,7 @@ impl<'a> Run<'a> {
                 self.carried.complete(self.model, &mut observables);
                 self.energies.add(&observables)?;
             } else {
-                self.analyses.add(sample);
+                self.analyses.add(sample, &setting);
             }
         }
         Ok(())
@@ -323,7 +325,8 @@ impl<'a> Run<'a> {
         summary.warnings = warnings;
         summary.ranks = self.ranks.take();
         self.energies.summarise(&mut summary);
-        self.analyses.conclude(self.directory, &mut summary, &go_on)?;
+        let setting = Setting { scene: self.scene, model: self.model, plan: engine.plan() };
+        self.analyses.conclude(&setting, self.directory, &mut summary, &go_on)?;
         let changed = self.kept_sums.lost();
         let lost: Vec<KeptQuantity> = changed.iter().map(|(quantity, _)| *quantity).collect();
         summary.conserved_exactly = conserved(self.model, &lost, self.kept_sums.is_mixed());

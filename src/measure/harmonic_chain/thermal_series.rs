@@ -34,20 +34,36 @@ impl ThermalSeries {
         Self { clusters, separations: vec![0.0; clusters.saturating_sub(1)], ..Self::default() }
     }
 
+    /// The series of samples of which these numbers are known: one after the other the momenta of all clusters, the sums of
+    /// `(X_{μ+1} - X_μ)²` of all pairs of neighbours, and one after the other the means over the chain of P² and of
+    /// `(X_{μ+1} - X_μ)²`.
+    #[must_use]
+    pub fn from_parts(momenta: &[f64], separations: &[f64], history: &[[f64; 2]]) -> Self {
+        let clusters = momenta.len().checked_div(history.len()).unwrap_or(0);
+        Self { clusters, momenta: momenta.to_vec(), separations: separations.to_vec(), history: history.to_vec() }
+    }
+
+    /// The numbers that a sample adds to those of [`Self::from_parts`]: its momenta, the squares of its pairs, and the two means.
+    #[must_use]
+    pub fn numbers_of(displacements: &[f64], momenta: &[f64]) -> Vec<f64> {
+        let squares: Vec<f64> =
+            displacements.windows(2).map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0])).collect();
+        let momentum: f64 = momenta.iter().map(|momentum| momentum * momentum).sum();
+        let means = [momentum / momenta.len() as f64, squares.iter().sum::<f64>() / squares.len() as f64];
+        [momenta, &squares, &means].concat()
+    }
+
     /// Adds a sample. What does not have one number for each cluster is left out.
     pub fn push(&mut self, displacements: &[f64], momenta: &[f64]) {
         if displacements.len() != self.clusters || momenta.len() != self.clusters {
             return;
         }
+        let numbers = Self::numbers_of(displacements, momenta);
+        let (momenta, rest) = numbers.split_at(self.clusters);
+        let (squares, means) = rest.split_at(self.separations.len());
         self.momenta.extend_from_slice(momenta);
-        let mut separation = 0.0;
-        for (sum, pair) in self.separations.iter_mut().zip(displacements.windows(2)) {
-            let square = (pair[1] - pair[0]) * (pair[1] - pair[0]);
-            *sum += square;
-            separation += square;
-        }
-        let momentum: f64 = momenta.iter().map(|momentum| momentum * momentum).sum();
-        self.history.push([momentum / self.clusters as f64, separation / self.separations.len() as f64]);
+        self.separations.iter_mut().zip(squares).for_each(|(sum, square)| *sum += square);
+        self.history.extend_from_slice(means.as_chunks().0);
     }
 
     /// Means over the chain of P² and of `(X_{μ+1} - X_μ)²`, sample after sample.
@@ -87,37 +103,6 @@ impl ThermalSeries {
         }
         products
     }
-
-    /// All numbers of the series, to continue from with [`ThermalSeries::restored`].
-    #[must_use]
-    pub fn numbers(&self) -> Vec<f64> {
-        [&self.momenta, &self.separations, self.history.as_flattened()].concat()
-    }
-
-    /// How many [`Self::numbers`] a series of a chain of clusters has after so many samples.
-    #[must_use]
-    pub fn numbers_after(clusters: usize, samples: u64) -> u64 {
-        samples.saturating_mul(clusters as u64 + 2).saturating_add(clusters.saturating_sub(1) as u64)
-    }
-
-    /// The series of a chain of clusters that gave these numbers; an empty one if they are not of such a series.
-    #[must_use]
-    pub fn restored(clusters: usize, numbers: &[f64]) -> Self {
-        let empty = Self::new(clusters);
-        let pairs = empty.separations.len();
-        let Some(rest) = numbers.len().checked_sub(pairs).filter(|rest| rest.is_multiple_of(clusters + 2)) else {
-            return empty;
-        };
-        let samples = rest / (clusters + 2);
-        let (momenta, rest) = numbers.split_at(samples * clusters);
-        let (separations, history) = rest.split_at(pairs);
-        Self {
-            clusters,
-            momenta: momenta.to_vec(),
-            separations: separations.to_vec(),
-            history: history.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect(),
-        }
-    }
 }
 
 #[cfg(test)]
@@ -146,8 +131,7 @@ mod tests {
         let correlation: Vec<f64> = series.momentum_correlation(2).iter().map(|lag| lag.mean).collect();
         assert_eq!(correlation, [2.5, 0.5]);
         assert!(series.momentum_correlation(3).is_empty());
-        assert_eq!(ThermalSeries::restored(2, &series.numbers()), series);
-        assert_eq!(ThermalSeries::restored(3, &series.numbers()), ThermalSeries::new(3));
+        assert_eq!(ThermalSeries::from_parts(&series.momenta, &series.separations, &series.history), series);
         assert!(ThermalSeries::new(0).estimates().momentum_variance.is_none());
     }
 

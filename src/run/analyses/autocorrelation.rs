@@ -1,8 +1,7 @@
 //! Normalised autocorrelations of velocities and forces, and the curves fitted to them.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, Planner, Sampling, Setting, SumSampler, bytes, found,
-    windows_missing,
+    Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, SumSampler, found, windows_missing,
 };
 use crate::engine::Sample;
 use crate::families::Model;
@@ -15,7 +14,7 @@ use crate::scene::{self, AnalysisId, CorrelatedQuantity, DecayFit, Output, Scene
 use crate::shaders::analyses::Sampled;
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 const MEAN_SQUARE: &str = "mean_square";
 
@@ -71,15 +70,54 @@ impl Descriptor for Autocorrelation {
         });
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let asked = self.of(&setting.scene.output)?;
-        Some(Gathering::Samples(Box::new(Correlation {
-            asked: asked.clone(),
-            particles: setting.model.mobile_particles() as f64,
-            interval: asked.every as f64 * setting.model.time_step,
-            scale: quantum(setting.plan, asked.quantity),
-            products: Vec::new(),
-        })))
+    fn parts(&self, _: &Scene, _: &Model) -> Vec<Part> {
+        // Means over the particles that can move of products with the beginning of the window.
+        vec![Part::series(1)]
+    }
+
+    fn numbers_of_sample(&self, Setting { model, plan, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        let mean = |sum: &i64| *sum as f64 * quantum(plan, self.0) / model.mobile_particles() as f64;
+        Some(sample.sums.iter().map(mean).collect())
+    }
+
+    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let asked = self.of(&scene.output)?;
+        let interval = asked.every as f64 * model.time_step;
+        let average = WindowedAverage::of(asked.window as usize, gathered.part(0));
+        let (covariances, normalised) = (average.average(), average.normalised());
+        let first = covariances.first().copied();
+        let missing = windows_missing(&average, model)
+            .or_else(|| first.is_none_or(|first| first.mean <= 0.0).then(|| "it is zero for all particles".to_owned()));
+        let is_fitted = asked.fit != DecayFit::None;
+        let fit = (is_fitted && missing.is_none()).then(|| FittedDecay::of_windows(&average, interval, asked.fit));
+        let warnings = fit
+            .as_ref()
+            .and_then(|fit| fit.as_ref().err())
+            .map(|error| format!("no curve was fitted to the {} autocorrelation: {error}", asked.quantity.name()));
+        let fit = fit.and_then(Result::ok);
+        let columns = ["time", "autocorrelation", "autocorrelation_error", "covariance", "covariance_error"];
+        let columns = columns.into_iter().chain(fit.as_ref().map(|_| "fit"));
+        let rows = normalised.iter().zip(&covariances).enumerate().map(|(lag, (normalised, covariance))| {
+            let time = lag as f64 * interval;
+            let [error, covariance_error] =
+                [normalised, covariance].map(|average| average.standard_error.unwrap_or(f64::NAN));
+            let mut row = vec![time, normalised.mean, error, covariance.mean, covariance_error];
+            row.extend(fit.as_ref().map(|fit| fit.at(time)));
+            row
+        });
+        let table = Table::new(columns, rows.collect());
+        let result = match (missing, first) {
+            (None, Some(first)) => {
+                let mean_square = Coefficient { value: first.mean, standard_error: first.standard_error };
+                let mut result = json!({ "windows": average.windows().len(), MEAN_SQUARE: mean_square });
+                if is_fitted {
+                    result["fit"] = json!(fit.map(|fit| parameters(&fit, asked.fit)));
+                }
+                Ok(result)
+            }
+            (missing, _) => Err(missing.unwrap_or_default()),
+        };
+        Some(Conclusion { warnings: warnings.into_iter().collect(), ..Conclusion::new(table, result) })
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -108,92 +146,14 @@ fn force_product_quantum(particles: u64) -> f64 {
     ((particles.max(1) as f64).log2().ceil() - 6.0).max(0.0).exp2()
 }
 
-/// Means over the particles that can move of products with the beginning of the window, sample by sample.
-struct Correlation {
-    asked: scene::Autocorrelation,
-    particles: f64,
-    interval: f64,
-    scale: f64,
-    products: Vec<f64>,
-}
-
-impl Correlation {
-    /// The fit and its parameters; why there is none, if one was asked for.
-    fn fit(&self, average: &WindowedAverage) -> (Option<FittedDecay>, Value, Vec<String>) {
-        if self.asked.fit == DecayFit::None {
-            return (None, Value::Null, Vec::new());
-        }
-        match FittedDecay::of_windows(average, self.interval, self.asked.fit) {
-            Ok(fit) => {
-                let parameters = fit.parameters.iter().map(|(name, found)| ((*name).to_owned(), json!(found)));
-                let mut result = Map::new();
-                result.insert("curve".to_owned(), json!(self.asked.fit));
-                result.extend(parameters);
-                result.insert("deviation".to_owned(), json!(fit.deviation));
-                (Some(fit), Value::Object(result), Vec::new())
-            }
-            Err(error) => {
-                let warning =
-                    format!("no curve was fitted to the {} autocorrelation: {error}", self.asked.quantity.name());
-                (None, Value::Null, vec![warning])
-            }
-        }
+/// The parameters of a fit, for the result.
+fn parameters(fit: &FittedDecay, curve: DecayFit) -> Value {
+    let mut result = json!({ "curve": curve });
+    for (name, found) in &fit.parameters {
+        result[*name] = json!(found);
     }
-}
-
-impl Analysis for Correlation {
-    fn add(&mut self, sample: &Sample) {
-        let sum = sample.sums.first().map_or(f64::NAN, |sum| *sum as f64);
-        self.products.push(sum * self.scale / self.particles);
-    }
-
-    fn section(&self) -> Vec<u8> {
-        bytes(self.products.iter().copied())
-    }
-
-    fn numbers_after(&self, samples: u64) -> u64 {
-        samples
-    }
-
-    fn restore(&mut self, numbers: &[f64], _: u64) {
-        self.products = numbers.to_vec();
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let average = WindowedAverage::of(self.asked.window as usize, &self.products);
-        let (covariances, normalised) = (average.average(), average.normalised());
-        let first = covariances.first().copied();
-        let missing = windows_missing(&average, self.particles)
-            .or_else(|| first.is_none_or(|first| first.mean <= 0.0).then(|| "it is zero for all particles".to_owned()));
-        let (fit, fitted, warnings) = match missing {
-            None => self.fit(&average),
-            Some(_) => (None, Value::Null, Vec::new()),
-        };
-        let mut columns =
-            ["time", "autocorrelation", "autocorrelation_error", "covariance", "covariance_error"].to_vec();
-        columns.extend(fit.as_ref().map(|_| "fit"));
-        let rows = normalised.iter().zip(&covariances).enumerate().map(|(lag, (normalised, covariance))| {
-            let time = lag as f64 * self.interval;
-            let [error, covariance_error] =
-                [normalised, covariance].map(|average| average.standard_error.unwrap_or(f64::NAN));
-            let mut row = vec![time, normalised.mean, error, covariance.mean, covariance_error];
-            row.extend(fit.as_ref().map(|fit| fit.at(time)));
-            row
-        });
-        let table = Table::new(columns, rows.collect());
-        let result = match (missing, first) {
-            (None, Some(first)) => {
-                let mean_square = Coefficient { value: first.mean, standard_error: first.standard_error };
-                let mut result = json!({ "windows": average.windows().len(), MEAN_SQUARE: mean_square });
-                if self.asked.fit != DecayFit::None {
-                    result["fit"] = fitted;
-                }
-                Ok(result)
-            }
-            (missing, _) => Err(missing.unwrap_or_default()),
-        };
-        Conclusion { warnings, ..Conclusion::new(table, result) }
-    }
+    result["deviation"] = json!(fit.deviation);
+    result
 }
 
 /// The curve that was fitted to an autocorrelation, with its parameters.

@@ -1,6 +1,6 @@
 //! What a run of harmonic chains measures and writes.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, Sampling, Setting, bytes};
+use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Sampling, Setting};
 use crate::families::{ChainTrios, Likeness, Model, Strand};
 use crate::measure::harmonic_chain::{MemoryKernel, NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses};
 use crate::measure::statistics::Estimate;
@@ -8,7 +8,7 @@ use crate::plot::{
     Chart, chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart,
 };
 use crate::scene::{Interaction, Scene};
-use crate::state::{Reported, Units};
+use crate::state::Reported;
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
@@ -44,23 +44,62 @@ impl Descriptor for Chain {
         Some(Sampling { every, ..Sampling::default() })
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let (asked, model) = (setting.scene.output.chain.as_ref()?, setting.model);
-        let trios = model.particles().chains.as_ref()?.clone();
-        let thermal = std::array::from_fn(|_| ThermalSeries::new(trios.thermal.clusters));
-        let (units, time_step, every, pulses) = (model.units, model.time_step, asked.every, Vec::new());
-        Some(Gathering::States(Box::new(Chains { trios, units, time_step, every, pulses, thermal })))
+    fn takes_states(&self) -> bool {
+        true
+    }
+
+    /// Samples; of each the step, energies and displacements of the chains with a pulse; and what is kept of each chain in equilibrium.
+    fn parts(&self, _: &Scene, model: &Model) -> Vec<Part> {
+        let Some(trios) = &model.particles().chains else { return Vec::new() };
+        let clusters = trios.thermal.clusters;
+        let thermal = [Part::series(clusters), Part::sums(clusters.saturating_sub(1)), Part::series(2)];
+        let pulse = [Part::sums(1), Part::series(pulse_width(trios))];
+        pulse.into_iter().chain(std::iter::repeat_n(thermal, 3).flatten()).collect()
+    }
+
+    fn numbers_of_state(&self, Setting { model, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
+        let trios = model.particles().chains.as_ref()?;
+        let [pulse, thermal] = trios.strands();
+        let clusters = |number: usize, strand: &Strand| {
+            let (displacements, momenta) = strand.motion(&state.positions, &state.momenta, &model.units);
+            match Likeness::ALL[number] {
+                Likeness::Micro => trios.pulse.coarse_grained(&displacements, &momenta),
+                _ => (displacements, momenta),
+            }
+        };
+        let resolved = trios.pulse.frictionless();
+        let samples = [0, 1, 2].map(|number| clusters(number, &pulse[number]));
+        let mut numbers = vec![1.0, state.step as f64];
+        numbers.extend(samples.iter().map(|(displacements, momenta)| resolved.energy(displacements, momenta)));
+        numbers.extend(samples.iter().flat_map(|(displacements, _)| displacements));
+        for (number, strand) in thermal.iter().enumerate() {
+            let (displacements, momenta) = clusters(number, strand);
+            numbers.extend(ThermalSeries::numbers_of(&displacements, &momenta));
+        }
+        Some(numbers)
+    }
+
+    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let trios = model.particles().chains.as_ref()?;
+        let pulses = gathered.part(1).chunks_exact(pulse_width(trios));
+        let thermal = [2, 5, 8].map(|first| {
+            let [momenta, separations, history] = [0, 1, 2].map(|part| gathered.part(first + part));
+            ThermalSeries::from_parts(momenta, separations, history.as_chunks().0)
+        });
+        let interval = scene.output.chain.as_ref()?.every as f64 * model.time_step;
+        let pulses = pulses.map(|numbers| PulseSample::new(numbers, trios, model.time_step)).collect();
+        let chains = Chains { trios, interval, pulses, thermal };
+        let kernels = chains.kernels();
+        let pulse = chains.pulse();
+        let result = chains.results(&pulse, &kernels);
+        let (correlation, memory) = (chains.correlation(), memory(&kernels));
+        let tables = vec![chains.profiles(), pulse, correlation, memory, chains.equilibrium()];
+        Some(Conclusion { tables, result: Ok(result), warnings: Vec::new() })
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let (chart, conditions) = CHARTS[drawn.place.min(CHARTS.len() - 1)];
         chart(drawn.title(), &subtitle(conditions, drawn.scene), drawn.table)
-    }
-
-    fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
-        let (Some(asked), Some(trios)) = (&scene.output.chain, model.particles().chains.as_ref()) else { return 0 };
-        let samples = scene.time.steps.checked_div(asked.every).map_or(0, |times| times.saturating_add(1));
-        numbers_kept(trios, samples).saturating_mul(8)
     }
 
     fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
@@ -87,32 +126,43 @@ const PROFILES: usize = 4;
 const LARGEST_CLUSTER: usize = 256;
 
 /// One sample of the three chains with a pulse.
-#[derive(Debug, Clone, PartialEq)]
-struct PulseSample {
-    step: f64,
-    /// Displacements of the clusters.
-    displacements: [Vec<f64>; 3],
+struct PulseSample<'a> {
+    time: f64,
+    /// τ = ω₀t/n.
+    reduced_time: f64,
     /// Energies of the clusters, resolved motion only.
-    energies: [f64; 3],
+    energies: &'a [f64],
+    /// Displacements of the clusters.
+    displacements: Vec<&'a [f64]>,
 }
 
-/// Gathers samples of all chains.
-#[derive(Debug, Clone, PartialEq)]
-struct Chains {
-    trios: ChainTrios,
-    units: Units,
-    time_step: f64,
-    every: u64,
-    pulses: Vec<PulseSample>,
+impl<'a> PulseSample<'a> {
+    fn new(numbers: &'a [f64], trios: &ChainTrios, time_step: f64) -> Self {
+        let time = numbers[0] * time_step;
+        Self {
+            time,
+            reduced_time: time / trios.pulse.cluster_time(),
+            energies: &numbers[1..4],
+            displacements: numbers[4..].chunks_exact(trios.pulse.clusters).collect(),
+        }
+    }
+}
+
+/// Numbers of a sample of a pulse.
+fn pulse_width(trios: &ChainTrios) -> usize {
+    4 + 3 * trios.pulse.clusters
+}
+
+/// Samples of all chains.
+struct Chains<'a> {
+    trios: &'a ChainTrios,
+    /// The time between two of them.
+    interval: f64,
+    pulses: Vec<PulseSample<'a>>,
     thermal: [ThermalSeries; 3],
 }
 
-impl Chains {
-    /// τ = ω₀t/n of a step.
-    fn reduced_time(&self, step: f64) -> f64 {
-        step * self.time_step / self.trios.pulse.cluster_time()
-    }
-
+impl Chains<'_> {
     /// Displacements of clusters at a few times, in units of the height of the pulse.
     fn profiles(&self) -> Table {
         let last = self.pulses.len().saturating_sub(1);
@@ -121,7 +171,7 @@ impl Chains {
         shown.dedup();
         for sample in shown.into_iter().filter_map(|index| self.pulses.get(index)) {
             for cluster in 0..self.trios.pulse.clusters {
-                let mut row = vec![self.reduced_time(sample.step), cluster as f64];
+                let mut row = vec![sample.reduced_time, cluster as f64];
                 row.extend(sample.displacements.iter().map(|values| values[cluster] / self.trios.amplitude));
                 rows.push(row);
             }
@@ -135,20 +185,19 @@ impl Chains {
         let of_each = ["peak", "exact_peak", "variance", "exact_variance", "energy", "exact_energy"];
         let columns = columns(&["time", "tau"], &of_each);
         let shape = Pulse { amplitude: self.trios.amplitude, width: self.trios.width };
-        let exact = ExactPulse::new(&self.trios, shape);
+        let exact = ExactPulse::new(self.trios, shape);
         let describe = |displacements: &[f64]| {
             let [left, right] = half_pulses(displacements);
             let amplitude = self.trios.amplitude;
             [0.5 * (left.peak + right.peak) / amplitude, 0.5 * (left.variance + right.variance)]
         };
-        let first = self.pulses.first().map_or([f64::NAN; 3], |sample| sample.energies);
+        let first = self.pulses.first().map_or(&[f64::NAN; 3][..], |sample| sample.energies);
         let row = |sample: &PulseSample| {
-            let time = sample.step * self.time_step;
-            let mut row = vec![time, self.reduced_time(sample.step)];
+            let mut row = vec![sample.time, sample.reduced_time];
             for number in 0..3 {
-                let (displacements, energy) = exact.at(number, time);
+                let (displacements, energy) = exact.at(number, sample.time);
                 let [[peak, variance], [exact_peak, exact_variance]] =
-                    [&sample.displacements[number], &displacements].map(|values| describe(values));
+                    [sample.displacements[number], &displacements].map(describe);
                 row.extend([peak, exact_peak, variance, exact_variance]);
                 row.extend([sample.energies[number] / first[number], energy]);
             }
@@ -163,7 +212,7 @@ impl Chains {
 
     /// ⟨P(0)P(t)⟩/nmkT of each chain, with what is exact, and the limit max(0, 1 - τ) of large clusters of beads.
     fn correlation(&self) -> Table {
-        let interval = self.every as f64 * self.time_step;
+        let interval = self.interval;
         let unit = self.trios.thermal.cluster_time();
         let samples = self.thermal[0].history().len();
         // At least as many origins as lags, where the run is that short.
@@ -192,7 +241,7 @@ impl Chains {
         let of_each = ["momentum_variance", "separation_variance", "exact_separation_variance"];
         let columns = columns(&["tau"], &of_each);
         let row = |(index, sample): (usize, &PulseSample)| {
-            let mut row = vec![self.reduced_time(sample.step)];
+            let mut row = vec![sample.reduced_time];
             for number in 0..3 {
                 let [momentum, separation] =
                     self.thermal[number].history().get(index).copied().unwrap_or([f64::NAN; 2]);
@@ -260,75 +309,6 @@ impl Chains {
     }
 }
 
-impl Analysis for Chains {
-    fn add_state(&mut self, state: &Reported, _: &Model) {
-        let step = state.step as f64;
-        if self.pulses.last().is_some_and(|last| last.step >= step) {
-            return;
-        }
-        let [pulse, thermal] = self.trios.strands();
-        let clusters = |number: usize, strand: &Strand| {
-            let (displacements, momenta) = strand.motion(&state.positions, &state.momenta, &self.units);
-            match Likeness::ALL[number] {
-                Likeness::Micro => self.trios.pulse.coarse_grained(&displacements, &momenta),
-                _ => (displacements, momenta),
-            }
-        };
-        let resolved = self.trios.pulse.frictionless();
-        let samples = [0, 1, 2].map(|number| clusters(number, &pulse[number]));
-        let energies = [0, 1, 2].map(|number| resolved.energy(&samples[number].0, &samples[number].1));
-        let equilibrium = [0, 1, 2].map(|number| clusters(number, &thermal[number]));
-        self.pulses.push(PulseSample { step, displacements: samples.map(|sample| sample.0), energies });
-        for (series, (displacements, momenta)) in self.thermal.iter_mut().zip(&equilibrium) {
-            series.push(displacements, momenta);
-        }
-    }
-
-    fn section(&self) -> Vec<u8> {
-        let pulse = |sample: &PulseSample| {
-            let mut numbers = vec![sample.step];
-            numbers.extend(sample.energies);
-            numbers.extend(sample.displacements.iter().flatten());
-            numbers
-        };
-        let mut numbers = vec![self.pulses.len() as f64];
-        numbers.extend(self.pulses.iter().flat_map(pulse));
-        for series in &self.thermal {
-            numbers.extend(series.numbers());
-        }
-        bytes(numbers.into_iter())
-    }
-
-    fn numbers_after(&self, samples: u64) -> u64 {
-        numbers_kept(&self.trios, samples)
-    }
-
-    fn restore(&mut self, numbers: &[f64], samples: u64) {
-        let clusters = self.trios.pulse.clusters;
-        let width = pulse_width(&self.trios);
-        let (pulses, rest) = numbers[1..].split_at(width * samples as usize);
-        let sample = |words: &[f64]| PulseSample {
-            step: words[0],
-            energies: [words[1], words[2], words[3]],
-            displacements: [0, 1, 2].map(|number| words[4 + number * clusters..4 + (number + 1) * clusters].to_vec()),
-        };
-        self.pulses = pulses.chunks_exact(width).map(sample).collect();
-        let mut parts = rest.chunks_exact(rest.len().div_ceil(3).max(1));
-        for series in &mut self.thermal {
-            *series = ThermalSeries::restored(self.trios.thermal.clusters, parts.next().unwrap_or_default());
-        }
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let kernels = self.kernels();
-        let pulse = self.pulse();
-        let result = self.results(&pulse, &kernels);
-        let (correlation, memory) = (self.correlation(), memory(&kernels));
-        let tables = vec![self.profiles(), pulse, correlation, memory, self.equilibrium()];
-        Conclusion { tables, result: Ok(result), warnings: Vec::new() }
-    }
-}
-
 /// The table of a pulse has about this many rows at most.
 const LARGEST_PULSE_TABLE: usize = 80;
 
@@ -361,17 +341,6 @@ impl<'a> ExactPulse<'a> {
         let energy = chain.frictionless().energy(&displacements, &momenta) / self.energy;
         (displacements, energy)
     }
-}
-
-/// Numbers of a sample of a pulse.
-fn pulse_width(trios: &ChainTrios) -> usize {
-    4 + 3 * trios.pulse.clusters
-}
-
-/// Numbers that a checkpoint keeps after so many samples.
-fn numbers_kept(trios: &ChainTrios, samples: u64) -> u64 {
-    let series = ThermalSeries::numbers_after(trios.thermal.clusters, samples);
-    (pulse_width(trios) as u64).saturating_mul(samples).saturating_add(1).saturating_add(series.saturating_mul(3))
 }
 
 /// Running integrals against ω₀t, in equal ratios of time, and the plateau of the largest clusters.

@@ -1,7 +1,7 @@
 //! Sizes of chains: mean squared distance of the ends and radius of gyration.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Planner, Sampling, Setting, SumSampler, bytes, mean,
+    Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler, mean,
     printed_mean,
 };
 use crate::engine::Sample;
@@ -52,13 +52,44 @@ impl Descriptor for ChainSizes {
         });
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::Samples(Box::new(Sizes {
-            groups: setting.model.particles().chain_groups.clone(),
-            time_step: setting.model.time_step,
-            scale: setting.plan.quanta.length_squared,
-            rows: Vec::new(),
-        })))
+    fn parts(&self, _: &Scene, model: &Model) -> Vec<Part> {
+        // A step, then two means for each group.
+        vec![Part::series(1 + 2 * model.particles().chain_groups.len())]
+    }
+
+    fn numbers_of_sample(&self, Setting { model, plan, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        let means = sample.sums.iter().enumerate().map(|(index, sum)| {
+            let chains = model.particles().chain_groups.get(index / 2).map_or(1, |group| group.chains.max(1));
+            *sum as f64 * plan.quanta.length_squared / f64::from(chains)
+        });
+        Some(std::iter::once(sample.step as f64).chain(means).collect())
+    }
+
+    fn conclude(&self, Setting { model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let groups = &model.particles().chain_groups;
+        let columns =
+            (0..groups.len()).flat_map(|number| [END_TO_END, GYRATION].map(|quantity| format!("{quantity}_{number}")));
+        let rows = gathered.part(0).chunks_exact(1 + 2 * groups.len());
+        let rows = rows.map(|row| [&[row[0] * model.time_step], &row[1..]].concat()).collect();
+        let table = Table::new(std::iter::once("time".to_owned()).chain(columns), rows);
+        let sizes = |(number, group): (usize, &ChainGroup)| {
+            let [end_to_end, gyration] =
+                [1, 2].map(|place| json!(estimate(&table.column_at(place + 2 * number).collect::<Vec<f64>>())));
+            json!({
+                "species": group.name,
+                "chains": group.chains,
+                "beads": group.beads,
+                // The last bead of a ring is next to its first, and their distance that of a bond; a branched molecule has
+                // more ends.
+                END_TO_END: if group.linear { end_to_end } else { Value::Null },
+                GYRATION: gyration,
+            })
+        };
+        let result = match gathered.samples() {
+            0 => Err(NO_SAMPLE.to_owned()),
+            _ => Ok(groups.iter().enumerate().map(sizes).collect()),
+        };
+        Some(Conclusion::new(table, result))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -134,69 +165,5 @@ fn chain_kind(result: &Value) -> ChainKind {
         beads: result["beads"].as_u64().unwrap_or_default(),
         end_to_end: mean(&result[END_TO_END]),
         gyration: mean(&result[GYRATION]),
-    }
-}
-
-/// Mean sizes of the chains of each group, sample by sample.
-struct Sizes {
-    groups: Vec<ChainGroup>,
-    time_step: f64,
-    scale: f64,
-    /// A step, then two means for each group.
-    rows: Vec<Vec<f64>>,
-}
-
-impl Sizes {
-    fn result(&self, number: usize) -> Value {
-        let group = &self.groups[number];
-        let column = |index: usize| -> Value {
-            let series: Vec<f64> = self.rows.iter().map(|row| row[1 + 2 * number + index]).collect();
-            json!(estimate(&series))
-        };
-        json!({
-            "species": group.name,
-            "chains": group.chains,
-            "beads": group.beads,
-            // The last bead of a ring is next to its first, and their distance that of a bond; a branched molecule has
-            // more ends.
-            END_TO_END: if group.linear { column(0) } else { Value::Null },
-            GYRATION: column(1),
-        })
-    }
-}
-
-impl Analysis for Sizes {
-    fn add(&mut self, sample: &Sample) {
-        let means = sample.sums.iter().enumerate().map(|(index, sum)| {
-            let chains = self.groups.get(index / 2).map_or(1, |group| group.chains.max(1));
-            *sum as f64 * self.scale / f64::from(chains)
-        });
-        self.rows.push(std::iter::once(sample.step as f64).chain(means).collect());
-    }
-
-    fn section(&self) -> Vec<u8> {
-        bytes(self.rows.iter().flatten().copied())
-    }
-
-    fn numbers_after(&self, samples: u64) -> u64 {
-        samples.saturating_mul(1 + 2 * self.groups.len() as u64)
-    }
-
-    fn restore(&mut self, numbers: &[f64], _: u64) {
-        self.rows = numbers.chunks_exact(1 + 2 * self.groups.len()).map(<[f64]>::to_vec).collect();
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let columns = (0..self.groups.len())
-            .flat_map(|number| [END_TO_END, GYRATION].map(|quantity| format!("{quantity}_{number}")));
-        let timed = |row: &Vec<f64>| [&[row[0] * self.time_step], &row[1..]].concat();
-        let columns = std::iter::once("time".to_owned()).chain(columns);
-        let table = Table::new(columns, self.rows.iter().map(timed).collect());
-        let result = if self.rows.is_empty() {
-            Err(NO_SAMPLE.to_owned())
-        } else {
-            Ok((0..self.groups.len()).map(|number| self.result(number)).collect())
-        };
-        Conclusion::new(table, result)
     }
 }

@@ -1,6 +1,6 @@
 //! The circulations of material loops over a run.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, Planner, Sampling, Setting, bytes};
+use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting};
 use crate::engine::Sample;
 use crate::families::{MaterialLoops, Model};
 use crate::measure::circulation::{circulation, largest_gap};
@@ -9,10 +9,8 @@ use crate::plan::{Kernel, Sampler, SamplerId};
 use crate::plot::{Chart, circulation_chart};
 use crate::scene::{AnalysisId, Scene};
 use crate::shaders::{Array, Choices, Entry};
-use crate::state::Units;
 use crate::table::Table;
 use serde_json::{Map, Value, json};
-use std::ops::Range;
 
 /// The buffer of tracers at reports.
 const SAMPLES: Array = Array::TracerSamples;
@@ -31,9 +29,8 @@ pub(super) struct Circulation;
 impl Descriptor for Circulation {
     fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling> {
         let loops = model.physics().material_loops(model).map_or(0, |found| found.loops.len() as u64);
-        let every = scene.output.energies.every;
-        let rows = scene.time.steps.checked_div(every).map_or(0, |times| times.saturating_add(1));
-        (loops > 0).then(|| Sampling { every, numbers: rows.saturating_mul(loops + 2), ..Sampling::default() })
+        let sampling = Sampling { every: scene.output.energies.every, ..Sampling::default() };
+        (loops > 0).then(|| Sampling { numbers: sampling.count(scene).saturating_mul(loops + 2), ..sampling })
     }
 
     fn add_sampler(&self, planner: &mut Planner<'_>) {
@@ -68,11 +65,38 @@ impl Descriptor for Circulation {
         });
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let model = setting.model;
+    fn parts(&self, _: &Scene, model: &Model) -> Vec<Part> {
+        // Time and circulations.
+        vec![Part::series(1 + model.physics().material_loops(model).map_or(0, |found| found.loops.len()))]
+    }
+
+    /// Time and circulations of all closed loops, from position and velocity of every tracer, two integers a word. A circulation is not a
+    /// number once its loop is no curve any more.
+    fn numbers_of_sample(&self, Setting { model, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
         let MaterialLoops { rotation, spacing, loops, .. } = model.physics().material_loops(model)?;
-        let (units, time_step, rows) = (model.units, model.time_step, Vec::new());
-        Some(Gathering::Samples(Box::new(Circulations { units, rotation, time_step, spacing, loops, rows })))
+        let halves = |word: &i64| [*word as u32, (*word >> 32) as u32];
+        let mut row = vec![sample.step as f64 * model.time_step];
+        for (_, range) in loops {
+            let (mut positions, mut velocities) = (Vec::new(), Vec::new());
+            for point in sample.sums.get(2 * range.start..2 * range.end)?.chunks_exact(2) {
+                let ([x, y], [u, v]) = (halves(&point[0]), halves(&point[1]));
+                positions.push([x, y, 0]);
+                velocities.push([u as i32, v as i32, 0]);
+            }
+            let resolved = positions.len() > 2 && largest_gap(&model.units, &positions) < spacing;
+            row.push(if resolved { circulation(&model.units, &positions, &velocities, rotation) } else { f64::NAN });
+        }
+        Some(row)
+    }
+
+    fn conclude(&self, Setting { model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let loops = model.physics().material_loops(model)?.loops;
+        let rows = gathered.part(0).chunks_exact(1 + loops.len()).map(<[f64]>::to_vec).collect();
+        let names = std::iter::once("time").chain(loops.iter().map(|(name, _)| name.as_str()));
+        let table = Table::new(names, rows);
+        let result = loops.iter().enumerate().map(|(place, (name, _))| (name.clone(), change(&table, place + 1)));
+        let result = Value::Object(result.collect::<Map<_, _>>());
+        (!loops.is_empty()).then(|| Conclusion::new(table, Ok(result)))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -100,87 +124,16 @@ pub(in crate::run) fn largest_change(result: &Value) -> Option<f64> {
     loops.filter_map(|found| found[RELATIVE_CHANGE].as_f64()).reduce(f64::max)
 }
 
-/// Circulations of all closed loops, one row a sample; not a number once a loop is no curve any more.
-struct Circulations {
-    units: Units,
-    rotation: f64,
-    time_step: f64,
-    /// Neighbours on a loop that are further apart than this have lost each other.
-    spacing: f64,
-    /// Name and place among the tracers.
-    loops: Vec<(String, Range<usize>)>,
-    /// Time and circulations.
-    rows: Vec<Vec<f64>>,
-}
-
-impl Circulations {
-    fn table(&self) -> Table {
-        let names = std::iter::once("time").chain(self.loops.iter().map(|(name, _)| name.as_str()));
-        Table::new(names, self.rows.clone())
-    }
-
-    /// First value of each loop, the time up to which its points are closer together than nodes, and the largest
-    /// change until then, relative too unless the first value is 0; null where there is none.
-    fn result(&self) -> Value {
-        let result = |(index, (name, _)): (usize, &(String, Range<usize>))| {
-            let values = || self.rows.iter().map(move |row| row[index + 1]);
-            let first = values().next().unwrap_or(f64::NAN);
-            let resolved = || values().zip(&self.rows).take_while(|(value, _)| value.is_finite());
-            let change = resolved().map(|(value, _)| (value - first).abs()).reduce(f64::max);
-            let relative = change.filter(|_| first != 0.0).map(|change| change / first.abs());
-            let until = resolved().last().map(|(_, row)| row[0]);
-            let result = json!({
-                INITIAL: first,
-                "resolved_until": until,
-                CHANGE: change,
-                RELATIVE_CHANGE: relative,
-            });
-            (name.clone(), result)
-        };
-        Value::Object(self.loops.iter().enumerate().map(result).collect::<Map<_, _>>())
-    }
-}
-
-impl Analysis for Circulations {
-    /// Adds a sample of all tracers: position and velocity of each, two integers a word.
-    fn add(&mut self, sample: &Sample) {
-        let halves = |word: &i64| [*word as u32, (*word >> 32) as u32];
-        let mut row = vec![sample.step as f64 * self.time_step];
-        for (_, range) in &self.loops {
-            let Some(words) = sample.sums.get(2 * range.start..2 * range.end) else { return };
-            let (mut positions, mut velocities) = (Vec::new(), Vec::new());
-            for point in words.chunks_exact(2) {
-                let ([x, y], [u, v]) = (halves(&point[0]), halves(&point[1]));
-                positions.push([x, y, 0]);
-                velocities.push([u as i32, v as i32, 0]);
-            }
-            let resolved = positions.len() > 2 && largest_gap(&self.units, &positions) < self.spacing;
-            row.push(if resolved {
-                circulation(&self.units, &positions, &velocities, self.rotation)
-            } else {
-                f64::NAN
-            });
-        }
-        self.rows.push(row);
-    }
-
-    fn section(&self) -> Vec<u8> {
-        bytes(self.rows.iter().flatten().copied())
-    }
-
-    fn numbers_after(&self, samples: u64) -> u64 {
-        samples.saturating_mul(1 + self.loops.len() as u64)
-    }
-
-    fn restore(&mut self, numbers: &[f64], _: u64) {
-        self.rows = numbers.chunks_exact(1 + self.loops.len()).map(<[f64]>::to_vec).collect();
-    }
-
-    fn is_idle(&self) -> bool {
-        self.loops.is_empty()
-    }
-
-    fn conclude(&self) -> Conclusion {
-        Conclusion::new(self.table(), Ok(self.result()))
-    }
+/// The first value of a loop, the time up to which its points are closer together than nodes, and the largest
+/// change until then, relative too unless the first value is 0; null where there is none.
+fn change(table: &Table, column: usize) -> Value {
+    let first = table.column_at(column).next().unwrap_or(f64::NAN);
+    let resolved = || table.rows.iter().take_while(|row| row[column].is_finite());
+    let change = resolved().map(|row| (row[column] - first).abs()).reduce(f64::max);
+    json!({
+        INITIAL: first,
+        "resolved_until": resolved().last().map(|row| row[0]),
+        CHANGE: change,
+        RELATIVE_CHANGE: change.filter(|_| first != 0.0).map(|change| change / first.abs()),
+    })
 }

@@ -1,18 +1,19 @@
 //! What an analysis has to say of itself, and what it does with what it takes.
 
 use super::Planner;
+use super::gathered::{Gathered, Part};
 use super::results::printed;
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::numbers::grouped;
-use crate::plan::{Need, Plan, Sampler};
+use crate::plan::{Need, Plan};
 use crate::plot::Chart;
 use crate::scene::{Output, Scene};
 use crate::state::Reported;
 use crate::table::Table;
 use serde_json::Value;
 
-/// What is known of an analysis whether or not a run measures it.
+/// An analysis: what it asks of a run, what is kept of its samples, and what follows from them.
 pub(super) trait Descriptor {
     /// How a scene asks for it; none if it does not.
     fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling>;
@@ -28,8 +29,28 @@ pub(super) trait Descriptor {
         let _ = planner;
     }
 
-    /// Begins to gather what is asked for.
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering>;
+    /// True if its samples are states, and not rows of a sampler.
+    fn takes_states(&self) -> bool {
+        false
+    }
+
+    /// What is kept of samples.
+    fn parts(&self, scene: &Scene, model: &Model) -> Vec<Part>;
+
+    /// The numbers that a row of its sampler adds to the parts.
+    fn numbers_of_sample(&self, setting: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        let _ = (setting, sample);
+        None
+    }
+
+    /// The numbers that a state with full-step momenta adds to the parts.
+    fn numbers_of_state(&self, setting: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
+        let _ = (setting, state);
+        None
+    }
+
+    /// Tables and result of what was gathered; none if there is nothing to write.
+    fn conclude(&self, setting: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion>;
 
     /// The chart of a table that it left.
     fn chart(&self, drawn: &Drawn<'_>) -> Chart;
@@ -49,12 +70,6 @@ pub(super) trait Descriptor {
     fn finds(&self, scene: &Scene, model: &Model) -> Vec<&'static str> {
         let _ = (scene, model);
         self.labels().iter().map(|(_, name)| *name).collect()
-    }
-
-    /// Bytes that its sections add to a checkpoint, if they are many.
-    fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
-        let _ = (scene, model);
-        0
     }
 }
 
@@ -81,7 +96,7 @@ impl Sampling {
 
     /// Number of samples of a scene.
     pub(super) fn count(&self, scene: &Scene) -> u64 {
-        scene.time.steps.saturating_sub(self.first) / self.every.max(1) + 1
+        (scene.time.steps.saturating_sub(self.first) / self.every.max(1)).saturating_add(1)
     }
 
     /// The same in windows of so many samples.
@@ -90,13 +105,12 @@ impl Sampling {
     }
 }
 
-/// What every analysis begins with.
-pub(super) struct Setting<'a> {
-    pub(super) scene: &'a Scene,
-    pub(super) model: &'a Model,
-    pub(super) plan: &'a Plan,
-    /// Its sampler, if it has one.
-    pub(super) sampler: Option<&'a Sampler>,
+/// The run that samples belong to.
+#[derive(Clone, Copy)]
+pub(in crate::run) struct Setting<'a> {
+    pub scene: &'a Scene,
+    pub model: &'a Model,
+    pub plan: &'a Plan,
 }
 
 /// What a chart is drawn from.
@@ -118,40 +132,6 @@ impl Drawn<'_> {
     pub(super) fn column(&self, name: &str) -> Vec<f64> {
         self.table.column(name).unwrap_or_default()
     }
-}
-
-/// An analysis under way, by what it takes.
-pub(super) enum Gathering {
-    /// Rows of its sampler.
-    Samples(Box<dyn Analysis>),
-    /// States.
-    States(Box<dyn Analysis>),
-}
-
-/// What has been gathered for an analysis.
-pub(super) trait Analysis {
-    /// Adds a row of its sampler, if it takes these.
-    fn add(&mut self, sample: &Sample) {
-        let _ = sample;
-    }
-
-    /// Adds a state with full-step momenta, if it takes these. A step that was added already, before a run went back, is left out.
-    fn add_state(&mut self, state: &Reported, model: &Model) {
-        let _ = (state, model);
-    }
-
-    /// What a checkpoint has to keep.
-    fn section(&self) -> Vec<u8>;
-    /// How many numbers that is after so many samples.
-    fn numbers_after(&self, samples: u64) -> u64;
-    /// Continues from what [`Self::section`] kept after so many samples, which is as much as [`Self::numbers_after`] says.
-    fn restore(&mut self, numbers: &[f64], samples: u64);
-    /// Whether there is nothing to write.
-    fn is_idle(&self) -> bool {
-        false
-    }
-    /// Tables and result.
-    fn conclude(&self) -> Conclusion;
 }
 
 /// What an analysis leaves.

@@ -1,8 +1,7 @@
 //! Mean squared displacement and velocity autocorrelation, and the diffusion coefficients they give.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, Planner, Sampling, Setting, SumSampler, bytes, found,
-    windows_missing,
+    Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, SumSampler, found, windows_missing,
 };
 use crate::engine::Sample;
 use crate::families::Model;
@@ -61,18 +60,46 @@ impl Descriptor for Diffusion {
         });
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let (asked, model) = (setting.scene.output.diffusion.as_ref()?, setting.model);
-        let quanta = setting.plan.quanta;
-        Some(Gathering::Samples(Box::new(Averages {
-            particles: model.mobile_particles() as f64,
-            dimension: model.units.dimension,
-            interval: asked.every as f64 * model.time_step,
-            window: asked.window as usize,
-            scales: [quanta.length_squared, quanta.velocity_squared],
-            displacement: Vec::new(),
-            velocity: Vec::new(),
-        })))
+    fn parts(&self, _: &Scene, _: &Model) -> Vec<Part> {
+        // Means over the particles that can move of squared displacements and of products of velocities.
+        vec![Part::series(1), Part::series(1)]
+    }
+
+    fn numbers_of_sample(&self, Setting { model, plan, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        let scales = [plan.quanta.length_squared, plan.quanta.velocity_squared];
+        let means = sample.sums.iter().zip(scales);
+        Some(means.map(|(sum, scale)| *sum as f64 * scale / model.mobile_particles() as f64).collect())
+    }
+
+    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let asked = scene.output.diffusion.as_ref()?;
+        let interval = asked.every as f64 * model.time_step;
+        let [displacement, velocity] =
+            [0, 1].map(|part| WindowedAverage::of(asked.window as usize, gathered.part(part)));
+        let averages = displacement.average().into_iter().zip(velocity.average());
+        let rows = averages.enumerate().map(|(lag, (far, kept))| {
+            let [far_error, kept_error] = [far.standard_error, kept.standard_error].map(|e| e.unwrap_or(f64::NAN));
+            vec![lag as f64 * interval, far.mean, far_error, kept.mean, kept_error]
+        });
+        let columns = [
+            "time",
+            "mean_squared_displacement",
+            "mean_squared_displacement_error",
+            "velocity_autocorrelation",
+            "velocity_autocorrelation_error",
+        ];
+        let table = Table::new(columns, rows.collect());
+        if let Some(missing) = windows_missing(&displacement, model) {
+            return Some(Conclusion::new(table, Err(missing)));
+        }
+        let mut result = json!({ "windows": displacement.windows().len() });
+        let windows = DiffusionWindows { displacement, velocity, interval, dimension: model.units.dimension };
+        let mut warnings = Vec::new();
+        for (name, found) in [(EINSTEIN, windows.einstein()), (GREEN_KUBO, windows.green_kubo())] {
+            result[name] = json!(found.as_ref().ok());
+            warnings.extend(found.err().map(|error| format!("no `{name}`: {error}")));
+        }
+        Some(Conclusion { warnings, ..Conclusion::new(table, Ok(result)) })
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -83,68 +110,5 @@ impl Descriptor for Diffusion {
 
     fn labels(&self) -> &'static [(&'static str, &'static str)] {
         &[("diffusion (Einstein)", EINSTEIN), ("diffusion (Green-Kubo)", GREEN_KUBO)]
-    }
-}
-
-/// Means over the particles that can move, sample by sample.
-struct Averages {
-    particles: f64,
-    dimension: usize,
-    interval: f64,
-    window: usize,
-    scales: [f64; 2],
-    displacement: Vec<f64>,
-    velocity: Vec<f64>,
-}
-
-impl Analysis for Averages {
-    fn add(&mut self, sample: &Sample) {
-        let [displacement, velocity] = &mut [&mut self.displacement, &mut self.velocity];
-        for ((series, sum), scale) in [displacement, velocity].into_iter().zip(&sample.sums).zip(self.scales) {
-            series.push(*sum as f64 * scale / self.particles);
-        }
-    }
-
-    fn section(&self) -> Vec<u8> {
-        bytes(self.displacement.iter().chain(&self.velocity).copied())
-    }
-
-    fn numbers_after(&self, samples: u64) -> u64 {
-        samples.saturating_mul(2)
-    }
-
-    fn restore(&mut self, numbers: &[f64], _: u64) {
-        let (first, second) = numbers.split_at(numbers.len() / 2);
-        self.displacement = first.to_vec();
-        self.velocity = second.to_vec();
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let [displacement, velocity] =
-            [&self.displacement, &self.velocity].map(|samples| WindowedAverage::of(self.window, samples));
-        let averages = displacement.average().into_iter().zip(velocity.average());
-        let rows = averages.enumerate().map(|(lag, (far, kept))| {
-            let [far_error, kept_error] = [far.standard_error, kept.standard_error].map(|e| e.unwrap_or(f64::NAN));
-            vec![lag as f64 * self.interval, far.mean, far_error, kept.mean, kept_error]
-        });
-        let columns = [
-            "time",
-            "mean_squared_displacement",
-            "mean_squared_displacement_error",
-            "velocity_autocorrelation",
-            "velocity_autocorrelation_error",
-        ];
-        let table = Table::new(columns, rows.collect());
-        if let Some(missing) = windows_missing(&displacement, self.particles) {
-            return Conclusion::new(table, Err(missing));
-        }
-        let mut result = json!({ "windows": displacement.windows().len() });
-        let windows = DiffusionWindows { displacement, velocity, interval: self.interval, dimension: self.dimension };
-        let mut warnings = Vec::new();
-        for (name, found) in [(EINSTEIN, windows.einstein()), (GREEN_KUBO, windows.green_kubo())] {
-            result[name] = json!(found.as_ref().ok());
-            warnings.extend(found.err().map(|error| format!("no `{name}`: {error}")));
-        }
-        Conclusion { warnings, ..Conclusion::new(table, Ok(result)) }
     }
 }

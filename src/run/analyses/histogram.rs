@@ -1,9 +1,7 @@
 //! Histograms of velocities, speeds and accelerations.
 
 use super::histogram_range::range;
-use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Planner, Sampling, Setting, SumSampler, bytes,
-};
+use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler};
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::histogram::{self, PowerMeans, gaussian_mean, maxwell_mean};
@@ -81,21 +79,84 @@ impl Descriptor for Histogram {
         planner.add_counts(&SumSampler { choices: choices.with(counted), constants, before, ..sampler }, groups);
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let asked = self.of(&setting.scene.output)?;
-        let range = range(setting.model, asked);
-        let low = if asked.quantity == CountedQuantity::Speed { 0.0 } else { -range };
-        Some(Gathering::Samples(Box::new(Counts {
-            asked: asked.clone(),
-            particles: setting.model.mobile_particles() as f64,
-            quantum: moment_quantum(setting.plan.particles),
-            dimension: setting.model.units.dimension,
-            range,
-            samples: 0.0,
-            histogram: histogram::Histogram::new([low, range], asked.bins as usize),
-            far: 0.0,
-            powers: [0.0; MOMENTS],
-        })))
+    fn parts(&self, scene: &Scene, _: &Model) -> Vec<Part> {
+        // Samples, values below, values above, particles far beyond, powers, and counts.
+        vec![Part::sums(1 + EXTRA + MOMENTS + self.of(&scene.output).map_or(0, |asked| asked.bins as usize))]
+    }
+
+    fn numbers_of_sample(&self, Setting { scene, plan, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        let (counts, rest) = sample.sums.split_at_checked(self.of(&scene.output)?.bins as usize)?;
+        let (extra, powers) = rest.split_at_checked(EXTRA)?;
+        let quantum = moment_quantum(plan.particles);
+        let powers = powers.iter().map(|power| *power as f64 * quantum);
+        let [extra, counts] = [extra, counts].map(|found| found.iter().map(|count| *count as f64));
+        Some(std::iter::once(1.0).chain(extra).chain(powers).chain(counts).collect())
+    }
+
+    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let asked = self.of(&scene.output)?;
+        let ([samples, below, above, far], rest) = gathered.part(0).split_first_chunk()?;
+        let (powers, counts) = rest.split_first_chunk()?;
+        let (name, speed, range) = (self.0.name(), self.0 == CountedQuantity::Speed, range(model, asked));
+        let low = if speed { 0.0 } else { -range };
+        let histogram =
+            histogram::Histogram { range: [low, range], counts: counts.to_vec(), below: *below, above: *above };
+        let dimension = model.units.dimension;
+        let components = if speed || asked.axis.is_some() { 1.0 } else { dimension as f64 };
+        let particles = samples * model.mobile_particles() as f64 - far;
+        let [value, magnitude] = means(powers, range, [particles * components, particles]);
+        let densities = histogram.density();
+        let rows = histogram.counts.iter().enumerate().map(|(bin, count)| {
+            let compared = if speed {
+                maxwell_mean(histogram.edges(bin), magnitude.second, dimension)
+            } else {
+                gaussian_mean(histogram.edges(bin), value.first, value.standard_deviation())
+            };
+            vec![histogram.centre(bin), densities[bin], *count, compared]
+        });
+        let compared = if speed { MAXWELL } else { GAUSSIAN };
+        let table = Table::new([name, "density", "count", compared], rows.collect());
+        let total = histogram.total();
+        let outside = (histogram.below + histogram.above) / total;
+        let mut warnings = Vec::new();
+        if outside > 1e-3 {
+            warnings.push(format!(
+                "{:.2} % of the values of the {name} histogram lie beyond its range of {range:.4}; give it a larger \
+                 `output.histograms` range",
+                100.0 * outside
+            ));
+        }
+        if *far > 0.0 {
+            warnings.push(format!(
+                "{far} times a particle was further than {FARTHEST} times the range of the {name} histogram, and is \
+                 not in its moments"
+            ));
+        }
+        let result = if *samples == 0.0 {
+            Err(NO_SAMPLE.to_owned())
+        } else if total == 0.0 {
+            Err("there are no particles".to_owned())
+        } else {
+            let mut result = Map::new();
+            let mut put = |name: &str, value: f64| result.insert(name.to_owned(), json!(value));
+            put("samples", *samples);
+            put("values", total);
+            put("range", range);
+            if !speed {
+                put(BELOW, histogram.below);
+            }
+            put(ABOVE, histogram.above);
+            put(MEAN, value.first);
+            put(DEVIATION, value.standard_deviation());
+            if !speed {
+                // About zero it says nothing of a magnitude.
+                put(KURTOSIS, value.kurtosis());
+            }
+            put(MEAN_SQUARE, magnitude.second);
+            put(VARIANCE_OF_SQUARE, magnitude.variance_of_square());
+            Ok(Value::Object(result))
+        };
+        Some(Conclusion { warnings, ..Conclusion::new(table, result) })
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -171,139 +232,13 @@ fn density_chart(title: &str, table: &Table) -> Chart {
     histogram_chart(title, name(0), &edges, &densities, (label, &compared))
 }
 
-/// Counts and sums of powers over all samples.
-struct Counts {
-    asked: scene::Histogram,
-    particles: f64,
-    /// The value of one unit of the powers.
-    quantum: f64,
-    dimension: usize,
-    range: f64,
-    samples: f64,
-    histogram: histogram::Histogram,
-    /// Particles so far beyond the range that they are not in the powers.
-    far: f64,
-    /// Σx, Σx², Σx⁴ over values and Σr², Σr⁴ over particles, x and the magnitude r in units of the range.
-    powers: [f64; MOMENTS],
-}
-
-impl Counts {
-    /// Values of a particle.
-    fn values(&self) -> f64 {
-        let components = self.asked.quantity != CountedQuantity::Speed && self.asked.axis.is_none();
-        if components { self.dimension as f64 } else { 1.0 }
-    }
-
-    /// Means of powers of the value and of the magnitude of the vector, over particles that are not far beyond.
-    fn means(&self) -> [PowerMeans; 2] {
-        let particles = self.samples * self.particles - self.far;
-        let mean = |sum: f64, power: i32, count: f64| sum * self.range.powi(power) / count;
-        let values = particles * self.values();
-        let [first, second, fourth, square, square_of_square] = self.powers;
-        let [first, second, fourth] = [mean(first, 1, values), mean(second, 2, values), mean(fourth, 4, values)];
-        let [square, square_of_square] = [mean(square, 2, particles), mean(square_of_square, 4, particles)];
-        [PowerMeans { first, second, fourth }, PowerMeans { first: f64::NAN, second: square, fourth: square_of_square }]
-    }
-}
-
-impl Analysis for Counts {
-    fn add(&mut self, sample: &Sample) {
-        let bins = self.histogram.counts.len();
-        if sample.sums.len() != bins + EXTRA + MOMENTS {
-            return;
-        }
-        let (counts, rest) = sample.sums.split_at(bins);
-        let (extra, powers) = rest.split_at(EXTRA);
-        self.samples += 1.0;
-        self.histogram.counts.iter_mut().zip(counts).for_each(|(count, found)| *count += *found as f64);
-        for (count, found) in
-            [&mut self.histogram.below, &mut self.histogram.above, &mut self.far].into_iter().zip(extra)
-        {
-            *count += *found as f64;
-        }
-        self.powers.iter_mut().zip(powers).for_each(|(power, found)| *power += *found as f64 * self.quantum);
-    }
-
-    fn section(&self) -> Vec<u8> {
-        let histogram = &self.histogram;
-        let single = [self.samples, histogram.below, histogram.above, self.far].into_iter();
-        bytes(single.chain(self.powers).chain(histogram.counts.iter().copied()))
-    }
-
-    fn numbers_after(&self, _: u64) -> u64 {
-        (4 + MOMENTS + self.histogram.counts.len()) as u64
-    }
-
-    fn restore(&mut self, numbers: &[f64], _: u64) {
-        if let Some(([samples, below, above, far], rest)) = numbers.split_first_chunk()
-            && let Some((powers, counts)) = rest.split_first_chunk()
-        {
-            (self.samples, self.far, self.powers) = (*samples, *far, *powers);
-            let range = self.histogram.range;
-            self.histogram = histogram::Histogram { range, counts: counts.to_vec(), below: *below, above: *above };
-        }
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let name = self.asked.quantity.name();
-        let [value, magnitude] = self.means();
-        let speed = self.asked.quantity == CountedQuantity::Speed;
-        let histogram = &self.histogram;
-        let densities = histogram.density();
-        let rows = histogram.counts.iter().enumerate().map(|(bin, count)| {
-            let compared = if speed {
-                maxwell_mean(histogram.edges(bin), magnitude.second, self.dimension)
-            } else {
-                gaussian_mean(histogram.edges(bin), value.first, value.standard_deviation())
-            };
-            vec![histogram.centre(bin), densities[bin], *count, compared]
-        });
-        let compared = if speed { MAXWELL } else { GAUSSIAN };
-        let table = Table::new([name, "density", "count", compared], rows.collect());
-        let total = histogram.total();
-        let outside = (histogram.below + histogram.above) / total;
-        let mut warnings = Vec::new();
-        if outside > 1e-3 {
-            warnings.push(format!(
-                "{:.2} % of the values of the {name} histogram lie beyond its range of {:.4}; give it a larger \
-                 `output.histograms` range",
-                100.0 * outside,
-                self.range
-            ));
-        }
-        if self.far > 0.0 {
-            warnings.push(format!(
-                "{} times a particle was further than {FARTHEST} times the range of the {name} histogram, and is \
-                 not in its moments",
-                self.far
-            ));
-        }
-        let result = if self.samples == 0.0 {
-            Err(NO_SAMPLE.to_owned())
-        } else if total == 0.0 {
-            Err("there are no particles".to_owned())
-        } else {
-            let mut result = Map::new();
-            let mut put = |name: &str, value: f64| result.insert(name.to_owned(), json!(value));
-            put("samples", self.samples);
-            put("values", total);
-            put("range", self.range);
-            if !speed {
-                put(BELOW, histogram.below);
-            }
-            put(ABOVE, histogram.above);
-            put(MEAN, value.first);
-            put(DEVIATION, value.standard_deviation());
-            if !speed {
-                // About zero it says nothing of a magnitude.
-                put(KURTOSIS, value.kurtosis());
-            }
-            put(MEAN_SQUARE, magnitude.second);
-            put(VARIANCE_OF_SQUARE, magnitude.variance_of_square());
-            Ok(Value::Object(result))
-        };
-        Conclusion { warnings, ..Conclusion::new(table, result) }
-    }
+/// Means of powers of values and of magnitudes of vectors, of which there are so many, from Σx, Σx², Σx⁴ over values and Σr², Σr⁴ over
+/// magnitudes, in units of the range.
+fn means(sums: &[f64; MOMENTS], range: f64, [values, particles]: [f64; 2]) -> [PowerMeans; 2] {
+    let mean = |sum: usize, power: i32, count: f64| sums[sum] * range.powi(power) / count;
+    let of_values = PowerMeans { first: mean(0, 1, values), second: mean(1, 2, values), fourth: mean(2, 4, values) };
+    let of_magnitudes = PowerMeans { first: f64::NAN, second: mean(3, 2, particles), fourth: mean(4, 4, particles) };
+    [of_values, of_magnitudes]
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ mod chain_sizes;
 mod circulation;
 mod descriptor;
 mod diffusion;
+mod gathered;
 mod histogram;
 mod histogram_range;
 mod neighbours;
@@ -27,11 +28,13 @@ pub(super) use results::mean;
 pub use results::printed_mean;
 pub(super) use under_way::Analyses;
 
-use descriptor::{Analysis, Conclusion, Descriptor, Drawn, Gathering, Sampling, Setting};
+pub(super) use descriptor::Setting;
+
+use descriptor::{Conclusion, Descriptor, Drawn, Sampling};
+use gathered::{Gathered, Part};
 use planner::SumSampler;
 use results::{NO_SAMPLE, found, windows_missing};
 
-use super::sections::bytes;
 use crate::families::Model;
 use crate::output::Summary;
 use crate::plan::Need;
@@ -95,7 +98,7 @@ pub struct AskedAnalysis {
     pub found: Vec<&'static str>,
     /// Numbers that its tables will hold, if they are many.
     pub(crate) numbers: u64,
-    /// Bytes that it adds to a checkpoint, if they are many.
+    /// Bytes that it adds to a checkpoint.
     pub(crate) kept_bytes: u64,
 }
 
@@ -114,9 +117,11 @@ pub struct AskedAnalysis {
 pub fn asked_analyses(scene: &Scene, model: &Model) -> Vec<AskedAnalysis> {
     let asked = AnalysisId::ALL.into_iter().filter_map(|id| {
         let descriptor = describe(id);
-        let Sampling { first, every, detail, numbers, left_out } = descriptor.asked(scene, model)?;
+        let sampling = descriptor.asked(scene, model)?;
+        let kept_bytes =
+            Gathered::new(descriptor.parts(scene, model)).length_after(sampling.count(scene)).saturating_mul(8);
+        let Sampling { first, every, detail, numbers, left_out } = sampling;
         let tables = id.tables().split_at(id.tables().len().saturating_sub(left_out)).0;
-        let kept_bytes = descriptor.kept_bytes(scene, model);
         let found = descriptor.finds(scene, model);
         Some(AskedAnalysis { id, first, every, detail, tables, found, numbers, kept_bytes })
     });

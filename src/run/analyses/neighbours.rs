@@ -1,6 +1,6 @@
 //! Numbers of neighbours of the cells of a tessellation.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Sampling, Setting, bytes};
+use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Sampling, Setting};
 use crate::families::Model;
 use crate::measure::neighbours::{MOST_NEIGHBOURS, NeighbourCounts, RANDOM_POINTS};
 use crate::measure::statistics::Estimate;
@@ -23,8 +23,29 @@ impl Descriptor for Neighbours {
         Some(Sampling::after_equilibration(scene, scene.output.neighbours.as_ref()?.every))
     }
 
-    fn begin(&self, _: &Setting<'_>) -> Option<Gathering> {
-        Some(Gathering::States(Box::new(Counts::default())))
+    fn takes_states(&self) -> bool {
+        true
+    }
+
+    fn parts(&self, _: &Scene, _: &Model) -> Vec<Part> {
+        // The step, and the cells with each number of neighbours.
+        vec![Part::Last(1, Vec::new()), Part::series(MOST_NEIGHBOURS + 1)]
+    }
+
+    fn numbers_of_state(&self, Setting { model, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
+        let lengths = [model.units.lengths[0], model.units.lengths[1]];
+        let counts = NeighbourCounts::of_cells(&Tessellation::of_fractions(lengths, &state.positions));
+        Some([&[state.step as f64], &counts[..]].concat())
+    }
+
+    fn conclude(&self, _: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let counts = NeighbourCounts::from_samples(gathered.part(1).as_chunks().0);
+        let result = if counts.is_empty() {
+            Err(NO_SAMPLE.to_owned())
+        } else {
+            Ok(json!({ "samples": counts.len(), MEAN: counts.mean(), VARIANCE: counts.variance() }))
+        };
+        Some(Conclusion::new(fractions(&counts), result))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -33,50 +54,6 @@ impl Descriptor for Neighbours {
 
     fn labels(&self) -> &'static [(&'static str, &'static str)] {
         &[("neighbours of a cell", MEAN), ("their variance", VARIANCE)]
-    }
-}
-
-/// Cells by their number of neighbours, over all samples.
-#[derive(Debug, Clone, PartialEq, Default)]
-struct Counts {
-    /// Step of the last sample.
-    last: Option<u64>,
-    counts: NeighbourCounts,
-}
-
-impl Analysis for Counts {
-    fn add_state(&mut self, state: &Reported, model: &Model) {
-        if self.last.is_none_or(|last| last < state.step) {
-            self.last = Some(state.step);
-            let lengths = [model.units.lengths[0], model.units.lengths[1]];
-            self.counts.push(&Tessellation::of_fractions(lengths, &state.positions));
-        }
-    }
-
-    fn section(&self) -> Vec<u8> {
-        let last = self.last.map(|last| last as f64);
-        bytes(last.into_iter().chain(self.counts.numbers()))
-    }
-
-    fn numbers_after(&self, samples: u64) -> u64 {
-        let width = MOST_NEIGHBOURS as u64 + 1;
-        if samples > 0 { samples.saturating_mul(width).saturating_add(1) } else { 0 }
-    }
-
-    fn restore(&mut self, numbers: &[f64], _: u64) {
-        if let [last, counts @ ..] = numbers {
-            *self = Self { last: Some(*last as u64), counts: NeighbourCounts::restored(counts) };
-        }
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let counts = &self.counts;
-        let result = if counts.is_empty() {
-            Err(NO_SAMPLE.to_owned())
-        } else {
-            Ok(json!({ "samples": counts.len(), MEAN: counts.mean(), VARIANCE: counts.variance() }))
-        };
-        Conclusion::new(fractions(counts), result)
     }
 }
 
@@ -104,24 +81,12 @@ mod tests {
     use crate::families::initial_state;
 
     #[test]
-    fn samples_survive_a_checkpoint_and_come_once() {
+    fn fractions_of_all_cells_add_up() {
         let scene = super::super::shear_wave::tests::scene();
         let model = Model::new(&scene);
-        let mut state: Reported = initial_state(&scene, &model).into();
-        let mut counts = Counts::default();
-        for step in [0, 10, 10, 5] {
-            state.step = step;
-            counts.add_state(&state, &model);
-        }
-        assert_eq!(counts.counts.len(), 2);
-        let mut restored = Counts::default();
-        let section = counts.section();
-        assert_eq!(section.len() as u64, 8 * counts.numbers_after(2));
-        let numbers: Vec<f64> = section.as_chunks().0.iter().map(|word| f64::from_le_bytes(*word)).collect();
-        restored.restore(&numbers, 2);
-        assert_eq!(restored, counts);
-        assert_ne!(restored, Counts::default());
-        let table = fractions(&counts.counts);
+        let state: Reported = initial_state(&scene, &model).into();
+        let cells = Tessellation::of_fractions([model.units.lengths[0], model.units.lengths[1]], &state.positions);
+        let table = fractions(&NeighbourCounts::from_samples(&[NeighbourCounts::of_cells(&cells)]));
         assert!((table.column("fraction").unwrap().iter().sum::<f64>() - 1.0).abs() < 1e-12);
     }
 }

@@ -1,8 +1,7 @@
 //! Profiles of density, velocity, temperature and stress along an axis of the box.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Planner, Sampling, Setting, SumSampler, bytes,
-    total_mass,
+    Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler, total_mass,
 };
 use crate::engine::Sample;
 use crate::families::Model;
@@ -80,23 +79,64 @@ impl Descriptor for Profiles {
         planner.add_counts(&SumSampler { choices, constants, ..sampler }, planner.groups());
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let (asked, model, plan) = (setting.scene.output.profiles.as_ref()?, setting.model, setting.plan);
-        let (sums, species) = (Sums::of(model, asked), &model.species);
-        Some(Gathering::Samples(Box::new(Layers {
-            asked: asked.clone(),
-            sums,
-            names: species.iter().map(|species| species.name.clone()).collect(),
-            moves: species.iter().map(|species| !species.fixed).collect(),
-            frozen: species.iter().map(|species| species.frozen).collect(),
-            length: model.units.edges()[asked.axis as usize],
-            volume: model.units.volume() / f64::from(asked.bins),
-            mass: mass_quantum(model),
-            momentum: model.units.momentum,
-            energy: plan.quanta.energy,
-            virial: plan.stress_unit,
-            blocks: BlockSums::new(asked.bins as usize * sums.kept()),
-        })))
+    fn parts(&self, scene: &Scene, model: &Model) -> Vec<Part> {
+        let asked = scene.output.profiles.iter();
+        asked.map(|asked| Part::Blocks(BlockSums::new(asked.bins as usize * Sums::of(model, asked).kept()))).collect()
+    }
+
+    /// Sums of all layers, one after the other.
+    fn numbers_of_sample(&self, setting: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        let sums = Sums::of(setting.model, setting.scene.output.profiles.as_ref()?);
+        Some(sample.sums.chunks_exact(sums.sampled()).flat_map(|layer| kept(sums, layer, setting)).collect())
+    }
+
+    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let (asked, blocks) = (scene.output.profiles.as_ref()?, gathered.blocks()?);
+        let layers = Layers { asked, model, sums: Sums::of(model, asked), blocks };
+        let columns = layers.columns();
+        let names = columns.iter().flat_map(|(name, _)| with_error(name));
+        let names: Vec<String> = std::iter::once(POSITION.to_owned()).chain(names).collect();
+        let bins = asked.bins as usize;
+        let width = model.units.edges()[asked.axis as usize] / bins as f64;
+        let rows = (0..bins).map(|layer| {
+            let found = columns.iter().flat_map(|(_, column)| {
+                let found = column(layer);
+                let error = found.and_then(|found| found.standard_error);
+                [found.map_or(f64::NAN, |found| found.mean), error.unwrap_or(f64::NAN)]
+            });
+            std::iter::once((layer as f64 + 0.5) * width).chain(found).collect()
+        });
+        let table = Table::new(names, rows.collect());
+        let result = if blocks.samples() == 0 {
+            Err(NO_SAMPLE.to_owned())
+        } else {
+            let species: Vec<&str> = model.species.iter().map(|species| species.name.as_str()).collect();
+            let mut result = json!({
+                "axis": asked.axis.name(),
+                "bins": asked.bins,
+                "samples": blocks.samples(),
+                "species": species,
+            });
+            if shows(asked, ProfiledQuantity::Temperature) {
+                result[TEMPERATURE] = json!(layers.temperature());
+            }
+            Ok(result)
+        };
+        // Some errors settle late by chance.
+        let is_unsettled = |column: &Number<'_>| {
+            let unsettled = |layer: &usize| column(*layer).is_some_and(|found| !found.converged);
+            (0..bins).filter(unsettled).count() * 5 > bins
+        };
+        let unsettled: Vec<&str> =
+            columns.iter().filter(|(_, column)| is_unsettled(column)).map(|(name, _)| name.as_str()).collect();
+        let mut warnings = Vec::new();
+        if !unsettled.is_empty() {
+            let names = unsettled.join(", ");
+            warnings.push(format!(
+                "the errors in the profiles of {names} are known to more than a quarter of themselves, and may be larger: the run is short against correlations"
+            ));
+        }
+        Some(Conclusion { warnings, ..Conclusion::new(table, result) })
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -116,12 +156,6 @@ impl Descriptor for Profiles {
 
     fn labels(&self) -> &'static [(&'static str, &'static str)] {
         &[("temperature about the flow", TEMPERATURE)]
-    }
-
-    fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
-        let Some(asked) = &scene.output.profiles else { return 0 };
-        let samples = Sampling::after_equilibration(scene, asked.every).count(scene);
-        8 * BlockSums::blocks_after(samples) * u64::from(asked.bins) * Sums::of(model, asked).kept() as u64
     }
 
     fn finds(&self, scene: &Scene, _: &Model) -> Vec<&'static str> {
@@ -181,60 +215,52 @@ impl Sums {
 /// A number of a layer.
 type Number<'a> = Box<dyn Fn(usize) -> Option<Estimate> + 'a>;
 
-/// Sums of all layers, one after the other.
-struct Layers {
-    asked: scene::Profiles,
-    sums: Sums,
-    names: Vec<String>,
-    /// Whether particles of a species move.
-    moves: Vec<bool>,
-    /// Whether they are frozen behind walls, and in no layer.
-    frozen: Vec<bool>,
-    length: f64,
-    /// Volume of a layer.
-    volume: f64,
-    mass: f64,
-    momentum: f64,
-    energy: f64,
-    virial: f64,
-    blocks: BlockSums,
+/// What is kept of the sums of a layer. Twice the energy of n particles relative to their centre of mass has d(n - 1) kT.
+fn kept(sums: Sums, layer: &[i64], Setting { model, plan, .. }: &Setting<'_>) -> Vec<f64> {
+    let Sums { species, dimension, motion, stress } = sums;
+    // Those that are frozen behind walls are in no layer.
+    let is_frozen = |number: usize| model.species.get(number).is_some_and(|species| species.frozen);
+    let counts = layer.iter().take(species).enumerate();
+    let mut row: Vec<f64> = counts.map(|(number, count)| if is_frozen(number) { 0.0 } else { *count as f64 }).collect();
+    if !motion {
+        return row;
+    }
+    let moving: f64 =
+        row.iter().zip(&model.species).filter(|(_, species)| !species.fixed).map(|(count, _)| count).sum();
+    let mass = layer[species] as f64 * mass_quantum(model);
+    let momenta = layer[species + 1..][..dimension].iter();
+    let momentum: Vec<f64> = momenta.map(|momentum| *momentum as f64 * model.units.momentum).collect();
+    let energy = layer[species + 1 + dimension] as f64 * plan.quanta.energy;
+    let of_centre = if mass > 0.0 { momentum.iter().map(|p| p * p).sum::<f64>() / mass } else { 0.0 };
+    row.push(mass);
+    row.extend(&momentum);
+    // A single particle has none, but for rounding.
+    let freedom = dimension as f64 * (moving - 1.0).max(0.0);
+    row.push(if freedom > 0.0 { energy - of_centre } else { 0.0 });
+    row.push(freedom);
+    if stress {
+        let tensors = &layer[species + dimension + 2..];
+        row.extend((0..6).map(|component| {
+            tensors[component] as f64 * plan.quanta.energy + tensors[6 + component] as f64 * plan.stress_unit
+        }));
+    }
+    row
 }
 
-impl Layers {
-    /// What is kept of the sums of a layer. Twice the energy of n particles relative to their centre of mass has d(n - 1) kT.
-    fn kept(&self, sums: &[i64]) -> Vec<f64> {
-        let Sums { species, dimension, motion, stress } = self.sums;
-        let mut row: Vec<f64> = sums.iter().take(species).map(|count| *count as f64).collect();
-        for (count, _) in row.iter_mut().zip(&self.frozen).filter(|(_, frozen)| **frozen) {
-            *count = 0.0;
-        }
-        if !motion {
-            return row;
-        }
-        let moving: f64 = row.iter().zip(&self.moves).filter(|(_, moves)| **moves).map(|(count, _)| count).sum();
-        let mass = sums[species] as f64 * self.mass;
-        let momentum: Vec<f64> = sums[species + 1..][..dimension].iter().map(|p| *p as f64 * self.momentum).collect();
-        let energy = sums[species + 1 + dimension] as f64 * self.energy;
-        let of_centre = if mass > 0.0 { momentum.iter().map(|p| p * p).sum::<f64>() / mass } else { 0.0 };
-        row.push(mass);
-        row.extend(&momentum);
-        // A single particle has none, but for rounding.
-        let freedom = dimension as f64 * (moving - 1.0).max(0.0);
-        row.push(if freedom > 0.0 { energy - of_centre } else { 0.0 });
-        row.push(freedom);
-        if stress {
-            let tensors = &sums[species + dimension + 2..];
-            row.extend((0..6).map(|component| {
-                tensors[component] as f64 * self.energy + tensors[6 + component] as f64 * self.virial
-            }));
-        }
-        row
-    }
+/// Sums of all layers, one after the other.
+struct Layers<'a> {
+    asked: &'a scene::Profiles,
+    model: &'a Model,
+    sums: Sums,
+    blocks: &'a BlockSums,
+}
 
+impl Layers<'_> {
     /// The mean over samples of a sum of a layer over its volume.
     fn density(&self, of: impl Fn(&[f64]) -> f64, layer: usize) -> Option<Estimate> {
         let first = layer * self.sums.kept();
-        self.blocks.mean(|row| of(&row[first..]) / self.volume)
+        let volume = self.model.units.volume() / f64::from(self.asked.bins);
+        self.blocks.mean(|row| of(&row[first..]) / volume)
     }
 
     /// The ratio of two sums of a layer.
@@ -259,27 +285,27 @@ impl Layers {
     fn columns(&self) -> Vec<(String, Number<'_>)> {
         let Sums { species, dimension, .. } = self.sums;
         let mut columns: Vec<(String, Number<'_>)> = Vec::new();
-        if shows(&self.asked, ProfiledQuantity::Density) {
+        if shows(self.asked, ProfiledQuantity::Density) {
             let all = move |row: &[f64]| row[..species].iter().sum();
             columns.push((DENSITY.to_owned(), Box::new(move |layer| self.density(all, layer))));
-            let is_free = |number: &usize| !self.frozen.get(*number).is_some_and(|frozen| *frozen);
+            let is_free = |number: &usize| !self.model.species.get(*number).is_some_and(|species| species.frozen);
             let free = (0..species).filter(is_free).count();
             for number in (0..species).filter(is_free).filter(|_| free > 1) {
                 let of = move |row: &[f64]| row[number];
                 columns.push((density_of(number), Box::new(move |layer| self.density(of, layer))));
             }
         }
-        if shows(&self.asked, ProfiledQuantity::Velocity) {
+        if shows(self.asked, ProfiledQuantity::Velocity) {
             for (axis, name) in VELOCITIES.into_iter().take(dimension).enumerate() {
                 let ratio = move |layer| self.ratio(species + 1 + axis, species, layer);
                 columns.push((name.to_owned(), Box::new(ratio)));
             }
         }
-        if shows(&self.asked, ProfiledQuantity::Temperature) {
+        if shows(self.asked, ProfiledQuantity::Temperature) {
             let [thermal, freedom] = [1, 2].map(|place| species + dimension + place);
             columns.push((TEMPERATURE.to_owned(), Box::new(move |layer| self.ratio(thermal, freedom, layer))));
         }
-        if shows(&self.asked, ProfiledQuantity::Stress) {
+        if shows(self.asked, ProfiledQuantity::Stress) {
             for (name, component) in Components::of(dimension).iter() {
                 columns.push((format!("{PRESSURE}_{name}"), Box::new(move |layer| self.pressure(component, layer))));
             }
@@ -292,74 +318,5 @@ impl Layers {
         let (width, freedom) = (self.sums.kept(), self.sums.freedom());
         let sum = move |place: usize| move |row: &[f64]| row.iter().skip(place).step_by(width).sum::<f64>();
         self.blocks.ratio(sum(freedom - 1), sum(freedom))
-    }
-}
-
-impl Analysis for Layers {
-    fn add(&mut self, sample: &Sample) {
-        let width = self.sums.sampled();
-        if sample.sums.len() == self.asked.bins as usize * width {
-            let row: Vec<f64> = sample.sums.chunks_exact(width).flat_map(|sums| self.kept(sums)).collect();
-            self.blocks.add(&row);
-        }
-    }
-
-    fn section(&self) -> Vec<u8> {
-        bytes(self.blocks.sums().iter().copied())
-    }
-
-    fn numbers_after(&self, samples: u64) -> u64 {
-        BlockSums::blocks_after(samples).saturating_mul(u64::from(self.asked.bins) * self.sums.kept() as u64)
-    }
-
-    fn restore(&mut self, numbers: &[f64], samples: u64) {
-        self.blocks = BlockSums::of(self.asked.bins as usize * self.sums.kept(), samples, numbers);
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let columns = self.columns();
-        let names = columns.iter().flat_map(|(name, _)| with_error(name));
-        let names: Vec<String> = std::iter::once(POSITION.to_owned()).chain(names).collect();
-        let width = self.length / f64::from(self.asked.bins);
-        let rows = (0..self.asked.bins as usize).map(|layer| {
-            let found = columns.iter().flat_map(|(_, column)| {
-                let found = column(layer);
-                let error = found.and_then(|found| found.standard_error);
-                [found.map_or(f64::NAN, |found| found.mean), error.unwrap_or(f64::NAN)]
-            });
-            std::iter::once((layer as f64 + 0.5) * width).chain(found).collect()
-        });
-        let table = Table::new(names, rows.collect());
-        let result = if self.blocks.samples() == 0 {
-            Err(NO_SAMPLE.to_owned())
-        } else {
-            let mut result = json!({
-                "axis": self.asked.axis.name(),
-                "bins": self.asked.bins,
-                "samples": self.blocks.samples(),
-                "species": self.names,
-            });
-            if shows(&self.asked, ProfiledQuantity::Temperature) {
-                result[TEMPERATURE] = json!(self.temperature());
-            }
-            Ok(result)
-        };
-        // Some errors settle late by chance.
-        let bins = self.asked.bins as usize;
-        let is_unsettled = |column: &Number<'_>| {
-            let unsettled = |layer: &usize| column(*layer).is_some_and(|found| !found.converged);
-            (0..bins).filter(unsettled).count() * 5 > bins
-        };
-        let unsettled: Vec<&str> =
-            columns.iter().filter(|(_, column)| is_unsettled(column)).map(|(name, _)| name.as_str()).collect();
-        let warnings = if unsettled.is_empty() {
-            Vec::new()
-        } else {
-            let names = unsettled.join(", ");
-            vec![format!(
-                "the errors in the profiles of {names} are known to more than a quarter of themselves, and may be larger: the run is short against correlations"
-            )]
-        };
-        Conclusion { warnings, ..Conclusion::new(table, result) }
     }
 }

@@ -1,7 +1,7 @@
 //! The radial distribution function.
 
 use super::pair_histogram::PairHistogram;
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Planner, Sampling, Setting, bytes};
+use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting};
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::plan::Need;
@@ -42,18 +42,39 @@ impl Descriptor for RadialDistribution {
         histogram.add(planner.plan, ordered, planner.equilibration);
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let asked = setting.scene.output.radial_distribution.as_ref()?;
-        let (model, units) = (setting.model, &setting.model.units);
-        Some(Gathering::Samples(Box::new(Pairs {
-            particles: (setting.plan.particles - model.frozen_particles()) as f64,
-            volume: units.volume(),
-            dimension: units.dimension,
-            gaps: model.particles().walls.iter().map(|walls| units.edges()[walls.axis]).collect(),
-            range: asked.range,
-            samples: 0.0,
-            counts: vec![0.0; setting.sampler?.quantities],
-        })))
+    fn parts(&self, scene: &Scene, _: &Model) -> Vec<Part> {
+        // Samples, and pairs by distance.
+        vec![Part::sums(1 + scene.output.radial_distribution.as_ref().map_or(0, |asked| asked.bins as usize))]
+    }
+
+    fn numbers_of_sample(&self, _: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        Some(std::iter::once(1.0).chain(sample.sums.iter().map(|count| *count as f64)).collect())
+    }
+
+    fn conclude(&self, Setting { scene, model, plan }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let range = scene.output.radial_distribution.as_ref()?.range;
+        let (samples, counts) = gathered.part(0).split_first()?;
+        let (units, particles) = (&model.units, (plan.particles - model.frozen_particles()) as f64);
+        // Distances of walls that face each other.
+        let gaps: Vec<f64> = model.particles().walls.iter().map(|walls| units.edges()[walls.axis]).collect();
+        let width = range / counts.len() as f64;
+        let pairs = 0.5 * particles * (particles - 1.0);
+        let ball = |radius: f64| ball(radius, units.dimension, &gaps);
+        let rows = counts.iter().enumerate().map(|(bin, count)| {
+            let inner = bin as f64 * width;
+            let expected = samples * pairs * (ball(inner + width) - ball(inner)) / units.volume();
+            vec![inner + 0.5 * width, count / expected]
+        });
+        let rows: Vec<Vec<f64>> = rows.collect();
+        let [distance, height] = peak(&rows).map_or([None; 2], |peak| peak.map(Some));
+        let result = if *samples == 0.0 {
+            Err(NO_SAMPLE.to_owned())
+        } else if pairs <= 0.0 {
+            Err("there are no pairs of particles".to_owned())
+        } else {
+            Ok(json!({ "samples": samples, PEAK_DISTANCE: distance, PEAK_HEIGHT: height }))
+        };
+        Some(Conclusion::new(Table::new([DISTANCE, VALUE], rows), result))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -68,60 +89,6 @@ impl Descriptor for RadialDistribution {
 
     fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
         vec![PEAK_DISTANCE, PEAK_HEIGHT]
-    }
-}
-
-/// Pairs by distance, counted over all samples.
-struct Pairs {
-    particles: f64,
-    volume: f64,
-    dimension: usize,
-    /// Distances of walls that face each other.
-    gaps: Vec<f64>,
-    range: f64,
-    samples: f64,
-    counts: Vec<f64>,
-}
-
-impl Analysis for Pairs {
-    fn add(&mut self, sample: &Sample) {
-        self.samples += 1.0;
-        self.counts.iter_mut().zip(&sample.sums).for_each(|(count, found)| *count += *found as f64);
-    }
-
-    fn section(&self) -> Vec<u8> {
-        bytes(std::iter::once(self.samples).chain(self.counts.iter().copied()))
-    }
-
-    fn numbers_after(&self, _: u64) -> u64 {
-        1 + self.counts.len() as u64
-    }
-
-    fn restore(&mut self, numbers: &[f64], _: u64) {
-        if let Some((first, rest)) = numbers.split_first() {
-            self.samples = *first;
-            self.counts = rest.to_vec();
-        }
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let width = self.range / self.counts.len() as f64;
-        let pairs = 0.5 * self.particles * (self.particles - 1.0);
-        let ball = |radius: f64| ball(radius, self.dimension, &self.gaps);
-        let mut rows = Vec::new();
-        for (bin, count) in self.counts.iter().enumerate() {
-            let inner = bin as f64 * width;
-            let expected = self.samples * pairs * (ball(inner + width) - ball(inner)) / self.volume;
-            rows.push(vec![inner + 0.5 * width, count / expected]);
-        }
-        let samples = self.samples;
-        let result = match peak(&rows) {
-            _ if samples == 0.0 => Err(NO_SAMPLE.to_owned()),
-            _ if pairs <= 0.0 => Err("there are no pairs of particles".to_owned()),
-            Some([distance, height]) => Ok(json!({ "samples": samples, PEAK_DISTANCE: distance, PEAK_HEIGHT: height })),
-            None => Ok(json!({ "samples": samples, PEAK_DISTANCE: null, PEAK_HEIGHT: null })),
-        };
-        Conclusion::new(Table::new([DISTANCE, VALUE], rows), result)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Numbers of results, as charts and the table at the end of a run take them, and why there are none.
 
+use crate::families::Model;
 use crate::measure::correlation::WindowedAverage;
 use crate::numbers::with_error;
 use crate::plot::{Found, Mean};
@@ -9,10 +10,10 @@ use serde_json::Value;
 pub(super) const NO_SAMPLE: &str = "no sample was taken after equilibration";
 
 /// Why windows give no result, if they do not.
-pub(super) fn windows_missing(average: &WindowedAverage, particles: f64) -> Option<String> {
+pub(super) fn windows_missing(average: &WindowedAverage, model: &Model) -> Option<String> {
     if average.windows().len() == 0 {
         Some(format!("the run ends before a window of {} samples is full", average.lags()))
-    } else if particles == 0.0 {
+    } else if model.mobile_particles() == 0 {
         Some("there are no particles that can move".to_owned())
     } else {
         None

@@ -1,6 +1,6 @@
 //! The decay of the shear wave that particles start with.
 
-use super::{Analysis, Conclusion, Descriptor, Drawn, Gathering, Sampling, Setting, bytes, found, total_mass};
+use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Sampling, Setting, found, total_mass};
 use crate::families::Model;
 use crate::measure::shear_wave::WaveDecay;
 use crate::numbers::with_error;
@@ -25,9 +25,27 @@ impl Descriptor for ShearWave {
         Some(Sampling::after_equilibration(scene, scene.output.shear_wave.as_ref()?.every))
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let (_, _, periods) = shear_waves(setting.scene).next()?;
-        Some(Gathering::States(Box::new(Decay::new(setting.model, periods))))
+    fn takes_states(&self) -> bool {
+        true
+    }
+
+    fn parts(&self, _: &Scene, _: &Model) -> Vec<Part> {
+        // Step and amplitude.
+        vec![Part::series(2)]
+    }
+
+    fn numbers_of_state(&self, Setting { scene, model, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
+        let (_, _, periods) = shear_waves(scene).next()?;
+        Some(vec![state.step as f64, amplitude(state, model, f64::from(periods))])
+    }
+
+    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let (_, _, periods) = shear_waves(scene).next()?;
+        let wave = Wave { model, periods: f64::from(periods), samples: gathered.part(0).as_chunks().0 };
+        let decay = wave.decay();
+        let result = decay.as_ref().map(|decay| wave.result(decay));
+        let missing = || "its samples are too few or too far apart, or the wave does not decay".to_owned();
+        Some(Conclusion::new(wave.table(decay.as_ref()), result.ok_or_else(missing)))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -49,46 +67,6 @@ impl Descriptor for ShearWave {
     }
 }
 
-/// Amplitudes of the wave, sample by sample.
-#[derive(Debug, Clone, PartialEq)]
-struct Decay {
-    periods: f64,
-    wave_number: f64,
-    density: f64,
-    time_step: f64,
-    /// Viscosities to compare with, by name.
-    known: Vec<(&'static str, f64)>,
-    /// Steps and amplitudes.
-    samples: Vec<[f64; 2]>,
-}
-
-impl Analysis for Decay {
-    fn add_state(&mut self, state: &Reported, model: &Model) {
-        if self.samples.last().is_none_or(|[last, _]| *last < state.step as f64) {
-            self.samples.push([state.step as f64, amplitude(state, model, self.periods)]);
-        }
-    }
-
-    fn section(&self) -> Vec<u8> {
-        bytes(self.samples.as_flattened().iter().copied())
-    }
-
-    fn numbers_after(&self, samples: u64) -> u64 {
-        samples.saturating_mul(2)
-    }
-
-    fn restore(&mut self, numbers: &[f64], _: u64) {
-        self.samples = numbers.as_chunks().0.to_vec();
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let decay = self.decay();
-        let result = decay.as_ref().map(|decay| self.result(decay));
-        let missing = || "its samples are too few or too far apart, or the wave does not decay".to_owned();
-        Conclusion::new(self.table(decay.as_ref()), result.ok_or_else(missing))
-    }
-}
-
 /// The amplitude of the wave of the velocity along x, 2 Σ P sin(2πny/L) / ΣM.
 fn amplitude(state: &Reported, model: &Model, periods: f64) -> f64 {
     let each = state.momenta.iter().zip(&state.positions).map(|(momentum, position)| {
@@ -98,25 +76,22 @@ fn amplitude(state: &Reported, model: &Model, periods: f64) -> f64 {
     2.0 * each.sum::<f64>() * model.units.momentum / total_mass(model)
 }
 
-impl Decay {
-    fn new(model: &Model, periods: u32) -> Self {
-        Self {
-            periods: f64::from(periods),
-            wave_number: TAU * f64::from(periods) / model.units.lengths[1],
-            density: total_mass(model) / model.units.volume(),
-            time_step: model.time_step,
-            known: model.physics().known_viscosities(),
-            samples: Vec::new(),
-        }
-    }
+/// The wave that a run began with.
+struct Wave<'a> {
+    model: &'a Model,
+    periods: f64,
+    /// Steps and amplitudes.
+    samples: &'a [[f64; 2]],
+}
 
+impl Wave<'_> {
     /// Unit of time of a sample, and of the first.
     fn times(&self) -> [f64; 2] {
-        match self.samples[..] {
+        match *self.samples {
             [[first, _], [second, _], ..] => [second - first, first],
             _ => [f64::NAN; 2],
         }
-        .map(|steps| steps * self.time_step)
+        .map(|steps| steps * self.model.time_step)
     }
 
     fn decay(&self) -> Option<WaveDecay> {
@@ -126,7 +101,8 @@ impl Decay {
 
     /// Viscosities from the rate νk² of the decay, and what is known beforehand for comparison.
     fn result(&self, decay: &WaveDecay) -> Value {
-        let (wave_number, density) = (self.wave_number, self.density);
+        let units = &self.model.units;
+        let (wave_number, density) = (TAU * self.periods / units.lengths[1], total_mass(self.model) / units.volume());
         let scaled = |factor: f64| {
             let error = decay.rate.standard_error.map(|error| error * factor);
             json!({ "value": decay.rate.value * factor, "standard_error": error })
@@ -139,8 +115,8 @@ impl Decay {
             KINEMATIC_VISCOSITY: scaled(wave_number.powi(-2)),
             SHEAR_VISCOSITY: scaled(density * wave_number.powi(-2)),
         });
-        for (name, viscosity) in &self.known {
-            result[*name] = json!(viscosity);
+        for (name, viscosity) in self.model.physics().known_viscosities() {
+            result[name] = json!(viscosity);
         }
         result
     }
@@ -148,7 +124,7 @@ impl Decay {
     fn table(&self, decay: Option<&WaveDecay>) -> Table {
         let [_, first] = self.times();
         let row = |[step, amplitude]: &[f64; 2]| {
-            let time = step * self.time_step;
+            let time = step * self.model.time_step;
             vec![time, *amplitude, decay.map_or(f64::NAN, |decay| decay.at(time - first))]
         };
         Table::new(["time", "amplitude", "fit"], self.samples.iter().map(row).collect())
@@ -180,20 +156,23 @@ pub(super) mod tests {
         let scene = scene();
         let model = Model::new(&scene);
         let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
+        let setting = &Setting { scene: &scene, model: &model, plan: &plan };
         let mut state: Reported = initial_state(&scene, &model).into();
         let at = |step: u64, sections: &[(String, Vec<u8>)]| {
-            Analyses::new(&scene, &model, &plan, &Sections::new(Path::new("checkpoint.bin"), step, sections))
+            Analyses::new(setting, &Sections::new(Path::new("checkpoint.bin"), step, sections))
         };
         let mut analyses = at(0, &[]).unwrap();
         assert_eq!(analyses.state_intervals(), [10, 5]);
         for step in [0, 5, 7, 10, 10, 5] {
             state.step = step;
-            analyses.add_state(&state, &model);
+            analyses.add_state(&state, setting);
         }
         let [_, sections] = analyses.sections();
-        assert_eq!(sections[1].1.len(), 3 * 16);
+        // Of two samples, the last step and the cells with 0 to 32 neighbours; of three, steps and amplitudes.
+        assert_eq!([0, 1].map(|place| sections[place].1.len()), [8 + 2 * 33 * 8, 3 * 16]);
         assert_eq!(at(11, &sections).unwrap().sections()[1], sections);
-        assert_ne!(at(0, &[]).unwrap().sections()[1], sections);
+        let fresh = at(0, &[]).unwrap().sections();
+        assert!(fresh[1].iter().zip(&sections).all(|(fresh, kept)| fresh != kept));
         for step in [10, 16] {
             let refused = at(step, &sections).err().unwrap().to_string();
             assert!(refused.contains("is no valid checkpoint"), "{refused}");
@@ -207,7 +186,7 @@ pub(super) mod tests {
         let model = Model::new(&scene);
         let plan = plan(&model, 40, &scene.output, Hardware::default(), Options::default());
         let sections = Sections::new(Path::new("checkpoint.bin"), 0, &[]);
-        let analyses = Analyses::new(&scene, &model, &plan, &sections).unwrap();
+        let analyses = Analyses::new(&Setting { scene: &scene, model: &model, plan: &plan }, &sections).unwrap();
         let due: Vec<u64> = (0..=60).filter(|step| analyses.take_state(*step)).collect();
         assert_eq!(due, [40, 45, 50, 55, 60]);
     }
@@ -231,7 +210,7 @@ pub(super) mod tests {
             let step = 5.0 * f64::from(sample);
             [step, 0.25 * (-0.01 * step * 0.5).exp()]
         });
-        let wave = Decay { samples: samples.collect(), ..Decay::new(&model, 2) };
+        let wave = Wave { model: &model, periods: 2.0, samples: &samples.collect::<Vec<_>>() };
         let decay = wave.decay().unwrap();
         let result = wave.result(&decay);
         // k = 2π · 2/10, density 3: η = 0.01 · 3/k².

@@ -1,8 +1,7 @@
 //! The pressure tensor, the surface tension of a slab, and the viscosity from the autocorrelation of the stress or from shear.
 
 use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, NO_SAMPLE, Planner, Sampling, Setting, SumSampler, bytes,
-    found, mean,
+    Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler, found, mean,
 };
 use crate::engine::Sample;
 use crate::families::Model;
@@ -11,7 +10,7 @@ use crate::measure::statistics::estimate;
 use crate::measure::stress::{Components, surface_tension};
 use crate::plan::Need;
 use crate::plot::{Chart, stress_chart, stress_correlation_chart};
-use crate::scene::{self, AnalysisId, Frame, Output, Scene};
+use crate::scene::{AnalysisId, Frame, Output, Scene};
 use crate::shaders::{Array, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
@@ -56,20 +55,56 @@ impl Descriptor for Stress {
         });
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let (asked, model, plan) = (setting.scene.output.stress.as_ref()?, setting.model, setting.plan);
-        Some(Gathering::Samples(Box::new(Tensors {
-            asked: asked.clone(),
-            components: Components::of(model.units.dimension),
-            time_step: model.time_step,
-            volume: model.units.volume(),
-            temperature: model.temperature,
-            length: asked.normal.map_or(0.0, |axis| model.units.edges()[axis as usize]),
-            is_driven: model.is_driven(),
-            shear: sheared(model),
-            units: [plan.quanta.energy, plan.stress_unit, plan.stress_unit],
-            samples: Vec::new(),
-        })))
+    fn parts(&self, _: &Scene, _: &Model) -> Vec<Part> {
+        vec![Part::series(19)]
+    }
+
+    fn numbers_of_sample(&self, Setting { model, plan, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        let units = [plan.quanta.energy, plan.stress_unit, plan.stress_unit].map(|unit| [unit; 6]);
+        let pressures = sample.sums.iter().zip(units.as_flattened());
+        let pressures = pressures.map(|(sum, unit)| *sum as f64 * unit / model.units.volume());
+        Some(std::iter::once(sample.step as f64).chain(pressures).collect())
+    }
+
+    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let asked = scene.output.stress.as_ref()?;
+        let tensors = Tensors { model, samples: gathered.part(0).as_chunks().0 };
+        let table = tensors.table();
+        if tensors.samples.is_empty() {
+            return Some(Conclusion::new(table, Err(NO_SAMPLE.to_owned())));
+        }
+        let mut result = json!({ "samples": tensors.samples.len(), PRESSURE: tensors.means(whole) });
+        for (number, name) in PARTS.iter().enumerate() {
+            result[*name] = tensors.means(|sample| part(sample, number));
+        }
+        if let Some(normal) = asked.normal {
+            let normal = normal as usize;
+            let length = model.units.edges()[normal];
+            let tension = |of: &dyn Fn(&Kept) -> [f64; 6]| {
+                tensors.mean(|sample| surface_tension(&of(sample), normal, model.units.dimension, length))
+            };
+            if !model.is_driven() {
+                result[CONSERVATIVE_TENSION] = tension(&|sample| part(sample, CONSERVATIVE));
+            }
+            result[SURFACE_TENSION] = tension(&whole);
+        }
+        if let Some((rate, component)) = sheared(model) {
+            result[SHEARED] = tensors.mean(|sample| -whole(sample)[component] / rate);
+        }
+        let mut conclusion = Conclusion::new(table, Ok(result));
+        if let Some(window) = asked.window {
+            let series: Vec<[f64; 6]> = tensors.samples.iter().map(whole).collect();
+            let interval = asked.every as f64 * model.time_step;
+            let factor = model.units.volume() / model.temperature;
+            let correlation = stress_correlation(&series, model.units.dimension, factor, interval, window as usize);
+            let found = correlation.longest(asked.every == 1);
+            if let Ok(result) = &mut conclusion.result {
+                result[VISCOSITY] = json!(found.as_ref().ok());
+            }
+            conclusion.warnings.extend(found.err().map(|error| format!("no `{VISCOSITY}`: {error}")));
+            conclusion.tables.push(correlation_table(&correlation, interval));
+        }
+        Some(conclusion)
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -89,10 +124,6 @@ impl Descriptor for Stress {
         ]
     }
 
-    fn kept_bytes(&self, scene: &Scene, model: &Model) -> u64 {
-        self.asked(scene, model).map_or(0, |sampling| sampling.count(scene).saturating_mul(8 * KEPT as u64))
-    }
-
     fn finds(&self, scene: &Scene, model: &Model) -> Vec<&'static str> {
         let Some(asked) = &scene.output.stress else { return Vec::new() };
         let found = [
@@ -106,24 +137,16 @@ impl Descriptor for Stress {
 }
 
 /// Numbers of a sample: the step and three tensors of six components.
-const KEPT: usize = 19;
+type Kept = [f64; 19];
 
-/// The tensors of all samples.
-struct Tensors {
-    asked: scene::Stress,
-    components: Components,
-    time_step: f64,
-    volume: f64,
-    temperature: f64,
-    length: f64,
-    /// Whether something drives a flow.
-    is_driven: bool,
-    /// The shear rate, and the component of the stress that it makes.
-    shear: Option<(f64, usize)>,
-    /// The value of a unit of the sums of each part.
-    units: [f64; 3],
-    /// Steps, and the three parts of the pressure tensor.
-    samples: Vec<[f64; KEPT]>,
+/// A part of the tensor of a sample.
+fn part(sample: &Kept, part: usize) -> [f64; 6] {
+    std::array::from_fn(|component| sample[1 + 6 * part + component])
+}
+
+/// The whole tensor of a sample.
+fn whole(sample: &Kept) -> [f64; 6] {
+    std::array::from_fn(|component| (0..3).map(|part| sample[1 + 6 * part + component]).sum())
 }
 
 /// The shear rate, and the component of the stress that it makes. Boundaries that are displaced and at rest have none.
@@ -132,117 +155,47 @@ fn sheared(model: &Model) -> Option<(f64, usize)> {
     Some((shear.rate(model), shear.gradient + 2))
 }
 
-impl Tensors {
-    /// A part of the tensor of a sample.
-    fn part(sample: &[f64; KEPT], part: usize) -> [f64; 6] {
-        std::array::from_fn(|component| sample[1 + 6 * part + component])
+/// The tensors of all samples: steps, and the three parts of the pressure tensor.
+struct Tensors<'a> {
+    model: &'a Model,
+    samples: &'a [Kept],
+}
+
+impl Tensors<'_> {
+    fn components(&self) -> impl Iterator<Item = (&'static str, usize)> {
+        Components::of(self.model.units.dimension).iter()
     }
 
-    /// The whole tensor of a sample.
-    fn whole(sample: &[f64; KEPT]) -> [f64; 6] {
-        std::array::from_fn(|component| (0..3).map(|part| sample[1 + 6 * part + component]).sum())
-    }
-
-    /// The autocorrelation of the shear stress, if it is asked for.
-    fn correlation(&self) -> Option<StressCorrelation> {
-        let window = self.asked.window?;
-        let series: Vec<[f64; 6]> = self.samples.iter().map(Self::whole).collect();
-        let interval = self.asked.every as f64 * self.time_step;
-        let dimension = self.components.dimension();
-        Some(stress_correlation(&series, dimension, self.volume / self.temperature, interval, window as usize))
-    }
-
-    /// The table of the autocorrelation.
-    fn correlation_table(&self, correlation: &StressCorrelation) -> Table {
-        let lags = correlation.autocorrelation.iter().zip(&correlation.viscosity).enumerate();
-        let rows = lags.map(|(lag, (autocorrelation, viscosity))| {
-            let numbers =
-                [autocorrelation, viscosity].map(|found| [found.mean, found.standard_error.unwrap_or(f64::NAN)]);
-            [&[lag as f64 * self.asked.every as f64 * self.time_step], numbers.as_flattened()].concat()
-        });
-        let columns = ["time", "autocorrelation", "autocorrelation_error", "viscosity", "viscosity_error"];
-        Table::new(columns, rows.collect())
+    /// The mean of a number of the samples.
+    fn mean(&self, of: impl Fn(&Kept) -> f64) -> Value {
+        json!(estimate(&self.samples.iter().map(of).collect::<Vec<f64>>()))
     }
 
     /// Means of the components of a tensor.
-    fn means(&self, of: impl Fn(&[f64; KEPT]) -> [f64; 6]) -> Value {
-        let means = self.components.iter().map(|(name, index)| {
-            let series: Vec<f64> = self.samples.iter().map(|sample| of(sample)[index]).collect();
-            (name.to_owned(), json!(estimate(&series)))
-        });
+    fn means(&self, of: impl Fn(&Kept) -> [f64; 6]) -> Value {
+        let means = self.components().map(|(name, index)| (name.to_owned(), self.mean(|sample| of(sample)[index])));
         Value::Object(means.collect::<Map<String, Value>>())
+    }
+
+    fn table(&self) -> Table {
+        let tensors = [PRESSURE].into_iter().chain(PARTS);
+        let columns = tensors.flat_map(|tensor| self.components().map(move |(name, _)| format!("{tensor}_{name}")));
+        let rows = self.samples.iter().map(|sample| {
+            let tensors = [whole(sample), part(sample, 0), part(sample, 1), part(sample, 2)];
+            let numbers = tensors.iter().flat_map(|tensor| self.components().map(|(_, index)| tensor[index]));
+            std::iter::once(sample[0] * self.model.time_step).chain(numbers).collect()
+        });
+        Table::new(std::iter::once("time".to_owned()).chain(columns), rows.collect())
     }
 }
 
-impl Analysis for Tensors {
-    fn add(&mut self, sample: &Sample) {
-        if sample.sums.len() + 1 == KEPT {
-            self.samples.push(std::array::from_fn(|place| match place.checked_sub(1) {
-                Some(sum) => sample.sums[sum] as f64 * self.units[sum / 6] / self.volume,
-                None => sample.step as f64,
-            }));
-        }
-    }
-
-    fn section(&self) -> Vec<u8> {
-        bytes(self.samples.as_flattened().iter().copied())
-    }
-
-    fn numbers_after(&self, samples: u64) -> u64 {
-        samples.saturating_mul(KEPT as u64)
-    }
-
-    fn restore(&mut self, numbers: &[f64], _: u64) {
-        self.samples = numbers.as_chunks().0.to_vec();
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let named =
-            |tensor: &str| self.components.iter().map(|(name, _)| format!("{tensor}_{name}")).collect::<Vec<_>>();
-        let columns = [PRESSURE].iter().chain(&PARTS).flat_map(|tensor| named(tensor));
-        let columns: Vec<String> = std::iter::once("time".to_owned()).chain(columns).collect();
-        let rows = self.samples.iter().map(|sample| {
-            let tensors = [Self::whole(sample), Self::part(sample, 0), Self::part(sample, 1), Self::part(sample, 2)];
-            let numbers = tensors
-                .iter()
-                .flat_map(|tensor| self.components.iter().map(|(_, index)| tensor[index]))
-                .collect::<Vec<_>>();
-            [&[sample[0] * self.time_step], &numbers[..]].concat()
-        });
-        let table = Table::new(columns, rows.collect());
-        if self.samples.is_empty() {
-            return Conclusion::new(table, Err(NO_SAMPLE.to_owned()));
-        }
-        let mut result = json!({ "samples": self.samples.len(), PRESSURE: self.means(Self::whole) });
-        for (part, name) in PARTS.iter().enumerate() {
-            result[*name] = self.means(|sample| Self::part(sample, part));
-        }
-        if let Some(normal) = self.asked.normal {
-            let dimension = self.components.dimension();
-            let tension = |of: &dyn Fn(&[f64; KEPT]) -> [f64; 6]| {
-                let samples = self.samples.iter();
-                let series =
-                    samples.map(|sample| surface_tension(&of(sample), normal as usize, dimension, self.length));
-                json!(estimate(&series.collect::<Vec<f64>>()))
-            };
-            if !self.is_driven {
-                result[CONSERVATIVE_TENSION] = tension(&|sample| Self::part(sample, CONSERVATIVE));
-            }
-            result[SURFACE_TENSION] = tension(&Self::whole);
-        }
-        if let Some((rate, component)) = self.shear {
-            let series: Vec<f64> = self.samples.iter().map(|sample| -Self::whole(sample)[component] / rate).collect();
-            result[SHEARED] = json!(estimate(&series));
-        }
-        let correlation = self.correlation();
-        let mut warnings = Vec::new();
-        if let Some(correlation) = &correlation {
-            let found = correlation.longest(self.asked.every == 1);
-            result[VISCOSITY] = json!(found.as_ref().ok());
-            warnings.extend(found.err().map(|error| format!("no `{VISCOSITY}`: {error}")));
-        }
-        let more = correlation.iter().map(|correlation| self.correlation_table(correlation));
-        let tables = std::iter::once(table).chain(more).collect();
-        Conclusion { tables, result: Ok(result), warnings }
-    }
+/// The table of the autocorrelation.
+fn correlation_table(correlation: &StressCorrelation, interval: f64) -> Table {
+    let lags = correlation.autocorrelation.iter().zip(&correlation.viscosity).enumerate();
+    let rows = lags.map(|(lag, (autocorrelation, viscosity))| {
+        let numbers = [autocorrelation, viscosity].map(|found| [found.mean, found.standard_error.unwrap_or(f64::NAN)]);
+        [&[lag as f64 * interval], numbers.as_flattened()].concat()
+    });
+    let columns = ["time", "autocorrelation", "autocorrelation_error", "viscosity", "viscosity_error"];
+    Table::new(columns, rows.collect())
 }

@@ -1,15 +1,15 @@
 //! The analyses of a run under way: begun or continued from a checkpoint, fed, kept and concluded.
 
 use super::describe;
-use super::descriptor::{Analysis, Conclusion, Gathering, Sampling, Setting};
+use super::descriptor::{Conclusion, Sampling, Setting};
+use super::gathered::Gathered;
 use crate::engine::{Sample, Stepper};
-use crate::families::Model;
 use crate::output::checkpoint::CheckpointError;
 use crate::output::{RunDirectory, Summary, write_table};
-use crate::plan::{Plan, SamplerId};
+use crate::plan::SamplerId;
 use crate::run::RunError;
-use crate::run::sections::{Sections, samples};
-use crate::scene::{AnalysisId, Scene};
+use crate::run::sections::{Sections, bytes, samples};
+use crate::scene::AnalysisId;
 use crate::state::Reported;
 
 /// An analysis under way.
@@ -19,7 +19,7 @@ struct UnderWay {
     sampler: Option<usize>,
     first: u64,
     every: u64,
-    analysis: Box<dyn Analysis>,
+    gathered: Gathered,
 }
 
 impl UnderWay {
@@ -38,37 +38,28 @@ impl Analyses {
     ///
     /// # Errors
     /// [`CheckpointError::Content`] where a section is not as long as its samples make it.
-    pub(in crate::run) fn new(
-        scene: &Scene,
-        model: &Model,
-        plan: &Plan,
-        sections: &Sections<'_>,
-    ) -> Result<Self, CheckpointError> {
-        let mut all = Vec::new();
-        let mut begin = |mut begun: UnderWay, samples: u64| {
-            if let Some(numbers) = sections.numbers(begun.id.name(), begun.analysis.numbers_after(samples))? {
-                begun.analysis.restore(&numbers, samples);
-            }
-            all.push(begun);
-            Ok::<_, CheckpointError>(())
+    pub(in crate::run) fn new(setting: &Setting<'_>, sections: &Sections<'_>) -> Result<Self, CheckpointError> {
+        let Setting { scene, model, plan } = *setting;
+        let begin = |id: AnalysisId, sampler, first, every| {
+            let gathered = Gathered::new(describe(id).parts(scene, model));
+            UnderWay { id, sampler, first, every, gathered }
         };
-        for (index, sampler) in plan.samplers.iter().enumerate() {
-            let SamplerId::Analysis(id) = sampler.id else { continue };
-            let setting = Setting { scene, model, plan, sampler: Some(sampler) };
-            if let Some(Gathering::Samples(analysis)) = describe(id).begin(&setting) {
-                let (first, every) = (sampler.first, sampler.every);
-                let begun = UnderWay { id, sampler: Some(index), first, every, analysis };
-                begin(begun, sampler.samples_before(sections.step))?;
-            }
-        }
-        let setting = Setting { scene, model, plan, sampler: None };
-        for id in AnalysisId::ALL {
-            let descriptor = describe(id);
-            let Some(Sampling { first, every, .. }) = descriptor.asked(scene, model) else { continue };
-            if let Some(Gathering::States(analysis)) = descriptor.begin(&setting) {
-                let every = every.max(1);
-                let begun = UnderWay { id, sampler: None, first, every, analysis };
-                begin(begun, samples(every, first, sections.step))?;
+        let of_samples = plan.samplers.iter().enumerate().filter_map(|(index, sampler)| match sampler.id {
+            SamplerId::Analysis(id) => Some(begin(id, Some(index), sampler.first, sampler.every)),
+            SamplerId::Observables => None,
+        });
+        let of_states = AnalysisId::ALL.into_iter().filter(|id| describe(*id).takes_states()).filter_map(|id| {
+            let Sampling { first, every, .. } = describe(id).asked(scene, model)?;
+            Some(begin(id, None, first, every.max(1)))
+        });
+        let mut all: Vec<UnderWay> = of_samples.chain(of_states).collect();
+        for UnderWay { id, sampler, first, every, gathered } in &mut all {
+            let before = match sampler {
+                Some(index) => plan.samplers[*index].samples_before(sections.step),
+                None => samples(*every, *first, sections.step),
+            };
+            if let Some(numbers) = sections.numbers(id.name(), gathered.length_after(before))? {
+                gathered.restore(&numbers, before);
             }
         }
         Ok(Self(all))
@@ -100,9 +91,11 @@ impl Analyses {
     }
 
     /// Adds a sample of any sampler but the first.
-    pub(in crate::run) fn add(&mut self, sample: &Sample) {
-        if let Some(found) = self.0.iter_mut().find(|one| one.sampler == Some(sample.sampler)) {
-            found.analysis.add(sample);
+    pub(in crate::run) fn add(&mut self, sample: &Sample, setting: &Setting<'_>) {
+        if let Some(found) = self.0.iter_mut().find(|one| one.sampler == Some(sample.sampler))
+            && let Some(numbers) = describe(found.id).numbers_of_sample(setting, sample)
+        {
+            found.gathered.add(&numbers);
         }
     }
 
@@ -116,17 +109,21 @@ impl Analyses {
         self.0.iter().any(|one| one.takes_state(step))
     }
 
-    /// Adds a state to those that take it.
-    pub(in crate::run) fn add_state(&mut self, state: &Reported, model: &Model) {
+    /// Adds a state to those that take it. A step that was added already, before a run went back, is left out.
+    pub(in crate::run) fn add_state(&mut self, state: &Reported, setting: &Setting<'_>) {
         for one in self.0.iter_mut().filter(|one| one.takes_state(state.step)) {
-            one.analysis.add_state(state, model);
+            if one.gathered.samples() <= samples(one.every, one.first, state.step)
+                && let Some(numbers) = describe(one.id).numbers_of_state(setting, state)
+            {
+                one.gathered.add(&numbers);
+            }
         }
     }
 
     /// What a checkpoint has to keep of what the host has gathered of samples, and of states.
     pub(in crate::run) fn sections(&self) -> [Vec<(String, Vec<u8>)>; 2] {
         let (samples, states): (Vec<_>, Vec<_>) = self.0.iter().partition(|one| one.sampler.is_some());
-        let section = |one: &UnderWay| (one.id.name().to_owned(), one.analysis.section());
+        let section = |one: &UnderWay| (one.id.name().to_owned(), bytes(one.gathered.numbers()));
         [samples, states].map(|all| all.into_iter().map(section).collect())
     }
 
@@ -150,13 +147,16 @@ impl Analyses {
     /// whether to.
     pub(in crate::run) fn conclude(
         &self,
+        setting: &Setting<'_>,
         directory: &RunDirectory,
         summary: &mut Summary,
         proceed: &dyn Fn() -> Result<(), RunError>,
     ) -> Result<(), RunError> {
-        for UnderWay { id, analysis, .. } in self.0.iter().filter(|one| !one.analysis.is_idle()) {
+        for UnderWay { id, gathered, .. } in &self.0 {
             proceed()?;
-            let Conclusion { tables, result, warnings } = analysis.conclude();
+            let Some(Conclusion { tables, result, warnings }) = describe(*id).conclude(setting, gathered) else {
+                continue;
+            };
             match result {
                 Ok(result) => {
                     summary.results.insert(id.name().to_owned(), result);
@@ -181,19 +181,17 @@ fn window_name(id: AnalysisId) -> String {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::families::Model;
     use crate::measure::statistics::student;
     use crate::plan::{Hardware, Options};
     use crate::run::analyses::histogram;
     use crate::run::plan;
+    use crate::scene::Scene;
     use std::path::Path;
 
     /// The analyses after `step` steps that left these sections.
-    fn after(
-        step: u64,
-        sections: &[(String, Vec<u8>)],
-        (scene, model, plan): (&Scene, &Model, &Plan),
-    ) -> Result<Analyses, CheckpointError> {
-        Analyses::new(scene, model, plan, &Sections::new(Path::new("checkpoint.bin"), step, sections))
+    fn after(step: u64, sections: &[(String, Vec<u8>)], setting: &Setting<'_>) -> Result<Analyses, CheckpointError> {
+        Analyses::new(setting, &Sections::new(Path::new("checkpoint.bin"), step, sections))
     }
 
     /// What is concluded from samples is concluded from their section too, for every analysis of particles.
@@ -221,12 +219,12 @@ mod tests {
         .unwrap();
         let model = Model::new(&scene);
         let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
-        let run = (&scene, &model, &plan);
+        let run = &Setting { scene: &scene, model: &model, plan: &plan };
         let mut analyses = after(0, &[], run).unwrap();
         for step in 0..3_i64 {
             for (sampler, planned) in plan.samplers.iter().enumerate().skip(1) {
                 let sums = (0..planned.quantities as i64).map(|index| (1 + index * index * (step + 1)) << 20).collect();
-                analyses.add(&Sample { sampler, step: step as u64, sums });
+                analyses.add(&Sample { sampler, step: step as u64, sums }, run);
             }
         }
         assert_eq!(analyses.0.len(), 8);
@@ -235,14 +233,14 @@ mod tests {
         let fresh = after(0, &[], run).unwrap();
         for ((one, restored), fresh) in analyses.0.iter().zip(&restored.0).zip(&fresh.0) {
             let id = one.id;
-            let [analysis, restored, fresh] = [one, restored, fresh].map(|one| one.analysis.as_ref());
-            let text = |analysis: &dyn Analysis| {
-                let conclusion = analysis.conclude();
+            let [gathered, restored, fresh] = [one, restored, fresh].map(|one| &one.gathered);
+            let text = |gathered: &Gathered| {
+                let conclusion = describe(id).conclude(run, gathered).unwrap();
                 format!("{:?} {:?} {:?}", conclusion.tables, conclusion.result, conclusion.warnings)
             };
-            assert_eq!(text(restored), text(analysis), "{id:?}");
-            assert_eq!(restored.section(), analysis.section(), "{id:?}");
-            assert_ne!(fresh.section(), analysis.section(), "{id:?}");
+            assert_eq!(text(restored), text(gathered), "{id:?}");
+            assert_eq!(restored, gathered, "{id:?}");
+            assert!(fresh.numbers().ne(gathered.numbers()), "{id:?}");
         }
         // What belongs to another step, was cut off, or is missing altogether, is refused.
         for (index, (name, _)) in sections.iter().enumerate() {
@@ -278,11 +276,12 @@ mod tests {
         let gathered = |scene: &Scene, samples: &[&[i64]]| -> Conclusion {
             let model = Model::new(scene);
             let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
-            let mut analyses = after(0, &[], (scene, &model, &plan)).unwrap();
+            let setting = &Setting { scene, model: &model, plan: &plan };
+            let mut analyses = after(0, &[], setting).unwrap();
             for (step, sums) in samples.iter().enumerate() {
-                analyses.add(&Sample { sampler: 1, step: step as u64, sums: sums.to_vec() });
+                analyses.add(&Sample { sampler: 1, step: step as u64, sums: sums.to_vec() }, setting);
             }
-            analyses.0[0].analysis.conclude()
+            describe(analyses.0[0].id).conclude(setting, &analyses.0[0].gathered).unwrap()
         };
         let correlated = scene(r#"{"autocorrelations": [{"quantity": "velocity", "every": 2, "window": 2}]}"#);
         let conclusion = gathered(&correlated, &[&[8], &[4], &[16], &[4]]);

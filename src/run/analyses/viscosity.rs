@@ -1,9 +1,6 @@
 //! The decay of transverse momentum waves and the viscosity it gives.
 
-use super::{
-    Analysis, Conclusion, Descriptor, Drawn, Gathering, Planner, Sampling, Setting, SumSampler, bytes, found,
-    total_mass,
-};
+use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, SumSampler, found, total_mass};
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::shear_viscosity::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
@@ -43,15 +40,37 @@ impl Descriptor for Viscosity {
         planner.add_sums(&SumSampler { constants: planner.of_all_particles(), ..sampler });
     }
 
-    fn begin(&self, setting: &Setting<'_>) -> Option<Gathering> {
-        let (asked, model) = (setting.scene.output.viscosity.as_ref()?, setting.model);
-        Some(Gathering::Samples(Box::new(Amplitudes {
-            density: total_mass(model) / model.units.volume(),
-            interval: asked.every as f64 * model.time_step,
-            window: asked.window as usize,
-            unit: model.units.momentum,
-            modes: transverse_modes(model),
-        })))
+    fn parts(&self, _: &Scene, model: &Model) -> Vec<Part> {
+        wave_numbers(model).map(|_| Part::series(2)).collect()
+    }
+
+    fn numbers_of_sample(&self, Setting { model, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        // exp(-ikr) = cos kr - i sin kr.
+        let signs = [1.0, -1.0].into_iter().cycle();
+        Some(sample.sums.iter().zip(signs).map(|(sum, sign)| sign * (*sum as f64 * model.units.momentum)).collect())
+    }
+
+    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let asked = scene.output.viscosity.as_ref()?;
+        let modes = wave_numbers(model).enumerate().map(|(place, wave_number)| {
+            let amplitudes = gathered.part(place).as_chunks().0.to_vec();
+            TransverseMode { wave_number, amplitudes }
+        });
+        let (density, interval) = (total_mass(model) / model.units.volume(), asked.every as f64 * model.time_step);
+        let found = shear_viscosity(&modes.collect::<Vec<_>>(), density, interval, asked.window as usize);
+        let found = found.map_err(|error| error.to_string());
+        let rows = found.iter().flat_map(|found| autocorrelations(found, interval)).collect();
+        let result = found.map(|found| {
+            let wave = |wave: &WaveViscosity| {
+                json!({ "wave_number": wave.wave_number, "modes": wave.modes, OF_WAVE: wave.viscosity })
+            };
+            json!({
+                SHEAR_VISCOSITY: found.viscosity,
+                KINEMATIC_VISCOSITY: found.kinematic_viscosity,
+                WAVES: found.waves.iter().map(wave).collect::<Vec<Value>>(),
+            })
+        });
+        Some(Conclusion::new(Table::new(["wave_number", "time", "autocorrelation", "fit"], rows), result))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -69,20 +88,10 @@ impl Descriptor for Viscosity {
     }
 }
 
-/// The amplitudes of all modes, sample by sample.
-struct Amplitudes {
-    density: f64,
-    interval: f64,
-    window: usize,
-    unit: f64,
-    modes: Vec<TransverseMode>,
-}
-
-/// Empty series in the order in which the kernel sums them: for each axis the momenta across it.
-fn transverse_modes(model: &Model) -> Vec<TransverseMode> {
+/// Wave numbers of the modes in the order in which the kernel sums them: for each axis the momenta across it.
+fn wave_numbers(model: &Model) -> impl Iterator<Item = f64> {
     let axes = &model.units.lengths[..model.units.dimension];
-    let modes = axes.iter().flat_map(|length| (1..axes.len()).map(move |_| TAU / length));
-    modes.map(|wave_number| TransverseMode { wave_number, amplitudes: Vec::new() }).collect()
+    axes.iter().flat_map(|length| (1..axes.len()).map(move |_| TAU / length))
 }
 
 fn autocorrelations(found: &ShearViscosity, interval: f64) -> Vec<Vec<f64>> {
@@ -94,46 +103,4 @@ fn autocorrelations(found: &ShearViscosity, interval: f64) -> Vec<Vec<f64>> {
         wave.autocorrelation.iter().enumerate().map(row).collect::<Vec<_>>()
     };
     found.waves.iter().flat_map(wave).collect()
-}
-
-impl Analysis for Amplitudes {
-    fn add(&mut self, sample: &Sample) {
-        let sums: Vec<f64> = sample.sums.iter().map(|sum| *sum as f64 * self.unit).collect();
-        for (mode, pair) in self.modes.iter_mut().zip(sums.chunks_exact(2)) {
-            // exp(-ikr) = cos kr - i sin kr.
-            mode.amplitudes.push([pair[0], -pair[1]]);
-        }
-    }
-
-    fn section(&self) -> Vec<u8> {
-        bytes(self.modes.iter().flat_map(|mode| mode.amplitudes.as_flattened()).copied())
-    }
-
-    fn numbers_after(&self, samples: u64) -> u64 {
-        samples.saturating_mul(2 * self.modes.len() as u64)
-    }
-
-    fn restore(&mut self, numbers: &[f64], _: u64) {
-        let length = numbers.len() / self.modes.len().max(1);
-        for (mode, part) in self.modes.iter_mut().zip(numbers.chunks_exact(length.max(1))) {
-            mode.amplitudes = part.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
-        }
-    }
-
-    fn conclude(&self) -> Conclusion {
-        let found = shear_viscosity(&self.modes, self.density, self.interval, self.window);
-        let found = found.map_err(|error| error.to_string());
-        let rows = found.iter().flat_map(|found| autocorrelations(found, self.interval)).collect();
-        let result = found.map(|found| {
-            let wave = |wave: &WaveViscosity| {
-                json!({ "wave_number": wave.wave_number, "modes": wave.modes, OF_WAVE: wave.viscosity })
-            };
-            json!({
-                SHEAR_VISCOSITY: found.viscosity,
-                KINEMATIC_VISCOSITY: found.kinematic_viscosity,
-                WAVES: found.waves.iter().map(wave).collect::<Vec<Value>>(),
-            })
-        });
-        Conclusion::new(Table::new(["wave_number", "time", "autocorrelation", "fit"], rows), result)
-    }
 }
