@@ -1,8 +1,7 @@
 //! Diffusion coefficients from displacements and velocities.
 
-use super::correlation::{Coefficient, LagAverage, WindowedAverage};
+use super::correlation::{Coefficient, WindowedAverage};
 use super::line::weighted_line;
-use super::statistics;
 use std::ops::Range;
 
 /// The least of the velocity autocorrelation that one sample may leave. An exponential is then integrated to 1 % by the trapezoidal rule, whose
@@ -128,7 +127,7 @@ impl DiffusionWindows {
     /// the end of the window.
     pub fn green_kubo(&self) -> Result<Coefficient, DiffusionError> {
         let lags = self.velocity.lags();
-        let second = self.velocity.normalised().get(1).map(|second| second.mean).ok_or(DiffusionError::Few)?;
+        let second = self.velocity.normalised().get(1).map(|second| second.value).ok_or(DiffusionError::Few)?;
         if second < KEPT_BY_A_SAMPLE {
             return Err(DiffusionError::Coarse { kept: second.max(0.0), interval: self.interval });
         }
@@ -153,7 +152,7 @@ impl DiffusionWindows {
 
     /// Whether velocities are forgotten from a lag on.
     fn check_forgotten(&self, from: usize) -> Result<(), DiffusionError> {
-        let Some(LagAverage { mean: left, standard_error }) = self.velocity.normalised_mean(from) else {
+        let Some(Coefficient { value: left, standard_error }) = self.velocity.normalised_mean(from) else {
             return Err(DiffusionError::Few);
         };
         if left - LEFT_ERRORS * standard_error.unwrap_or(0.0) > LEFT {
@@ -164,8 +163,7 @@ impl DiffusionWindows {
 }
 
 fn coefficient(values: &[f64]) -> Result<Coefficient, DiffusionError> {
-    let (value, standard_error) = statistics::independent(values).ok_or(DiffusionError::Few)?;
-    if value.is_finite() { Ok(Coefficient { value, standard_error }) } else { Err(DiffusionError::Few) }
+    Coefficient::of_independent(values).filter(|found| found.value.is_finite()).ok_or(DiffusionError::Few)
 }
 
 #[cfg(test)]

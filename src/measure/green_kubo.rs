@@ -1,6 +1,6 @@
 //! The shear viscosity from the autocorrelation of the stress.
 
-use super::correlation::{Coefficient, LagAverage};
+use super::correlation::Coefficient;
 
 /// The least of the autocorrelation that a sample may leave, where samples are not those of every step: of an exponential 1 % is then missing.
 const KEPT_BY_A_SAMPLE: f64 = 0.7;
@@ -17,11 +17,11 @@ const FEWEST_BLOCKS: usize = 5;
 #[derive(Debug, Clone, PartialEq)]
 pub struct StressCorrelation {
     /// V/kT times the autocorrelation of a shear component.
-    pub autocorrelation: Vec<LagAverage>,
+    pub autocorrelation: Vec<Coefficient>,
     /// The viscosity that its sum up to a lag gives.
-    pub viscosity: Vec<LagAverage>,
+    pub viscosity: Vec<Coefficient>,
     /// What the second half of the lags adds to it.
-    pub growth: Option<LagAverage>,
+    pub growth: Option<Coefficient>,
 }
 
 /// Why no viscosity comes out.
@@ -57,21 +57,19 @@ impl StressCorrelation {
     /// [`GreenKuboError`] where samples that are further apart forget the stress, or the second half of the lags adds more than a tenth and
     /// than statistics explain.
     pub fn longest(&self, every_step: bool) -> Result<Coefficient, GreenKuboError> {
-        let Some(LagAverage { mean: value, standard_error }) = self.viscosity.last().copied() else {
-            return Err(GreenKuboError::Few);
-        };
+        let found = *self.viscosity.last().ok_or(GreenKuboError::Few)?;
         if let [first, second, ..] = self.autocorrelation[..]
             && !every_step
-            && second.mean < KEPT_BY_A_SAMPLE * first.mean
+            && second.value < KEPT_BY_A_SAMPLE * first.value
         {
-            return Err(GreenKuboError::Coarse { kept: (second.mean / first.mean).max(0.0) });
+            return Err(GreenKuboError::Coarse { kept: (second.value / first.value).max(0.0) });
         }
-        if let Some(LagAverage { mean: growth, standard_error: Some(error) }) = self.growth
-            && growth.abs() - GROWTH_ERRORS * error > GROWTH * value.abs()
+        if let Some(Coefficient { value: growth, standard_error: Some(error) }) = self.growth
+            && growth.abs() - GROWTH_ERRORS * error > GROWTH * found.value.abs()
         {
-            return Err(GreenKuboError::Short { part: growth / value });
+            return Err(GreenKuboError::Short { part: growth / found.value });
         }
-        Ok(Coefficient { value, standard_error })
+        Ok(found)
     }
 }
 
@@ -144,14 +142,14 @@ pub fn stress_correlation(
         let here: Vec<f64> = correlations.iter().map(|correlation| factor * correlation[lag]).collect();
         sums.iter_mut().zip(&here).for_each(|(sum, value)| *sum += weight * interval * value);
         for (values, averages) in [(&here, &mut found.autocorrelation), (&sums, &mut found.viscosity)] {
-            averages.extend(LagAverage::new(values));
+            averages.extend(Coefficient::of_independent(values));
         }
         if lag == longest_lag / 2 {
             half.clone_from(&sums);
         }
     }
     let growth: Vec<f64> = sums.iter().zip(&half).map(|(all, half)| all - half).collect();
-    found.growth = LagAverage::new(&growth);
+    found.growth = Coefficient::of_independent(&growth);
     found
 }
 
@@ -198,8 +196,8 @@ mod tests {
         let error = viscosity.standard_error.unwrap();
         // Of 20 blocks: known to 16 %.
         assert!(error < 1.64 * scatter && error > 0.2 * scatter, "{error} against {scatter}");
-        assert!((found.autocorrelation[0].mean - 1.0).abs() < 0.1);
-        assert!((found.autocorrelation[10].mean - (-1.0_f64).exp()).abs() < 0.1);
+        assert!((found.autocorrelation[0].value - 1.0).abs() < 0.1);
+        assert!((found.autocorrelation[10].value - (-1.0_f64).exp()).abs() < 0.1);
         // Of a lag of one relaxation time, e^(-1/2) - e^(-1) of 1 - e^(-1) comes from the second half; samples ten times as far apart forget.
         let short = stress_correlation(&series, 3, 1.0, interval, 10);
         let part = ((-0.5_f64).exp() - (-1.0_f64).exp()) / (1.0 - (-1.0_f64).exp());

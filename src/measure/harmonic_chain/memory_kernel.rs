@@ -1,5 +1,6 @@
 //! The memory that a harmonic chain has of the momenta of its clusters.
 
+use crate::measure::line::weighted_line;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use std::f64::consts::{PI, TAU};
 
@@ -100,13 +101,8 @@ impl MemoryKernel {
             return None;
         }
         let times = (0..SAMPLES).map(|j| range[0] + (range[1] - range[0]) * j as f64 / (SAMPLES - 1) as f64);
-        let points: Vec<[f64; 2]> = times.map(|time| [time, self.averaged_friction(time)]).collect();
-        let mean = |axis: usize| points.iter().map(|point| point[axis]).sum::<f64>() / SAMPLES as f64;
-        let [time, friction] = [mean(0), mean(1)];
-        let product: f64 = points.iter().map(|point| (point[0] - time) * (point[1] - friction)).sum();
-        let square: f64 = points.iter().map(|point| (point[0] - time).powi(2)).sum();
-        let slope = product / square;
-        Some(Plateau { friction: friction - slope * time, slope, range })
+        let line = weighted_line(times.map(|time| (time, self.averaged_friction(time), 1.0)))?;
+        Some(Plateau { friction: line.intercept, slope: line.slope, range })
     }
 
     fn integral(&self, time: f64, width: f64) -> f64 {

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::engine::Sample;
 use crate::families::Model;
-use crate::measure::correlation::{Coefficient, WindowedAverage};
+use crate::measure::correlation::WindowedAverage;
 use crate::measure::fit::FittedDecay;
 use crate::numbers::with_error;
 use crate::plan::{Need, Plan, Window};
@@ -86,8 +86,9 @@ impl Descriptor for Autocorrelation {
         let average = WindowedAverage::of(asked.window as usize, gathered.part(0));
         let (covariances, normalised) = (average.average(), average.normalised());
         let first = covariances.first().copied();
-        let missing = windows_missing(&average, model)
-            .or_else(|| first.is_none_or(|first| first.mean <= 0.0).then(|| "it is zero for all particles".to_owned()));
+        let missing = windows_missing(&average, model).or_else(|| {
+            first.is_none_or(|first| first.value <= 0.0).then(|| "it is zero for all particles".to_owned())
+        });
         let is_fitted = asked.fit != DecayFit::None;
         let fit = (is_fitted && missing.is_none()).then(|| FittedDecay::of_windows(&average, interval, asked.fit));
         let warnings = fit
@@ -99,17 +100,14 @@ impl Descriptor for Autocorrelation {
         let columns = columns.into_iter().chain(fit.as_ref().map(|_| "fit"));
         let rows = normalised.iter().zip(&covariances).enumerate().map(|(lag, (normalised, covariance))| {
             let time = lag as f64 * interval;
-            let [error, covariance_error] =
-                [normalised, covariance].map(|average| average.standard_error.unwrap_or(f64::NAN));
-            let mut row = vec![time, normalised.mean, error, covariance.mean, covariance_error];
+            let mut row = [&[time], [normalised.cells(), covariance.cells()].as_flattened()].concat();
             row.extend(fit.as_ref().map(|fit| fit.at(time)));
             row
         });
         let table = Table::new(columns, rows.collect());
         let result = match (missing, first) {
             (None, Some(first)) => {
-                let mean_square = Coefficient { value: first.mean, standard_error: first.standard_error };
-                let mut result = json!({ "windows": average.windows().len(), MEAN_SQUARE: mean_square });
+                let mut result = json!({ "windows": average.windows().len(), MEAN_SQUARE: first });
                 if is_fitted {
                     result["fit"] = json!(fit.map(|fit| parameters(&fit, asked.fit)));
                 }

@@ -77,10 +77,9 @@ impl Descriptor for Diffusion {
         let [displacement, velocity] =
             [0, 1].map(|part| WindowedAverage::of(asked.window as usize, gathered.part(part)));
         let averages = displacement.average().into_iter().zip(velocity.average());
-        let rows = averages.enumerate().map(|(lag, (far, kept))| {
-            let [far_error, kept_error] = [far.standard_error, kept.standard_error].map(|e| e.unwrap_or(f64::NAN));
-            vec![lag as f64 * interval, far.mean, far_error, kept.mean, kept_error]
-        });
+        let rows = averages
+            .enumerate()
+            .map(|(lag, (far, kept))| [&[lag as f64 * interval], [far.cells(), kept.cells()].as_flattened()].concat());
         let columns = [
             "time",
             "mean_squared_displacement",

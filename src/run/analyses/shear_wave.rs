@@ -103,17 +103,13 @@ impl Wave<'_> {
     fn result(&self, decay: &WaveDecay) -> Value {
         let units = &self.model.units;
         let (wave_number, density) = (TAU * self.periods / units.lengths[1], total_mass(self.model) / units.volume());
-        let scaled = |factor: f64| {
-            let error = decay.rate.standard_error.map(|error| error * factor);
-            json!({ "value": decay.rate.value * factor, "standard_error": error })
-        };
         let mut result = json!({
             "samples": self.samples.len(),
             "wave_number": wave_number,
             INITIAL_AMPLITUDE: decay.amplitude,
-            DECAY_RATE: scaled(1.0),
-            KINEMATIC_VISCOSITY: scaled(wave_number.powi(-2)),
-            SHEAR_VISCOSITY: scaled(density * wave_number.powi(-2)),
+            DECAY_RATE: decay.rate,
+            KINEMATIC_VISCOSITY: decay.rate.times(wave_number.powi(-2)),
+            SHEAR_VISCOSITY: decay.rate.times(density * wave_number.powi(-2)),
         });
         for (name, viscosity) in self.model.physics().known_viscosities() {
             result[name] = json!(viscosity);

@@ -193,7 +193,7 @@ impl Tensors<'_> {
 fn correlation_table(correlation: &StressCorrelation, interval: f64) -> Table {
     let lags = correlation.autocorrelation.iter().zip(&correlation.viscosity).enumerate();
     let rows = lags.map(|(lag, (autocorrelation, viscosity))| {
-        let numbers = [autocorrelation, viscosity].map(|found| [found.mean, found.standard_error.unwrap_or(f64::NAN)]);
+        let numbers = [autocorrelation, viscosity].map(|found| found.cells());
         [&[lag as f64 * interval], numbers.as_flattened()].concat()
     });
     let columns = ["time", "autocorrelation", "autocorrelation_error", "viscosity", "viscosity_error"];
