@@ -48,7 +48,7 @@ pub struct Traffic {
 /// The exchange of one rank.
 pub(super) struct Exchange<'a> {
     gpu: &'a Gpu,
-    part: PlannedPart,
+    pub part: PlannedPart,
     swap: Box<dyn Swap + 'a>,
     particles: wgpu::Buffer,
     stored_count: wgpu::Buffer,
@@ -144,11 +144,6 @@ impl<'a> Exchange<'a> {
         FREE_SHARE * self.stored.saturating_sub(self.own) > self.own
     }
 
-    /// Whether all ranks have an array whole, and alike.
-    pub(super) fn has_whole(&self, array: Array) -> bool {
-        self.part.whole.contains(&array)
-    }
-
     /// Whether this is the first rank.
     pub(super) fn is_first(&self) -> bool {
         self.part.part.rank == 0
@@ -188,20 +183,6 @@ impl<'a> Exchange<'a> {
     /// Leaves the peers, who wait no longer.
     pub(super) fn leave(&mut self) {
         self.swap.leave(&self.part.peers);
-    }
-
-    /// The array of particles that all ranks have, and the number of those that they share out.
-    pub(super) fn everywhere(&self) -> Option<Array> {
-        self.part.everywhere
-    }
-
-    pub(super) fn shared(&self) -> usize {
-        self.part.shared as usize
-    }
-
-    /// How a particle is stored.
-    pub(super) fn particle(&self) -> ParticleWords {
-        self.part.particle
     }
 
     /// Begins with particles in storage, of so many words.

@@ -353,7 +353,7 @@ impl<'a> Engine<'a> {
         for (array, words) in arrays.chain(followed).zip(others) {
             let mut words = words.clone();
             match array {
-                _ if first || exchange.has_whole(array) => {}
+                _ if first || exchange.part.whole.contains(&array) => {}
                 Paths::BUFFER => words.chunks_exact_mut(PATH_WORDS).for_each(|path| path[PATH_WORDS / 2..].fill(0)),
                 _ => words.fill(0),
             }
@@ -475,16 +475,17 @@ impl<'a> Engine<'a> {
     /// Particles, with the sums that belong to a state, and from the first rank with the arrays that all have.
     fn with_sums(&mut self, particles: Vec<u32>) -> Result<Vec<Vec<u32>>, EngineError> {
         let part = self.part()?;
-        let (first, words) = (part.is_first(), part.particle());
+        let (first, words) = (part.is_first(), part.part.particle);
         let arrays = self.plan.layout.buffers().into_iter().skip(1);
-        let arrays: Vec<(Array, bool)> = arrays.map(|array| (array, first || !part.has_whole(array))).collect();
+        let arrays: Vec<(Array, bool)> =
+            arrays.map(|array| (array, first || !part.part.whole.contains(&array))).collect();
         let sums = arrays.into_iter().map(|(array, given)| if given { self.words(array) } else { Ok(Vec::new()) });
         let sums = sums.collect::<Result<Vec<_>, _>>()?;
         let crossed = if self.plan.paths.are_followed() {
             let paths = self.words(Paths::BUFFER)?;
-            let everywhere = self.part()?.everywhere().filter(|_| first);
+            let everywhere = self.part()?.part.everywhere.filter(|_| first);
             let more = everywhere.map(|array| self.words(array)).transpose()?.unwrap_or_default();
-            let counted = self.plan.particles as usize - self.part()?.shared();
+            let counted = (self.plan.particles - self.part()?.part.shared) as usize;
             let own = [&particles[..], &more[..more.len().min(words.count * counted)]].concat();
             Some(exchange::crossed(&paths, words, &own))
         } else {

@@ -74,7 +74,12 @@ fn check_amount(group: &ParticleGroup, path: &str, problems: &mut Problems) {
         }
         return;
     }
-    let found = match (group.count, group.number_density) {
+    check_one_of_two(group.count, group.number_density, path, problems);
+}
+
+/// An amount is a count or a density.
+pub(super) fn check_one_of_two(count: Option<u64>, density: Option<f64>, path: &str, problems: &mut Problems) {
+    let found = match (count, density) {
         (Some(_), Some(_)) => "both `count` and `number_density` are given",
         (None, None) => "neither `count` nor `number_density` is given",
         _ => return,

@@ -12,26 +12,6 @@ use crate::state::Reported;
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
-/// The charts of the tables, in the order in which their names are listed, and what they say below their titles.
-const CHARTS: [(ChartOfTable, Conditions); 5] = [
-    (chain_profile_chart, Conditions::Pulse),
-    (chain_pulse_chart, Conditions::Pulse),
-    (chain_correlation_chart, Conditions::Equilibrium),
-    (chain_memory_chart, Conditions::Memory),
-    (chain_equilibrium_chart, Conditions::Equilibrium),
-];
-
-/// Makes a chart of a title, a subtitle and a table.
-type ChartOfTable = fn(&str, &str, &Table) -> Chart;
-
-/// The conditions under which the numbers of a table are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Conditions {
-    Pulse,
-    Equilibrium,
-    Memory,
-}
-
 const REDUCED_TIME: &str = "reduced_time";
 const REDUCED_FRICTION: &str = "reduced_friction";
 
@@ -98,8 +78,15 @@ impl Descriptor for Chain {
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
-        let (chart, conditions) = CHARTS[drawn.place.min(CHARTS.len() - 1)];
-        chart(drawn.title(), &subtitle(conditions, drawn.scene), drawn.table)
+        let [pulse, memory, equilibrium] = subtitles(drawn.scene);
+        let (title, table) = (drawn.title(), drawn.table);
+        match drawn.place {
+            0 => chain_profile_chart(title, &pulse, table),
+            1 => chain_pulse_chart(title, &pulse, table),
+            2 => chain_correlation_chart(title, &equilibrium, table),
+            3 => chain_memory_chart(title, &memory, table),
+            _ => chain_equilibrium_chart(title, &equilibrium, table),
+        }
     }
 
     fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
@@ -368,26 +355,22 @@ fn memory(kernels: &[MemoryKernel]) -> Table {
     Table::new(columns, times.map(row).collect())
 }
 
-/// The conditions under which the numbers of a table were found, for its plot.
-fn subtitle(conditions: Conditions, scene: &Scene) -> String {
+/// The conditions under which the numbers of pulses, of the memory and of equilibrium were found, for their plots.
+fn subtitles(scene: &Scene) -> [String; 3] {
     let Some(chain) = scene.interactions.iter().find_map(|interaction| match interaction {
         Interaction::HarmonicChain(chain) => Some(chain),
         _ => None,
     }) else {
-        return String::new();
+        return Default::default();
     };
     let [size, friction, temperature] = [f64::from(chain.cluster_size), chain.friction, scene.temperature];
-    match conditions {
-        Conditions::Pulse => format!(
+    [
+        format!(
             "{} clusters of {size} beads, Gaussian pulse of width {} clusters at rest, kT = 0, γ* = {friction}",
             chain.pulse.clusters, chain.pulse.width
         ),
-        Conditions::Memory => {
-            "exact, of clusters of n beads whose centres are held; the plateau lasts while ω_{0}t is far below n"
-                .to_owned()
-        }
-        Conditions::Equilibrium => {
-            format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", chain.equilibrium.clusters)
-        }
-    }
+        "exact, of clusters of n beads whose centres are held; the plateau lasts while ω_{0}t is far below n"
+            .to_owned(),
+        format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", chain.equilibrium.clusters),
+    ]
 }

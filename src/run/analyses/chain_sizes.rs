@@ -7,9 +7,9 @@ use super::{
 use crate::engine::Sample;
 use crate::families::{ChainGroup, Model, Walks};
 use crate::measure::statistics::estimate;
-use crate::plan::{Need, Words};
+use crate::plan::Words;
 use crate::plot::{ChainKind, Chart, chain_sizes_chart};
-use crate::scene::{AnalysisId, Output, Scene};
+use crate::scene::{AnalysisId, Scene};
 use crate::shaders::analyses::Walk;
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
@@ -25,10 +25,6 @@ pub(super) struct ChainSizes;
 impl Descriptor for ChainSizes {
     fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
         Some(Sampling::after_equilibration(scene, scene.output.chain_sizes.as_ref()?.every))
-    }
-
-    fn needs(&self, _: &Output) -> &'static [Need] {
-        &[Need::Particles]
     }
 
     fn add_sampler(&self, planner: &mut Planner<'_>) {

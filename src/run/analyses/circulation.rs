@@ -5,7 +5,7 @@ use crate::engine::Sample;
 use crate::families::{MaterialLoops, Model};
 use crate::measure::circulation::{circulation, largest_gap};
 use crate::plan::recording::SAMPLE_ROWS;
-use crate::plan::{Kernel, Sampler, SamplerId};
+use crate::plan::{Kernel, Sampler};
 use crate::plot::{Chart, circulation_chart};
 use crate::scene::{AnalysisId, Scene};
 use crate::shaders::{Array, Choices, Entry};
@@ -41,28 +41,13 @@ impl Descriptor for Circulation {
         if loops.iter().all(|(_, range)| range.is_empty()) {
             return;
         }
-        let plan = &mut *planner.plan;
-        let record = plan.add_kernel(
-            Kernel::new("record_tracers", Entry::RecordTracers, Choices::new(), 1)
-                .renamed(vec![(Array::Samples, SAMPLES)]),
-        );
-        let row = 8 * (1 + 2 * tracers);
+        let kernel = Kernel::new("record_tracers", Entry::RecordTracers, Choices::new(), 1);
+        let record = planner.plan.add_kernel(kernel.renamed(vec![(Array::Samples, SAMPLES)]));
         // Two rows at the least: one is taken, and room is left for the next.
-        let capacity = (TRACER_BYTES / row).clamp(2, SAMPLE_ROWS);
-        plan.add_buffer(SAMPLES, 8 + capacity * row);
-        plan.samplers.push(Sampler {
-            id: SamplerId::Analysis(AnalysisId::Circulation),
-            first: 0,
-            every: planner.output.energies.every,
-            kernels: vec![record],
-            samples: SAMPLES,
-            quantities: 2 * tracers as usize,
-            capacity,
-            needs_report: true,
-            gathered: false,
-            window: None,
-            whole: 0..2 * tracers as usize,
-        });
+        let capacity = (TRACER_BYTES / (8 * (1 + 2 * tracers))).clamp(2, SAMPLE_ROWS);
+        let (every, quantities) = (planner.output.energies.every, 2 * tracers as usize);
+        let plain = planner.sampler(AnalysisId::Circulation, every, SAMPLES, quantities, capacity);
+        planner.plan.samplers.push(Sampler { first: 0, kernels: vec![record], whole: 0..quantities, ..plain });
     }
 
     fn parts(&self, _: &Scene, model: &Model) -> Vec<Part> {

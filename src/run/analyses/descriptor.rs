@@ -21,7 +21,7 @@ pub(super) trait Descriptor {
     /// What a report has to leave for its sampler, if a scene asks for it.
     fn needs(&self, output: &Output) -> &'static [Need] {
         let _ = output;
-        &[]
+        if self.takes_states() { &[] } else { &[Need::Particles] }
     }
 
     /// Adds its sampler to a plan, if it has one and a scene asks for it.

@@ -8,9 +8,9 @@ use crate::families::Model;
 use crate::measure::correlation::WindowedAverage;
 use crate::measure::diffusion::DiffusionWindows;
 use crate::plan::paths::PATH;
-use crate::plan::{Need, Paths, Window};
+use crate::plan::{Paths, Window};
 use crate::plot::{Chart, diffusion_chart};
-use crate::scene::{AnalysisId, Output, Scene};
+use crate::scene::{AnalysisId, Scene};
 use crate::shaders::{Array, Constant, Entry};
 use crate::table::Table;
 use serde_json::json;
@@ -29,10 +29,6 @@ impl Descriptor for Diffusion {
     fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
         let asked = scene.output.diffusion.as_ref()?;
         Some(Sampling::after_equilibration(scene, asked.every).in_windows(asked.window))
-    }
-
-    fn needs(&self, _: &Output) -> &'static [Need] {
-        &[Need::Particles]
     }
 
     fn add_sampler(&self, planner: &mut Planner<'_>) {

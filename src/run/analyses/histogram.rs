@@ -137,23 +137,22 @@ impl Descriptor for Histogram {
         } else if total == 0.0 {
             Err("there are no particles".to_owned())
         } else {
-            let mut result = Map::new();
-            let mut put = |name: &str, value: f64| result.insert(name.to_owned(), json!(value));
-            put("samples", *samples);
-            put("values", total);
-            put("range", range);
-            if !speed {
-                put(BELOW, histogram.below);
-            }
-            put(ABOVE, histogram.above);
-            put(MEAN, value.first);
-            put(DEVIATION, value.standard_deviation());
-            if !speed {
-                // About zero it says nothing of a magnitude.
-                put(KURTOSIS, value.kurtosis());
-            }
-            put(MEAN_SQUARE, magnitude.second);
-            put(VARIANCE_OF_SQUARE, magnitude.variance_of_square());
+            let numbers = [
+                ("samples", *samples),
+                ("values", total),
+                ("range", range),
+                (BELOW, histogram.below),
+                (ABOVE, histogram.above),
+                (MEAN, value.first),
+                (DEVIATION, value.standard_deviation()),
+                (KURTOSIS, value.kurtosis()),
+                (MEAN_SQUARE, magnitude.second),
+                (VARIANCE_OF_SQUARE, magnitude.variance_of_square()),
+            ];
+            // Nothing is below a magnitude, of which a kurtosis about zero says nothing.
+            let is_found = |name: &str| !speed || ![BELOW, KURTOSIS].contains(&name);
+            let found = numbers.into_iter().filter(|(name, _)| is_found(name));
+            let result: Map<String, Value> = found.map(|(name, value)| (name.to_owned(), json!(value))).collect();
             Ok(Value::Object(result))
         };
         Some(Conclusion { warnings, ..Conclusion::new(table, result) })

@@ -1,8 +1,9 @@
 //! Pairs counted by distance, for the radial distribution function.
 
+use super::Planner;
 use crate::plan::recording::record_histogram;
 use crate::plan::serial_memory::TURNS;
-use crate::plan::{Grid, Kernel, Options, Ordered, Plan, Sampler, SamplerId};
+use crate::plan::{Grid, Kernel, Options, Ordered, Sampler};
 use crate::scene::{AnalysisId, RadialDistribution};
 use crate::shaders::analyses::CountedPairs;
 use crate::shaders::core::Dispatches;
@@ -35,8 +36,9 @@ pub(super) struct PairHistogram<'a> {
 }
 
 impl PairHistogram<'_> {
-    /// Adds the kernel, what records its counts, and the sampler of a first step.
-    pub fn add(self, plan: &mut Plan, ordered: &Ordered, first: u64) {
+    /// Adds the kernel, what records its counts, and the sampler.
+    pub fn add(self, planner: &mut Planner<'_>, ordered: &Ordered) {
+        let plan = &mut *planner.plan;
         let mut kernels = ordered.kernels.clone();
         let bins = u64::from(self.asked.bins);
         let spans: [u64; 3] = std::array::from_fn(|axis| self.span(axis));
@@ -76,20 +78,9 @@ impl PairHistogram<'_> {
             wider.samplers.push(plan.samplers.len());
         }
         plan.add_buffer(Array::Histogram, 8 * bins);
-        plan.add_buffer(Array::HistogramSamples, 8 * (1 + CAPACITY * (1 + bins)));
-        plan.samplers.push(Sampler {
-            id: SamplerId::Analysis(AnalysisId::RadialDistribution),
-            first,
-            every: self.asked.every,
-            kernels,
-            samples: Array::HistogramSamples,
-            quantities: self.asked.bins as usize,
-            capacity: CAPACITY,
-            needs_report: ordered.needs_report,
-            gathered: false,
-            window: None,
-            whole: 0..0,
-        });
+        let (id, samples) = (AnalysisId::RadialDistribution, Array::HistogramSamples);
+        let plain = planner.sampler(id, self.asked.every, samples, self.asked.bins as usize, CAPACITY);
+        planner.plan.samplers.push(Sampler { kernels, needs_report: ordered.needs_report, ..plain });
     }
 
     /// Cells that the range covers on an axis.

@@ -149,7 +149,9 @@ impl<'a> Planner<'a> {
         let recorded = record_sums("record_sample", sampler.quantities as u64, groups);
         let record = self.plan.add_kernel(recorded.renamed(rows));
         self.plan.add_buffer(sampler.sums, 8 * sampler.quantities as u64 * groups);
-        self.push(sampler, [sums, record], SAMPLE_ROWS, gathered);
+        let kernels = [&sampler.before[..], &[sums, record]].concat();
+        let plain = self.sampler(sampler.id, sampler.every, sampler.samples, sampler.quantities, SAMPLE_ROWS);
+        self.plan.samplers.push(Sampler { kernels, gathered, window: sampler.window, ..plain });
     }
 
     /// Adds a sampler whose kernel reads the particles by id in so many workgroups and adds to as many places as there are quantities, which
@@ -165,25 +167,34 @@ impl<'a> Planner<'a> {
         // About a mebibyte, or sixteen rows.
         let capacity = ((1 << 17) / (1 + entries)).clamp(16, SAMPLE_ROWS);
         self.plan.add_buffer(sampler.sums, 8 * entries);
-        self.push(sampler, [count, record], capacity, false);
+        let kernels = [&sampler.before[..], &[count, record]].concat();
+        let plain = self.sampler(sampler.id, sampler.every, sampler.samples, sampler.quantities, capacity);
+        self.plan.samplers.push(Sampler { kernels, ..plain });
     }
 
-    /// Adds a sampler with room for so many rows.
-    fn push(&mut self, sampler: &SumSampler, kernels: [usize; 2], capacity: u64, gathered: bool) {
-        self.plan.add_buffer(sampler.samples, 8 * (1 + capacity * (1 + sampler.quantities as u64)));
-        self.plan.samplers.push(Sampler {
-            id: SamplerId::Analysis(sampler.id),
+    /// A sampler without kernels, with room in its buffer for so many rows of so many quantities.
+    pub(super) fn sampler(
+        &mut self,
+        id: AnalysisId,
+        every: u64,
+        samples: Array,
+        quantities: usize,
+        capacity: u64,
+    ) -> Sampler {
+        self.plan.add_buffer(samples, 8 * (1 + capacity * (1 + quantities as u64)));
+        Sampler {
+            id: SamplerId::Analysis(id),
             first: self.equilibration,
-            every: sampler.every,
-            kernels: [&sampler.before[..], &kernels].concat(),
-            samples: sampler.samples,
-            quantities: sampler.quantities,
+            every,
+            kernels: Vec::new(),
+            samples,
+            quantities,
             capacity,
             needs_report: true,
-            gathered,
-            window: sampler.window,
+            gathered: false,
+            window: None,
             whole: 0..0,
-        });
+        }
     }
 
     /// How kernels read velocities in a frame, and the kernels that have to run before.

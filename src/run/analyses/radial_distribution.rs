@@ -39,7 +39,7 @@ impl Descriptor for RadialDistribution {
             options: planner.options,
             asked,
         };
-        histogram.add(planner.plan, ordered, planner.equilibration);
+        histogram.add(planner, ordered);
     }
 
     fn parts(&self, scene: &Scene, _: &Model) -> Vec<Part> {

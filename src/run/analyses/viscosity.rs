@@ -4,9 +4,8 @@ use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Se
 use crate::engine::Sample;
 use crate::families::Model;
 use crate::measure::shear_viscosity::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
-use crate::plan::Need;
 use crate::plot::{Chart, Found, viscosity_chart};
-use crate::scene::{AnalysisId, Output, Scene};
+use crate::scene::{AnalysisId, Scene};
 use crate::shaders::{Array, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
@@ -24,10 +23,6 @@ pub(super) struct Viscosity;
 impl Descriptor for Viscosity {
     fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
         Some(Sampling::after_equilibration(scene, scene.output.viscosity.as_ref()?.every))
-    }
-
-    fn needs(&self, _: &Output) -> &'static [Need] {
-        &[Need::Particles]
     }
 
     fn add_sampler(&self, planner: &mut Planner<'_>) {

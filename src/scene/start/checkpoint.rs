@@ -57,12 +57,10 @@ impl Run {
     /// What of it a scene with other steps cannot take, in words.
     pub fn forgotten(&self) -> impl Iterator<Item = &'static str> {
         let there = StateArray::ALL.into_iter().filter(|array| self.state.length(*array) > 0);
-        let mut known: Vec<&str> = Vec::new();
-        there.filter_map(lost).filter(move |lost| {
-            let new = !known.contains(lost);
-            known.push(lost);
-            new
-        })
+        let mut lost: Vec<&str> = there.filter_map(lost).collect();
+        // Arrays of one kind follow each other.
+        lost.dedup();
+        lost.into_iter()
     }
 
     /// Velocities at the report point, where those in a checkpoint are half a step behind: the float64 reference closes the step with

@@ -1,5 +1,6 @@
 //! The particles of a scene with molecules, as a file would list them: molecule by molecule, each bead by bead.
 
+use super::super::semantics::check_one_of_two;
 use crate::document::{Generator, Molecule, Problems, Scene, SpeciesNames};
 use crate::noise::{self, stream};
 use crate::state::MOST_PARTICLES;
@@ -82,14 +83,7 @@ fn check_kind(scene: &Scene, names: &SpeciesNames<'_>, molecule: &Molecule, path
     for (bead, name) in molecule.beads.iter().enumerate() {
         names.check(name, &format!("{path}.beads[{bead}]"), problems);
     }
-    let found = match (molecule.count, molecule.number_density) {
-        (Some(_), Some(_)) => Some("both `count` and `number_density` are given"),
-        (None, None) => Some("neither `count` nor `number_density` is given"),
-        _ => None,
-    };
-    if let Some(found) = found {
-        problems.add(path, found, "exactly one of `count` and `number_density`");
-    }
+    check_one_of_two(molecule.count, molecule.number_density, path, problems);
     let half = 0.5 * scene.space.shortest_length();
     if molecule.beads.len() > 1 && molecule.spacing > half {
         let accepted = format!("at most {half}, half of the shortest box edge");
