@@ -11,11 +11,8 @@ use serde::{Deserialize, Serialize};
 /// ```
 /// use mesoscope::measure::correlation::{Coefficient, WindowedAverage};
 ///
-/// let mut average = WindowedAverage::new(3);
 /// // Two windows, and the beginning of a third, which does not count yet.
-/// for sample in [4.0, 2.0, 1.0, 8.0, 4.0, 2.0, 7.0] {
-///     average.push(sample);
-/// }
+/// let average = WindowedAverage::from_samples(3, &[4.0, 2.0, 1.0, 8.0, 4.0, 2.0, 7.0]);
 /// let means: Vec<f64> = average.average().iter().map(|lag| lag.value).collect();
 /// assert_eq!(means, [6.0, 3.0, 1.5]);
 /// assert_eq!(average.normalised()[1], Coefficient { value: 0.5, standard_error: Some(0.0) });
@@ -27,21 +24,10 @@ pub struct WindowedAverage {
 }
 
 impl WindowedAverage {
-    /// An empty average of windows of `lags` samples (at least one).
-    #[must_use]
-    pub fn new(lags: usize) -> Self {
-        Self { lags: lags.max(1), samples: Vec::new() }
-    }
-
     /// The average of windows of `lags` samples (at least one) that were taken one after the other.
     #[must_use]
-    pub fn of(lags: usize, samples: &[f64]) -> Self {
+    pub fn from_samples(lags: usize, samples: &[f64]) -> Self {
         Self { lags: lags.max(1), samples: samples.to_vec() }
-    }
-
-    /// Adds the sample at the next lag of the window; a full window is followed by a new one.
-    pub fn push(&mut self, sample: f64) {
-        self.samples.push(sample);
     }
 
     /// Number of lags in a window.
@@ -123,32 +109,25 @@ mod tests {
 
     #[test]
     fn a_normalised_average_knows_what_numerator_and_denominator_share() {
-        let mut average = WindowedAverage::new(2);
         // Windows of very different power, each of which falls by half.
-        for power in [1.0, 3.0, 8.0] {
-            average.push(power);
-            average.push(0.5 * power);
-        }
+        let mut samples = [1.0, 3.0, 8.0].map(|power| [power, 0.5 * power]).concat();
+        let average = WindowedAverage::from_samples(2, &samples);
         let exact = |value| Coefficient { value, standard_error: Some(0.0) };
         assert_eq!(average.normalised(), [exact(1.0), exact(0.5)]);
-        average.push(4.0);
-        average.push(4.0);
+        samples.extend([4.0, 4.0]);
         // Ratio 10/16; deviations (y - 10/16 x)/4 of the four windows, (-1, -3, -8, 12)/32, whose mean has the error
         // √(Σ²/12) = √(218/12)/32, and Student's factor of four values.
-        let found = average.normalised();
+        let found = WindowedAverage::from_samples(2, &samples).normalised();
         assert_eq!(found[1].value, 0.625);
         let error = (218.0_f64 / 12.0).sqrt() / 32.0 * student(3.0);
         assert!((found[1].standard_error.unwrap() - error).abs() < 1e-15);
-        assert!(WindowedAverage::new(2).normalised().is_empty());
+        assert!(WindowedAverage::from_samples(2, &[]).normalised().is_empty());
     }
 
     #[test]
     fn windows_are_averaged_and_the_unfinished_one_is_left_out() {
-        let mut average = WindowedAverage::new(2);
-        assert!(average.average().is_empty());
-        for sample in [0.0, 1.0, 0.0, 3.0, 7.0] {
-            average.push(sample);
-        }
+        assert!(WindowedAverage::from_samples(2, &[]).average().is_empty());
+        let average = WindowedAverage::from_samples(2, &[0.0, 1.0, 0.0, 3.0, 7.0]);
         let expected =
             [(0.0, 0.0), (2.0, student(1.0))].map(|(value, error)| Coefficient { value, standard_error: Some(error) });
         assert_eq!(average.average(), expected);

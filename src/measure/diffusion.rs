@@ -26,7 +26,7 @@ const BEND_ERRORS: f64 = 4.0;
 ///     let times = || (0..lags).map(|lag| f64::from(lag) * interval);
 ///     let displacement: Vec<f64> = times().map(|time| 3.0 * (time - 0.5 * (1.0 - (-2.0 * time).exp()))).collect();
 ///     let velocity: Vec<f64> = times().map(|time| 3.0 * (-2.0 * time).exp()).collect();
-///     let [displacement, velocity] = [displacement, velocity].map(|curve| WindowedAverage::of(curve.len(), &curve));
+///     let [displacement, velocity] = [displacement, velocity].map(|curve| WindowedAverage::from_samples(curve.len(), &curve));
 ///     DiffusionWindows { displacement, velocity, interval, dimension: 3 }
 /// };
 /// let fine = windows(0.01, 1000);
@@ -180,8 +180,8 @@ mod tests {
     fn windows(curves: &[Vec<f64>], interval: f64, dimension: usize) -> DiffusionWindows {
         let lags = curves[0].len();
         let velocity: Vec<f64> = (0..lags).map(|lag| (-(lag as f64) * interval).exp()).collect();
-        let [displacement, velocity] =
-            [curves.concat(), velocity.repeat(curves.len())].map(|samples| WindowedAverage::of(lags, &samples));
+        let [displacement, velocity] = [curves.concat(), velocity.repeat(curves.len())]
+            .map(|samples| WindowedAverage::from_samples(lags, &samples));
         DiffusionWindows { displacement, velocity, interval, dimension }
     }
 
@@ -192,7 +192,8 @@ mod tests {
         assert!((found.value - 1.0).abs() < 1e-12);
         // Of two values, 1 ± 1/6, with Student's factor of 1.837.
         assert!((found.standard_error.unwrap() - 1.8367 / 6.0).abs() < 1e-3, "{found:?}");
-        let none = DiffusionWindows { displacement: WindowedAverage::new(21), ..windows(&[line(1.0)], 1.0, 3) };
+        let none =
+            DiffusionWindows { displacement: WindowedAverage::from_samples(21, &[]), ..windows(&[line(1.0)], 1.0, 3) };
         assert_eq!(none.einstein(), Err(DiffusionError::Few));
         assert_eq!(windows(&[vec![0.0; 3]], 9.0, 3).einstein(), Err(DiffusionError::Few));
     }
@@ -230,8 +231,10 @@ mod tests {
     fn green_kubo_of_an_exponential() {
         let interval = 0.01;
         let mut fine = exponential(interval, 2001);
-        fine.velocity =
-            WindowedAverage::of(2001, &fine.velocity.windows().flatten().map(|c| 3.0 * c).collect::<Vec<_>>());
+        fine.velocity = WindowedAverage::from_samples(
+            2001,
+            &fine.velocity.windows().flatten().map(|c| 3.0 * c).collect::<Vec<_>>(),
+        );
         let found = fine.green_kubo().unwrap();
         // ∫ exp(-t) = 1; the trapezoidal rule adds h²/12, the cut takes e⁻²⁰.
         assert!((found.value - 1.0 - interval * interval / 12.0).abs() < 1e-8);

@@ -285,15 +285,13 @@ mod tests {
 
     /// Windows of a curve with independent noise of deviation `noise` on every lag but the first.
     fn windows(shape: DecayFit, parameters: &[f64], count: u64, noise: f64) -> WindowedAverage {
-        let mut average = WindowedAverage::new(LAGS);
-        for window in 0..count {
-            for lag in 0..LAGS {
-                let random = noise::gaussian(noise::step_key(window, 77, lag as u64));
-                let exact = value(shape, parameters, lag as f64 * INTERVAL);
-                average.push(3.0 * (exact + if lag == 0 { 0.0 } else { noise * random }));
-            }
-        }
-        average
+        let sample = |window: u64, lag: usize| {
+            let random = noise::gaussian(noise::step_key(window, 77, lag as u64));
+            let exact = value(shape, parameters, lag as f64 * INTERVAL);
+            3.0 * (exact + if lag == 0 { 0.0 } else { noise * random })
+        };
+        let samples = (0..count).flat_map(|window| (0..LAGS).map(move |lag| sample(window, lag)));
+        WindowedAverage::from_samples(LAGS, &samples.collect::<Vec<f64>>())
     }
 
     const CASES: &[(DecayFit, &[f64])] = &[
@@ -371,16 +369,13 @@ mod tests {
         for shape in [DecayFit::Exponential, DecayFit::StretchedExponential, DecayFit::DampedOscillation] {
             assert_eq!(FittedDecay::of_windows(&constant, INTERVAL, shape), Err(FitError::NoDecay));
         }
-        let mut short = WindowedAverage::new(3);
-        for sample in [3.0, 2.0, 1.0] {
-            short.push(sample);
-        }
+        let short = WindowedAverage::from_samples(3, &[3.0, 2.0, 1.0]);
         let error = FittedDecay::of_windows(&short, 1.0, DecayFit::StretchedExponential);
         assert_eq!(error, Err(FitError::TooFewPoints { parameters: 3, points: 3 }));
         let single = FittedDecay::of_windows(&short, 1.0, DecayFit::Exponential).unwrap();
         assert_eq!(single.parameters[0].1.standard_error, None);
         assert_eq!(
-            FittedDecay::of_windows(&WindowedAverage::new(9), 1.0, DecayFit::Exponential),
+            FittedDecay::of_windows(&WindowedAverage::from_samples(9, &[]), 1.0, DecayFit::Exponential),
             Err(FitError::NoDecay)
         );
     }

@@ -57,7 +57,6 @@ impl Drop for Threads {
 
 /// Lines between ranks that are neighbours.
 pub struct Peers {
-    rank: u32,
     to: Vec<Sender<Vec<u8>>>,
     from: Vec<Receiver<Vec<u8>>>,
     patience: Duration,
@@ -107,8 +106,7 @@ pub fn links_with(count: u32, patience: Duration) -> Vec<Links> {
             receivers.push(receiver);
         }
     }
-    let peers = to.into_iter().zip(from).enumerate();
-    let peers = peers.map(|(rank, (to, from))| Peers { rank: rank as u32, to, from, patience });
+    let peers = to.into_iter().zip(from).map(|(to, from)| Peers { to, from, patience });
     std::iter::once(first).chain(rest).zip(peers).map(|(channel, peers)| Links { channel, peers }).collect()
 }
 
@@ -157,12 +155,6 @@ impl Swap for Peers {
             said(self.to.get(*peer as usize), *peer, parcel)?;
         }
         peers.iter().map(|peer| heard(self.from.get(*peer as usize), *peer, self.patience)).collect()
-    }
-}
-
-impl std::fmt::Debug for Peers {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(formatter, "peers of rank {}", self.rank)
     }
 }
 

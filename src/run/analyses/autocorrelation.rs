@@ -83,7 +83,7 @@ impl Descriptor for Autocorrelation {
     fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
         let asked = self.of(&scene.output)?;
         let interval = asked.every as f64 * model.time_step;
-        let average = WindowedAverage::of(asked.window as usize, gathered.part(0));
+        let average = WindowedAverage::from_samples(asked.window as usize, gathered.part(0));
         let (covariances, normalised) = (average.average(), average.normalised());
         let first = covariances.first().copied();
         let missing = windows_missing(&average, model).or_else(|| {

@@ -71,7 +71,7 @@ impl Descriptor for Diffusion {
         let asked = scene.output.diffusion.as_ref()?;
         let interval = asked.every as f64 * model.time_step;
         let [displacement, velocity] =
-            [0, 1].map(|part| WindowedAverage::of(asked.window as usize, gathered.part(part)));
+            [0, 1].map(|part| WindowedAverage::from_samples(asked.window as usize, gathered.part(part)));
         let averages = displacement.average().into_iter().zip(velocity.average());
         let rows = averages
             .enumerate()
