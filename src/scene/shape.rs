@@ -86,13 +86,13 @@ impl<'a> Walker<'a> {
 
     /// Reports that the value at `path` is not accepted by `schema`.
     fn refuse(&mut self, schema: &Value, value: &Value, path: &Path<'_>) {
-        self.report(schema, path, found(value));
+        self.report(schema, path, found(value), None);
     }
 
-    /// Reports what is not accepted by `schema`.
-    fn report(&mut self, schema: &Value, path: &Path<'_>, phrase: String) {
+    /// Reports what is not accepted by `schema`, and what may have been meant.
+    fn report(&mut self, schema: &Value, path: &Path<'_>, phrase: String, suggestion: Option<String>) {
         let accepted = if self.problems.is_full() { String::new() } else { accepted(self.root, schema) };
-        self.problems.add(path, phrase, accepted);
+        self.problems.push(Problem::new(path, phrase, accepted).suggest(suggestion));
     }
 
     fn check_alternatives(
@@ -102,33 +102,22 @@ impl<'a> Walker<'a> {
         value: &mut Value,
         path: &Path<'_>,
     ) -> bool {
-        let choices: Vec<&str> = alternatives.iter().filter_map(|choice| choice["const"].as_str()).collect();
-        if choices.len() == alternatives.len() {
-            match value.as_str() {
-                Some(text) if choices.contains(&text) => return true,
-                Some(text) => {
-                    let suggestion = nearest(text, choices);
-                    let problem = Problem::new(path, found(value), accepted(self.root, schema));
-                    self.problems.push(problem.suggest(suggestion));
-                }
-                None => self.refuse(schema, value, path),
+        if let Some(choices) = choices(alternatives) {
+            let is_right = value.as_str().is_some_and(|text| choices.contains(&text));
+            if !is_right {
+                let suggestion = value.as_str().and_then(|text| nearest(text, choices));
+                self.report(schema, path, found(value), suggestion);
             }
-            return false;
+            return is_right;
         }
-        let tags: Vec<&str> = alternatives.iter().filter_map(|branch| tag(self.root, branch)).collect();
-        if tags.len() == alternatives.len() {
+        if let Some(tags) = tags(self.root, alternatives) {
             return self.check_tagged(schema, alternatives, &tags, value, path);
         }
         // Whatever the value comes nearest to being is what its author meant.
         let mut fewest: Option<(Problems, Value, bool)> = None;
         // But for a null, nobody means none by saying something.
         for branch in alternatives.iter().filter(|branch| value.is_null() || branch["type"] != "null") {
-            let mut attempt = Walker {
-                root: self.root,
-                substitute: self.substitute,
-                problems: Problems::default(),
-                ranges: HashMap::new(),
-            };
+            let mut attempt = Walker { problems: Problems::default(), ranges: HashMap::new(), ..*self };
             let mut mended = value.clone();
             let readable = attempt.check(branch, &mut mended, path);
             if fewest.as_ref().is_none_or(|(problems, ..)| attempt.problems.count() < problems.count()) {
@@ -151,11 +140,10 @@ impl<'a> Walker<'a> {
         value: &mut Value,
         path: &Path<'_>,
     ) -> bool {
-        let kinds = tags.iter().map(|tag| format!("`{tag}`")).collect::<Vec<_>>().join(", ");
+        let kinds = quoted(tags, '`');
         let Value::Object(object) = value else {
             let meant = value.as_str().and_then(|text| nearest(text, tags.iter().copied()));
-            let problem = Problem::new(path, found(value), accepted(self.root, schema));
-            self.problems.push(problem.suggest(meant.map(|tag| format!("{{\"type\": \"{tag}\"}}"))));
+            self.report(schema, path, found(value), meant.map(|tag| format!("{{\"type\": \"{tag}\"}}")));
             return false;
         };
         let place = path.key("type");
@@ -239,8 +227,7 @@ impl<'a> Walker<'a> {
             let none = layer["enum"].as_array().is_some_and(|choices| !choices.iter().any(|choice| choice == text));
             if short || other || none {
                 let choices = layer["enum"].as_array().into_iter().flatten().filter_map(Value::as_str);
-                let problem = Problem::new(path, format!("found \"{text}\""), accepted(self.root, schema));
-                self.problems.push(problem.suggest(nearest(text, choices)));
+                self.report(schema, path, format!("found \"{text}\""), nearest(text, choices));
                 return short;
             }
         }
@@ -255,7 +242,7 @@ impl<'a> Walker<'a> {
             let long = layer["maxItems"].as_u64().is_some_and(|most| length > most);
             if short || long {
                 let entries = if length == 1 { "entry" } else { "entries" };
-                self.report(schema, path, format!("found a list of {length} {entries}"));
+                self.report(schema, path, format!("found a list of {length} {entries}"), None);
                 readable &= layer["minItems"] != layer["maxItems"] && self.resize(layer, list);
             }
             let first = layer["prefixItems"].as_array().map_or(&[][..], Vec::as_slice);
@@ -366,9 +353,20 @@ fn alternatives(schema: &Value) -> Option<&[Value]> {
     schema.get("oneOf").or_else(|| schema.get("anyOf"))?.as_array().map(Vec::as_slice)
 }
 
-/// The text of `type` that selects an alternative.
-fn tag<'a>(root: &'a Value, branch: &'a Value) -> Option<&'a str> {
-    layers(root, branch).iter().find_map(|layer| layer["properties"]["type"]["const"].as_str())
+/// The texts that are accepted, where every alternative is one.
+fn choices(alternatives: &[Value]) -> Option<Vec<&str>> {
+    alternatives.iter().map(|choice| choice["const"].as_str()).collect()
+}
+
+/// The texts of `type` that select an alternative, where every one has such a text.
+fn tags<'a>(root: &'a Value, alternatives: &'a [Value]) -> Option<Vec<&'a str>> {
+    let tag = |layer: &&'a Value| layer["properties"]["type"]["const"].as_str();
+    alternatives.iter().map(|branch| layers(root, branch).iter().find_map(tag)).collect()
+}
+
+/// Names in a row, each between quotes.
+fn quoted(names: &[&str], quote: char) -> String {
+    names.iter().map(|name| format!("{quote}{name}{quote}")).collect::<Vec<_>>().join(", ")
 }
 
 fn types(schema: &Value) -> Vec<&str> {
@@ -464,18 +462,11 @@ fn found(value: &Value) -> String {
 fn accepted(root: &Value, schema: &Value) -> String {
     let layers = layers(root, schema);
     if let Some(alternatives) = layers.iter().find_map(|layer| alternatives(layer)) {
-        let choices: Vec<String> = alternatives
-            .iter()
-            .filter_map(|choice| choice["const"].as_str())
-            .map(|text| format!("\"{text}\""))
-            .collect();
-        if choices.len() == alternatives.len() {
-            return choices.join(", ");
+        if let Some(choices) = choices(alternatives) {
+            return quoted(&choices, '"');
         }
-        let tags: Vec<String> =
-            alternatives.iter().filter_map(|branch| tag(root, branch)).map(|tag| format!("\"{tag}\"")).collect();
-        if tags.len() == alternatives.len() {
-            return format!("an object whose `type` is {}", tags.join(", "));
+        if let Some(tags) = tags(root, alternatives) {
+            return format!("an object whose `type` is {}", quoted(&tags, '"'));
         }
         let phrases: Vec<String> = alternatives
             .iter()
@@ -513,8 +504,8 @@ fn accepted(root: &Value, schema: &Value) -> String {
         }
         Some("object") => {
             let keys = layers.iter().filter_map(|layer| layer["properties"].as_object()).flat_map(Map::keys);
-            let keys = keys.filter(|key| *key != "$schema").map(|key| format!("`{key}`")).collect::<Vec<_>>();
-            format!("an object with {}", keys.join(", "))
+            let keys: Vec<&str> = keys.map(String::as_str).filter(|key| *key != "$schema").collect();
+            format!("an object with {}", quoted(&keys, '`'))
         }
         _ => "any value".to_owned(),
     }

@@ -96,8 +96,8 @@ fn check_kind(scene: &Scene, names: &SpeciesNames<'_>, molecule: &Molecule, path
     if !bonds {
         return;
     }
-    let joined = joined_to_the_first(molecule);
-    if let Some(bead) = joined.iter().position(|joined| !joined) {
+    let joined: HashSet<usize> = walk(molecule).into_iter().map(|step| step.bead).collect();
+    if let Some(bead) = (0..molecule.beads.len()).find(|bead| !joined.contains(bead)) {
         let accepted = "bonds that join all beads; what is apart is a molecule of its own";
         problems.refuse(format!("{path}.bonds"), format!("no way along them from bead 0 to bead {bead}"), accepted);
     }
@@ -144,15 +144,6 @@ fn check_types(types: &[String], links: usize, noun: &str, path: &str, problems:
         let accepted = format!("{links}, one for each of `{noun}s`, or no `{noun}_types`");
         problems.refuse(format!("{path}.{noun}_types"), format!("a list of {}", types.len()), accepted);
     }
-}
-
-/// Which beads are joined to the first.
-fn joined_to_the_first(molecule: &Molecule) -> Vec<bool> {
-    let mut joined = vec![false; molecule.beads.len()];
-    for step in walk(molecule) {
-        joined[step.bead] = true;
-    }
-    joined
 }
 
 /// A bead, the one to which it is bonded, and those that are bonded to that one and have places before it.
