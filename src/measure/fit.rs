@@ -65,7 +65,7 @@ impl FittedDecay {
     /// use mesoscope::scene::DecayFit;
     ///
     /// let samples: Vec<f64> = (0..50).map(|lag| 8.0 * (-3.0 * 0.02 * f64::from(lag)).exp()).collect();
-    /// let fit = FittedDecay::of_windows(&WindowedAverage::of(50, &samples), 0.02, DecayFit::Exponential)?;
+    /// let fit = FittedDecay::of_windows(&WindowedAverage::from_samples(50, &samples), 0.02, DecayFit::Exponential)?;
     /// let (name, rate) = fit.parameters[1];
     /// assert!(name == "b" && (rate.value - 3.0).abs() < 1e-6);
     /// assert!((fit.at(0.5) - (-1.5_f64).exp()).abs() < 1e-6);

@@ -76,10 +76,8 @@ fn of_molecules(
     notices: &mut Vec<Warning>,
 ) -> Result<Problems, SceneError> {
     molecules::check(scene, &mut problems);
-    if problems.is_empty()
-        && let Err(mistake) = Weighing::of(scene, fits).molecules(host_memory::free())?
-    {
-        problems.add(MOLECULES, mistake.found, mistake.accepted);
+    if problems.is_empty() {
+        Weighing::of(scene, fits).molecules(host_memory::free(), &mut problems)?;
     }
     if !problems.is_empty() {
         return Ok(problems);
@@ -676,15 +674,12 @@ impl<'a> Reader<'a> {
 
     /// Says what is in the file, and nowhere in the scene.
     fn note_what_is_not_used(&mut self, scene: &Scene, dimension: usize, mut unused: Vec<String>) {
+        let any = |asks: &dyn Fn(&Interaction) -> bool| scene.interactions.iter().any(asks);
         let bonds = unasked(&self.file.bonds, |kind| {
-            scene.interactions.iter().any(|interaction| {
-                matches!(interaction, Interaction::Bonds(bonds) if bonds.links(scene).include(kind, scene))
-            })
+            any(&|one| matches!(one, Interaction::Bonds(bonds) if bonds.links(scene).include(kind, scene)))
         });
         let angles = unasked(&self.file.angles, |kind| {
-            scene.interactions.iter().any(|interaction| {
-                matches!(interaction, Interaction::Angles(angles) if angles.links(scene).include(kind, scene))
-            })
+            any(&|one| matches!(one, Interaction::Angles(angles) if angles.links(scene).include(kind, scene)))
         });
         for (noun, names) in [("bonds", bonds), ("angles", angles)] {
             if !names.is_empty() {
@@ -694,8 +689,7 @@ impl<'a> Reader<'a> {
         if self.state.velocities != StateVelocities::File && !self.file.velocities.is_empty() {
             unused.push("velocities".to_owned());
         }
-        if !self.file.tethers.is_empty() && !scene.interactions.iter().any(|one| matches!(one, Interaction::Tether(_)))
-        {
+        if !self.file.tethers.is_empty() && !any(&|one| matches!(one, Interaction::Tether(_))) {
             unused.push("the points that its particles are tied to".to_owned());
         }
         if !self.file.images.is_empty() && self.file.images.iter().any(|image| *image != [0; 3]) {

@@ -1,7 +1,7 @@
 //! Whether a scene can be run with as many particles as a file or molecules have, before these are read or placed.
 
 use super::super::semantics;
-use crate::document::{Interaction, Molecule, Output, Placement, Scene, SceneError, number_of_copies};
+use crate::document::{Interaction, Molecule, Output, Placement, Problems, Scene, SceneError, number_of_copies};
 use crate::families::{self, StepCheck};
 use crate::numbers::counted;
 use crate::state_file::{self, Mistake};
@@ -48,8 +48,8 @@ impl<'a> Weighing<'a> {
         self.refusal.into_inner()
     }
 
-    /// Decides of molecules that are right by themselves.
-    pub(super) fn molecules(&self, free: Option<u64>) -> Result<Result<(), Mistake>, SceneError> {
+    /// Decides of molecules that are right by themselves, for which so much memory is free.
+    pub(super) fn molecules(&self, free: Option<u64>, problems: &mut Problems) -> Result<(), SceneError> {
         let volume = self.scene.space.volume();
         let beads = |molecule: &Molecule, name: &str| {
             let own = molecule.beads.iter().filter(|bead| *bead == name).count() as u64;
@@ -65,10 +65,9 @@ impl<'a> Weighing<'a> {
             })
             .collect();
         let all = counts.iter().copied().fold(0, u64::saturating_add);
-        match state_file::fits_in_memory(all, free) {
-            Ok(()) => self.decide(&counts).map(Ok),
-            Err(mistake) => Ok(Err(mistake)),
-        }
+        let Err(mistake) = state_file::fits_in_memory(all, free) else { return self.decide(&counts) };
+        problems.add(super::MOLECULES, mistake.found, mistake.accepted);
+        Ok(())
     }
 
     fn decide(&self, counts: &[u64]) -> Result<(), SceneError> {
@@ -154,8 +153,10 @@ mod tests {
         assert_eq!((error.to_string().as_str(), refused.borrow().as_slice()), ("no room", &[9_000_000][..]));
         // What is done in no time is not worth asking.
         assert!(scene::load_fitting("diblock-copolymer", &[], None, &fits).is_ok());
-        let mistake = Weighing::of(&scene::load("diblock-copolymer", &[]).unwrap(), None).molecules(Some(1000));
-        let mistake = mistake.unwrap().unwrap_err().found;
-        assert!(mistake.contains(" particles, which take at least "), "{mistake}");
+        let mut problems = Problems::default();
+        let scene = scene::load("diblock-copolymer", &[]).unwrap();
+        Weighing::of(&scene, None).molecules(Some(1000), &mut problems).unwrap();
+        let mistakes: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        assert!(mistakes[0].contains(" particles, which take at least "), "{mistakes:?}");
     }
 }
