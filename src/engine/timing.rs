@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::{Engine, EngineError, Phase, readback};
+use super::{Engine, EngineError, readback};
 use crate::gpu::compute_pass;
 
 /// Time spent in one kernel of a step.
@@ -66,9 +66,7 @@ impl Engine<'_> {
     /// # Errors
     /// [`EngineError`] if the device failed, the run became unstable, or the current step has been reported already.
     pub fn time_stages(&mut self, steps: u64, clock: StageClock) -> Result<Vec<StageTime>, EngineError> {
-        if self.phase != Phase::Advanced {
-            return Err(EngineError::State { reason: "the current step has been reported already".to_owned() });
-        }
+        self.check_advanced()?;
         let kernels = [self.plan.sort.as_slice(), &self.plan.before_report, &self.plan.advance].concat();
         let mut times = vec![Vec::new(); kernels.len()];
         for _ in 0..steps {

@@ -343,12 +343,10 @@ pub(crate) fn with_overrides(
     text: &str,
     overrides: &[String],
 ) -> Result<String, SceneError> {
+    // After this there is no mistake in text and overrides.
     parse_with(files, name, text, overrides, None, StepCheck::Refuse)?;
-    let (mut document, mut problems) = text::parse(name, text)?;
-    problems.extend(overridden(&mut document, overrides));
-    if !problems.is_empty() {
-        return Err(invalid(name, problems, true));
-    }
+    let (mut document, _) = text::parse(name, text)?;
+    overridden(&mut document, overrides);
     if let Some(file) = document.pointer_mut("/state/file")
         && let Some(path) = file.as_str().map(|file| files.path(name, file))
     {
