@@ -10,8 +10,41 @@ use std::time::{Duration, Instant};
 /// How long the first rank waits for the threads of the others at its end.
 const ENDING: Duration = Duration::from_secs(10);
 
-/// One direction between two ranks.
-type Line = (Sender<Vec<u8>>, Receiver<Vec<u8>>);
+/// Lines to all ranks and from them, in their order.
+struct Lines {
+    to: Vec<Sender<Vec<u8>>>,
+    from: Vec<Receiver<Vec<u8>>>,
+    patience: Duration,
+}
+
+impl Lines {
+    /// The lines of each of so many ranks.
+    fn among(count: u32, patience: Duration) -> Vec<Self> {
+        let mut all: Vec<Self> = (0..count).map(|_| Self { to: Vec::new(), from: Vec::new(), patience }).collect();
+        for receiver in 0..all.len() {
+            for sender in 0..all.len() {
+                let (to, from) = channel();
+                all[sender].to.push(to);
+                all[receiver].from.push(from);
+            }
+        }
+        all
+    }
+
+    fn say(&self, rank: u32, message: &[u8]) -> Result<(), String> {
+        let to = self.to.get(rank as usize).ok_or_else(|| format!("there is no rank {rank}"))?;
+        to.send(message.to_vec()).map_err(|_| format!("rank {rank} has ended"))
+    }
+
+    /// What another rank says.
+    fn hear(&self, rank: u32) -> Result<Vec<u8>, String> {
+        let from = self.from.get(rank as usize).ok_or_else(|| format!("there is no rank {rank}"))?;
+        from.recv_timeout(self.patience).map_err(|error| match error {
+            RecvTimeoutError::Timeout => format!("rank {rank} has not answered for {} s", self.patience.as_secs()),
+            RecvTimeoutError::Disconnected => format!("rank {rank} has ended"),
+        })
+    }
+}
 
 /// What a rank talks with: to the first rank, and to its peers.
 pub struct Links {
@@ -23,11 +56,7 @@ pub struct Links {
 
 /// Lines between the first rank and the others.
 pub struct Threads {
-    count: u32,
-    /// Of the first rank one to each other; of those one to the first.
-    to: Vec<Sender<Vec<u8>>>,
-    from: Vec<Receiver<Vec<u8>>>,
-    patience: Duration,
+    lines: Lines,
     /// Of the first rank the threads of the others.
     ranks: Vec<JoinHandle<()>>,
 }
@@ -42,8 +71,8 @@ impl Threads {
 impl Drop for Threads {
     fn drop(&mut self) {
         // Who listens to this rank, or answers it, ends.
-        self.to.clear();
-        self.from.clear();
+        self.lines.to.clear();
+        self.lines.from.clear();
         let begun = Instant::now();
         while self.ranks.iter().any(|rank| !rank.is_finished()) && begun.elapsed() < ENDING {
             thread::sleep(Duration::from_millis(1));
@@ -56,11 +85,7 @@ impl Drop for Threads {
 }
 
 /// Lines between ranks that are neighbours.
-pub struct Peers {
-    to: Vec<Sender<Vec<u8>>>,
-    from: Vec<Receiver<Vec<u8>>>,
-    patience: Duration,
-}
+pub struct Peers(Lines);
 
 /// The links of so many ranks, in their order.
 ///
@@ -89,72 +114,40 @@ pub fn links(count: u32) -> Vec<Links> {
 /// The same with another time until a rank counts as lost.
 #[must_use]
 pub fn links_with(count: u32, patience: Duration) -> Vec<Links> {
-    let lines = |number: u32| -> Vec<Line> { (0..number).map(|_| channel()).collect() };
-    let others = count.saturating_sub(1);
-    let (commands, commanded): (Vec<_>, Vec<_>) = lines(others).into_iter().unzip();
-    let (answering, answers): (Vec<_>, Vec<_>) = lines(others).into_iter().unzip();
-    let first = Threads { count, to: commands, from: answers, patience, ranks: Vec::new() };
-    let rest = answering.into_iter().zip(commanded);
-    let rest = rest.map(|(to, from)| Threads { count, to: vec![to], from: vec![from], patience, ranks: Vec::new() });
-    // The lines to rank 0, to rank 1, …: row by row from rank 0, from rank 1, ….
-    let mut to: Vec<Vec<Sender<Vec<u8>>>> = (0..count).map(|_| Vec::new()).collect();
-    let mut from: Vec<Vec<Receiver<Vec<u8>>>> = (0..count).map(|_| Vec::new()).collect();
-    for receivers in &mut from {
-        for senders in &mut to {
-            let (sender, receiver) = channel();
-            senders.push(sender);
-            receivers.push(receiver);
-        }
-    }
-    let peers = to.into_iter().zip(from).map(|(to, from)| Peers { to, from, patience });
-    std::iter::once(first).chain(rest).zip(peers).map(|(channel, peers)| Links { channel, peers }).collect()
-}
-
-/// What another rank says.
-fn heard(from: Option<&Receiver<Vec<u8>>>, rank: u32, patience: Duration) -> Result<Vec<u8>, String> {
-    let from = from.ok_or_else(|| format!("there is no rank {rank}"))?;
-    from.recv_timeout(patience).map_err(|error| match error {
-        RecvTimeoutError::Timeout => format!("rank {rank} has not answered for {} s", patience.as_secs()),
-        RecvTimeoutError::Disconnected => format!("rank {rank} has ended"),
-    })
-}
-
-fn said(to: Option<&Sender<Vec<u8>>>, rank: u32, message: &[u8]) -> Result<(), String> {
-    let to = to.ok_or_else(|| format!("there is no rank {rank}"))?;
-    to.send(message.to_vec()).map_err(|_| format!("rank {rank} has ended"))
+    let channels = Lines::among(count, patience).into_iter().map(|lines| Threads { lines, ranks: Vec::new() });
+    let peers = Lines::among(count, patience).into_iter().map(Peers);
+    channels.zip(peers).map(|(channel, peers)| Links { channel, peers }).collect()
 }
 
 impl Channel for Threads {
     fn count(&self) -> u32 {
-        self.count
+        self.lines.to.len() as u32
     }
 
     fn tell(&mut self, message: &[u8]) -> Result<(), String> {
-        self.to.iter().zip(1..).try_for_each(|(to, rank)| said(Some(to), rank, message))
+        (1..self.count()).try_for_each(|rank| self.lines.say(rank, message))
     }
 
     fn keep_alive(&self) {}
 
     fn listen(&mut self) -> Result<Vec<u8>, String> {
         // The first rank may compute, write and draw as long as it likes: it cannot stop alone, and its end is told at once.
-        self.from.first().and_then(|from| from.recv().ok()).ok_or_else(|| "rank 0 has ended".to_owned())
+        self.lines.from.first().and_then(|from| from.recv().ok()).ok_or_else(|| "rank 0 has ended".to_owned())
     }
 
     fn answer(&mut self, message: &[u8]) -> Result<(), String> {
-        said(self.to.first(), 0, message)
+        self.lines.say(0, message)
     }
 
     fn collect(&mut self) -> Result<Vec<Vec<u8>>, String> {
-        self.from.iter().zip(1..).map(|(from, rank)| heard(Some(from), rank, self.patience)).collect()
+        (1..self.count()).map(|rank| self.lines.hear(rank)).collect()
     }
 }
 
 impl Swap for Peers {
     fn swap(&mut self, _: &Part, peers: &[u32], outgoing: &[&[u8]]) -> Result<Vec<Vec<u8>>, String> {
-        for (peer, parcel) in peers.iter().zip(outgoing) {
-            said(self.to.get(*peer as usize), *peer, parcel)?;
-        }
-        peers.iter().map(|peer| heard(self.from.get(*peer as usize), *peer, self.patience)).collect()
+        peers.iter().zip(outgoing).try_for_each(|(peer, parcel)| self.0.say(*peer, parcel))?;
+        peers.iter().map(|peer| self.0.hear(*peer)).collect()
     }
 }
 
