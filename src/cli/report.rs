@@ -212,8 +212,8 @@ fn results(outcome: &Outcome, directory: &str) -> String {
         files.push(format!("{} numbered {noun}", outcome.snapshots));
     }
     // Particles that exchange momentum in pairs lead one to expect that it is conserved.
-    let reasons = summary.not_conserved.iter().filter(|_| !flows);
-    let reasons = reasons.filter_map(|entry| entry.strip_prefix("total momentum: ")).next();
+    let mut unkept = summary.not_conserved.iter().filter(|_| !flows);
+    let reasons = unkept.find_map(|entry| entry.strip_prefix("total momentum: "));
     let momentum =
         reasons.map_or_else(String::new, |reasons| format!("  total momentum is not conserved: {reasons}\n"));
     format!("{}{note}{momentum}wrote {}/: {}\n", aligned(&rows, "  "), printable::name(directory), files.join(", "))
