@@ -1689,9 +1689,9 @@ fn host_structs_lie_as_in_the_shaders() {
                 let ranges =
                     constant(Constant::Ranged) == 1 && plan.constants.iter().any(|own| own.0 == Constant::Ranged);
                 // Baths on particles have a row for each species.
-                let unbathed = plan.constants.contains(&(Constant::PositionBaths, 0.0));
+                let bathed = plan.constants.iter().any(|own| own.0 == Constant::PositionBaths);
                 let relaxes = plan.kernels.iter().any(|kernel| kernel.name == "relax_particles");
-                let of_species = ranges || !unbathed || relaxes;
+                let of_species = ranges || bathed || relaxes;
                 let rows = species * species * if ranges { 1 + constant(Constant::Repulsions) } else { 1 };
                 // Body forces have one an axis and a species, shear one a species.
                 let sheared = plan.constants.iter().any(|own| own.0 == Constant::JumpEntries);
