@@ -105,7 +105,7 @@ fn process_in(text: &[u8]) -> Option<u32> {
     std::str::from_utf8(text).ok()?.strip_prefix(BEFORE)?.trim_end().parse().ok()
 }
 
-/// Whether a file that is open still has this name; elsewhere than on Unix it is never removed.
+/// True if a file that is open still has this name; elsewhere than on Unix it is never removed.
 fn is_at(file: &File, path: &Path) -> bool {
     let [open, there] = [file.metadata(), fs::symlink_metadata(path)].map(|found| found.ok().map(|it| identity(&it)));
     open.is_some() && open == there

@@ -53,7 +53,7 @@ pub(crate) fn check_to_continue(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// What tells a file from others with the same name; nothing where systems say nothing of it.
+/// The identity of a file among those with its name; none where the system has none.
 #[cfg(unix)]
 #[allow(clippy::unnecessary_wraps)]
 pub(super) fn identity(metadata: &Metadata) -> Option<(u64, u64)> {

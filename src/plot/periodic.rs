@@ -1,4 +1,4 @@
-//! What lies in a periodic box, and its images that show there too.
+//! Shapes in a periodic box, and their images that show there too.
 
 /// By how much to move what reaches from a place to another along each axis, and is no longer than the box, so that a part of
 /// it is in the box: not at all, and where it stands out to the other side.

@@ -1,4 +1,4 @@
-//! What all painting on the device is made of: formats, pipelines made when they are first needed, textures, buffers, passes.
+//! Parts of all painting on the device: formats, pipelines made when they are first needed, textures, buffers, passes.
 
 use super::error::PlotError;
 use super::renderer::Plotter;

@@ -36,7 +36,7 @@ pub(super) struct Answer {
     pub samples: Vec<Sample>,
     /// What went wrong, if anything.
     pub problem: Option<Problem>,
-    /// What it has exchanged until now.
+    /// The sum of its exchanges until now.
     pub traffic: Traffic,
     /// Who it is, at the beginning.
     pub introduction: Option<RankReport>,

@@ -36,7 +36,7 @@ impl Lines {
         to.send(message.to_vec()).map_err(|_| format!("rank {rank} has ended"))
     }
 
-    /// What another rank says.
+    /// The message of another rank.
     fn hear(&self, rank: u32) -> Result<Vec<u8>, String> {
         let from = self.from.get(rank as usize).ok_or_else(|| format!("there is no rank {rank}"))?;
         from.recv_timeout(self.patience).map_err(|error| match error {

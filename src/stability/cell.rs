@@ -92,7 +92,7 @@ impl fmt::Display for Cell {
     }
 }
 
-/// Whether an error says that there can be no such run here.
+/// True if an error says that there can be no such run here.
 pub(super) fn is_of_the_scene(error: &RunError) -> bool {
     match error {
         RunError::Scene(error) => !matches!(error, SceneError::StateChanged { .. }),

@@ -178,7 +178,7 @@ impl StabilitySummary {
         if self.compares_nothing() { "ran to its end" } else { "right" }
     }
 
-    /// What the mark of errors from few samples means, where there are any.
+    /// The meaning of the mark of errors from few samples, where there are any.
     #[must_use]
     pub fn legend(&self) -> Option<String> {
         tradeoff::legend_of(self.rows.iter().flat_map(|row| &row.cells).flat_map(|cell| &cell.errors))

@@ -32,7 +32,7 @@ impl fmt::Display for Verdict {
 
 /// The verdict on a run that came to its end, and whether its deviations are certain enough for it.
 pub(super) fn verdict(deviations: &[Deviation], tolerance: f64) -> (Verdict, bool) {
-    // What is not a number is certainly not right.
+    // A value that is not a number is certainly not right.
     let within = |deviation: &Deviation| {
         if deviation.size().is_finite() { deviation.within(tolerance) } else { tradeoff::Verdict::Misses }
     };

@@ -124,7 +124,7 @@ fn numbers<const COUNT: usize>(keys: &Keys, name: &str, place: &str) -> Result<O
     vector(&parts, real).map(Some).ok_or_else(wrong)
 }
 
-/// What the line of keys says: a file without particles, and the columns of their lines.
+/// The contents of the line of keys: a file without particles, and the columns of their lines.
 fn header(comment: &str, place: &str) -> Result<(ParticleFile, Columns), Mistakes> {
     let keys = Keys::of(comment, place)?;
     let value = |name: &str| keys.value(name, place);

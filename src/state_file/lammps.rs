@@ -19,7 +19,7 @@ enum Section {
     Velocities,
     Bonds,
     Angles,
-    /// Of the types of this number: atoms, bonds, angles.
+    /// The types of this number: atoms, bonds, angles.
     Labels(usize),
 }
 

@@ -61,7 +61,7 @@ impl Member {
     }
 }
 
-/// What a study does when this run has ended.
+/// The next action of a study when this run has ended.
 type TakeUp<'t, R> = dyn FnMut(&mut StudyRun<R>, &Member, Result<Summary, RunError>, &mut Observer<'_, R>) -> Result<(), StudyError>
     + 't;
 

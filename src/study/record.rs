@@ -44,7 +44,7 @@ pub trait Record: Debug + Clone + Serialize + DeserializeOwned {
     /// [`StudyError`] if it is not one that the program accepts.
     fn request(&self) -> Result<Self::Request, StudyError>;
 
-    /// Whether parts of it fit that request, each with what to say after "it" where it does not.
+    /// True of each part that fits that request, with the words that follow "it" where one does not.
     fn checks(&self, request: &Self::Request) -> Vec<(bool, &'static str)>;
 
     /// The version of the program that wrote it.

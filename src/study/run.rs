@@ -82,11 +82,11 @@ pub enum StudyEvent<'a, E, P> {
     Finishing,
 }
 
-/// What a study leaves.
+/// The result of a study.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct StudyOutcome<R> {
-    /// What its summary says.
+    /// Its summary.
     pub summary: R,
     /// Names of the files in its directory, without those of the runs.
     pub files: Vec<String>,

@@ -6,7 +6,7 @@ pub(super) struct Version<'a> {
     numbers: [u64; 3],
     /// A release comes after all that precede it.
     is_release: bool,
-    /// What follows `-`, between its dots.
+    /// The identifiers that follow `-`, between its dots.
     before: Vec<Identifier<'a>>,
 }
 

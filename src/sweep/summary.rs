@@ -80,7 +80,7 @@ impl SweepSummary {
         asked(self) == asked(other) && same_files && self.has_runs_of(other)
     }
 
-    /// Whether it has the runs of another one, which this version of the program made.
+    /// True if it has the runs of another one, which this version of the program made.
     fn has_runs_of(&self, other: &Self) -> bool {
         let same_names = self.variants.iter().map(|v| &v.name).eq(other.variants.iter().map(|v| &v.name));
         let same_ids = !self.is_of_this_version() || self.ids().eq(other.ids());

@@ -67,7 +67,7 @@ pub(crate) fn legend_of<'e>(mut errors: impl Iterator<Item = &'e Deviation>) -> 
 }
 
 impl TradeoffSummary {
-    /// What to know before the numbers are trusted, line by line.
+    /// Caveats about the numbers, line by line.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
         let keys = self.physical_keys.join("`, `");
@@ -98,7 +98,7 @@ impl TradeoffSummary {
         physical.into_iter().chain(spoilt).chain(same_runs).chain(refused).collect()
     }
 
-    /// What the mark of errors from few samples means, where there are any.
+    /// The meaning of the mark of errors from few samples, where there are any.
     #[must_use]
     pub fn legend(&self) -> Option<String> {
         legend_of(self.choices.iter().flat_map(|choice| &choice.errors))
@@ -115,7 +115,7 @@ impl TradeoffSummary {
         self.is_short.then(|| format!("The runs ended before all errors were as small as asked for: {more}"))
     }
 
-    /// What meets the targets, in words; nothing where there are none.
+    /// The choices that meet the targets, in words; nothing where there are none.
     #[must_use]
     pub fn advice(&self) -> String {
         let paragraphs = verdict(self, ["", "  "]);
@@ -255,7 +255,7 @@ fn errors(summary: &TradeoffSummary) -> String {
     markdown(header, "--:", summary.choices.iter().map(row))
 }
 
-/// What errors are parts of, and how far the device is from float64.
+/// The references of errors, and how far the device is from float64.
 fn basis_of_errors(summary: &TradeoffSummary) -> String {
     let parts = "Errors with standard errors, in per cent of the reference of the measure, or of what a drift, a distance or a share is a part of.";
     let mut sentences = vec![parts.to_owned()];

@@ -1279,7 +1279,7 @@ pub fn shader(kernel: &Kernel) -> &'static LinkedShader {
     linked()[text(kernel)].as_ref().expect("every_kernel_links lists what does not link")
 }
 
-/// What is left of a kernel in a plan, where branches on constants are taken.
+/// The rest of a kernel in a plan, where branches on constants are taken.
 pub struct Specialized {
     pub bindings: Vec<Binding>,
     pub constants: Vec<Constant>,

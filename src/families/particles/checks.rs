@@ -67,7 +67,7 @@ pub(super) fn check_kinds(particles: &Particles, problems: &mut Problems) {
     }
 }
 
-/// What the correlation of the stress needs.
+/// Checks the needs of the correlation of the stress.
 fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems) {
     if asked.window.is_none() {
         return;
@@ -98,7 +98,7 @@ pub(crate) fn defaults_to_cotter_reich(scene: &Scene) -> bool {
             || terms::acting(scene).any(|term| term.is_unsplit(paired)))
 }
 
-/// Whether particles are held where they start, not behind walls.
+/// True if particles are held where they start, not behind walls.
 fn is_fixed_in_space(group: &ParticleGroup) -> bool {
     group.fixed && !group.is_frozen()
 }

@@ -26,7 +26,7 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
 
 /// How all that is no bath adds energy.
 fn drives(model: &Model) -> Vec<&'static str> {
-    let mut ways: Vec<_> = model.particles().terms().into_iter().filter_map(Term::drive).collect();
+    let mut ways: Vec<_> = model.particles().terms().into_iter().filter_map(Term::energy_source).collect();
     ways.dedup();
     ways
 }
@@ -53,7 +53,7 @@ pub(super) fn baths(model: &Model) -> Vec<(BathStep, f64)> {
 /// What changes the total momentum, if anything.
 pub(super) fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
     let particles = model.particles();
-    let mut reasons: Vec<_> = particles.terms().into_iter().filter_map(Term::push).collect();
+    let mut reasons: Vec<_> = particles.terms().into_iter().filter_map(Term::momentum_source).collect();
     reasons.dedup();
     reasons.extend(model.has_fixed_particles().then_some("fixed particles take up what others give them"));
     let wanders = particles.coloured_noise.is_some() && model.measures_about_centre_of_mass();

@@ -303,7 +303,7 @@ fn of_particles(scene: &Scene, model: &Model) -> Vec<Strain> {
     let of_springs = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_));
     let place = scene.interactions.iter().position(of_baths).unwrap_or_else(|| place_of(scene, of_springs));
     let spring = particles.tethers.map_or(0.0, |tethers| tethers.stiffness);
-    // What relaxes exactly puts no strain on the step.
+    // A bath that relaxes exactly puts no strain on the step.
     let bath = particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles(model));
     let species = model.species.iter().enumerate().filter(|(_, species)| species.count > 0);
     let strain = |(index, species): (usize, &Species)| {
@@ -342,7 +342,7 @@ fn stiffnesses(model: &Model, kind: &BondKind) -> [f64; 2] {
         Some(BondPotential::Harmonic { stiffness, .. } | BondPotential::Fene { stiffness, .. }) => stiffness,
         None => 0.0,
     };
-    // What relaxes exactly puts no strain on the step.
+    // A bath that relaxes exactly puts no strain on the step.
     let bath = kind.bath.filter(|_| !model.particles().relaxes_bonds(model));
     [spring, bath.map_or(0.0, |bath| bath.coupling * strain_of_bath(model))]
 }

@@ -1,4 +1,4 @@
-//! What a scene of shallow water has to fulfil beyond its shape.
+//! Requirements on a scene of shallow water beyond its shape.
 
 use std::collections::HashMap;
 

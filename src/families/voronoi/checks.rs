@@ -1,4 +1,4 @@
-//! What a scene of Voronoi DPD has to fulfil beyond its shape.
+//! Requirements on a scene of Voronoi DPD beyond its shape.
 
 use crate::document::{
     CorrelatedQuantity, CountedQuantity, InitialMasses, Integrator, Problems, Scene, SnapshotColor, VoronoiInteraction,

@@ -34,7 +34,7 @@ pub(super) trait Descriptor {
         false
     }
 
-    /// What is kept of samples.
+    /// The kept numbers of samples.
     fn parts(&self, scene: &Scene, model: &Model) -> Vec<Part>;
 
     /// The numbers that a row of its sampler adds to the parts.

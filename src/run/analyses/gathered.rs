@@ -1,4 +1,4 @@
-//! What is kept of the samples of an analysis, in memory and in checkpoints.
+//! Kept numbers of the samples of an analysis, in memory and in checkpoints.
 
 use crate::measure::blocks::BlockSums;
 
@@ -68,7 +68,7 @@ impl Part {
     }
 }
 
-/// What has been gathered of samples. The numbers of a sample are those of its parts, one part after the other.
+/// Gathered samples. The numbers of a sample are those of its parts, one part after the other.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Gathered {
     samples: u64,

@@ -215,7 +215,7 @@ impl Sums {
 /// A number of a layer.
 type Number<'a> = Box<dyn Fn(usize) -> Option<Estimate> + 'a>;
 
-/// What is kept of the sums of a layer. Twice the energy of n particles relative to their centre of mass has d(n - 1) kT.
+/// The kept sums of a layer. Twice the energy of n particles relative to their centre of mass has d(n - 1) kT.
 fn kept(sums: Sums, layer: &[i64], Setting { model, plan, .. }: &Setting<'_>) -> Vec<f64> {
     let Sums { species, dimension, motion, stress } = sums;
     // Those that are frozen behind walls are in no layer.

@@ -164,7 +164,7 @@ pub(super) mod tests {
             analyses.add_state(&state, setting);
         }
         let [_, sections] = analyses.sections();
-        // Of two samples, the last step and the cells with 0 to 32 neighbours; of three, steps and amplitudes.
+        // Two samples have the last step and the cells with 0 to 32 neighbours; three have steps and amplitudes.
         assert_eq!([0, 1].map(|place| sections[place].1.len()), [8 + 2 * 33 * 8, 3 * 16]);
         assert_eq!(at(11, &sections).unwrap().sections()[1], sections);
         let fresh = at(0, &[]).unwrap().sections();

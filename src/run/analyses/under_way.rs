@@ -120,7 +120,7 @@ impl Analyses {
         }
     }
 
-    /// What a checkpoint has to keep of what the host has gathered of samples, and of states.
+    /// The sections of a checkpoint with gathered samples and states.
     pub(in crate::run) fn sections(&self) -> [Vec<(String, Vec<u8>)>; 2] {
         let (samples, states): (Vec<_>, Vec<_>) = self.0.iter().partition(|one| one.sampler.is_some());
         let section = |one: &UnderWay| (one.id.name().to_owned(), bytes(one.gathered.numbers()));

@@ -109,12 +109,12 @@ pub(crate) trait Term: PlannedTerm + ReferenceTerm {
     }
 
     /// How it drives the particles, if it adds energy.
-    fn drive(&self) -> Option<&'static str> {
+    fn energy_source(&self) -> Option<&'static str> {
         None
     }
 
     /// How it changes the total momentum, if it does.
-    fn push(&self) -> Option<&'static str> {
+    fn momentum_source(&self) -> Option<&'static str> {
         None
     }
 

@@ -30,11 +30,11 @@ impl PlannedTerm for ShearedBox {}
 impl ReferenceTerm for ShearedBox {}
 
 impl Term for ShearedBox {
-    fn drive(&self) -> Option<&'static str> {
+    fn energy_source(&self) -> Option<&'static str> {
         Some("put in by shear, at the rate of the shear stress times the shear rate and the volume")
     }
 
-    fn push(&self) -> Option<&'static str> {
+    fn momentum_source(&self) -> Option<&'static str> {
         let way = "boundaries that shear take it from what crosses them, as much as `shear_momentum` in the table of energies says";
         Some(way)
     }

@@ -31,12 +31,12 @@ impl PlannedTerm for PlaneWalls {}
 impl ReferenceTerm for PlaneWalls {}
 
 impl Term for PlaneWalls {
-    fn drive(&self) -> Option<&'static str> {
+    fn energy_source(&self) -> Option<&'static str> {
         let way = "put in by moving walls, whose work is `wall_work` in the table of energies";
         self.move_along().then_some(way)
     }
 
-    fn push(&self) -> Option<&'static str> {
+    fn momentum_source(&self) -> Option<&'static str> {
         Some("walls take it up, as much as the columns `wall_..._momentum_...` in the table of energies say")
     }
 }

@@ -50,11 +50,11 @@ impl FixedImpulse {
 impl PlannedTerm for BodyForces {}
 
 impl Term for BodyForces {
-    fn drive(&self) -> Option<&'static str> {
+    fn energy_source(&self) -> Option<&'static str> {
         Some("put in by body forces, whose work is `body_force_work` in the table of energies")
     }
 
-    fn push(&self) -> Option<&'static str> {
+    fn momentum_source(&self) -> Option<&'static str> {
         Some("body forces put it in, as much as `body_force_momentum` in the table of energies says")
     }
 

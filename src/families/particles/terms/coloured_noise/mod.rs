@@ -38,11 +38,11 @@ pub struct Jump {
 }
 
 impl Term for ColouredNoise {
-    fn drive(&self) -> Option<&'static str> {
+    fn energy_source(&self) -> Option<&'static str> {
         Some("put in by the coloured noise")
     }
 
-    fn push(&self) -> Option<&'static str> {
+    fn momentum_source(&self) -> Option<&'static str> {
         Some(if self.process == NoiseProcess::Literal {
             "the coloured noise pushes every particle by itself, with a mean force that is not zero, so that the centre \
              of mass is driven"

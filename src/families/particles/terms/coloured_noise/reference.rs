@@ -29,7 +29,7 @@ impl ReferenceTerm for ColouredNoise {
 fn half_step(model: &Model, noise: &ColouredNoise, id: u32, hold: &mut Hold) -> [f64; 3] {
     let duration = 0.5 * model.time_step;
     let mut impulse = [0.0; 3];
-    // What is left of the half step, and of the force, in half steps.
+    // The rest of the half step, and that of the force, in half steps.
     let mut rest = 1.0_f64;
     let mut left = f64::from(hold.halves) + f64::from(f32::from_bits(hold.fraction));
     loop {

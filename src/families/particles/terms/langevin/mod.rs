@@ -42,7 +42,7 @@ impl Term for PositionBath {
         self.steps.iter().map(|step| (*step, self.temperature)).collect()
     }
 
-    fn push(&self) -> Option<&'static str> {
+    fn momentum_source(&self) -> Option<&'static str> {
         Some("friction and noise act on every particle by itself")
     }
 

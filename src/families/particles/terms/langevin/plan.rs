@@ -120,7 +120,7 @@ impl Builder<'_> {
         (0..self.model.species.len()).flat_map(entry).collect()
     }
 
-    /// What the momentum of a particle of a species loses in a step, as a part of it, and the standard deviation of
+    /// The part of the momentum that a particle of a species loses in a step, and the standard deviation of
     /// what it gains, in momentum units: 1 - c and √(m kT (1 - c²)), c = exp(-γdt/m); zeros of one that is not there.
     fn relaxation(&self, species: usize) -> [f64; 2] {
         let Some(bath) = self.model.particles().position_bath.as_ref() else { return [0.0; 2] };

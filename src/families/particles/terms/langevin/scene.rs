@@ -60,7 +60,7 @@ impl SceneTerm for LangevinInteraction {
     }
 
     fn add(&self, scene: &Scene, species: &mut Vec<Species>, particles: &mut Particles) {
-        // What is held gains nothing from a bath.
+        // A held particle gains nothing from a bath.
         let step = |species: &Species| {
             let step = BathStep::of(&self.bath, friction_of(self, &species.name), scene.time.step);
             if species.fixed { step.uncoupled() } else { step }

@@ -62,7 +62,7 @@ impl Builder<'_> {
         Choices::new().with(if memory { baths::Pairs::Memory } else { baths::Pairs::White })
     }
 
-    /// Whether some listed pairs are excluded from their repulsion.
+    /// True if some listed pairs are excluded from their repulsion.
     pub(crate) fn leaves_pairs_out(&self) -> bool {
         self.model.particles().bonds.as_ref().is_some_and(|bonds| bonds.kinds.iter().any(|kind| kind.exclude_repulsion))
             && self.force.largest_repulsion() > 0.0
@@ -92,7 +92,7 @@ const UNITS: f64 = 1_048_576.0;
 pub(crate) struct DensityKernels {
     /// At every step.
     pub step: Vec<usize>,
-    /// Of the configuration at a report, with their part of its curvature.
+    /// Kernels of the configuration at a report, with their part of its curvature.
     pub report: Vec<usize>,
 }
 

@@ -57,7 +57,7 @@ impl SceneTerm for DpdInteraction {
         }
         let force = PairForce::of_scene(scene, species, scene.space.lengths.len());
         particles.pair_force = force.map(|mut force| {
-            // Of two images of a neighbour a list must see only one.
+            // A list must see only one of two images of a neighbour.
             force.skin = force.skin.min(0.5 * scene.space.shortest_length() - force.cutoff).max(0.0);
             if let Some(shear) = &particles.shear {
                 // Nor one that is next to both boundaries.

@@ -63,7 +63,7 @@ impl Term for Tethers {
         true
     }
 
-    fn push(&self) -> Option<&'static str> {
+    fn momentum_source(&self) -> Option<&'static str> {
         Some("every particle is tied to a point fixed in space")
     }
 
