@@ -6,7 +6,8 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::line;
 
-/// A bar of this length at a position, hidden where standard error is no terminal; `template` says what stands around it.
+/// A bar of this length at a position, hidden where standard error is no terminal; `template` says what stands around
+/// it.
 pub fn bar(position: u64, length: u64, template: &str) -> ProgressBar {
     if !std::io::stderr().is_terminal() {
         return ProgressBar::hidden();

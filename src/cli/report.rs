@@ -221,7 +221,9 @@ fn results(outcome: &Outcome, directory: &str) -> String {
 
 /// The meaning of the marks of means in a table, as far as it has them.
 pub fn marks(rows: &[Vec<String>], unequilibrated: Option<&Unequilibrated>) -> String {
-    let has = |mark: char| rows.iter().flatten().any(|cell| cell.ends_with(mark) || cell.contains(&format!("{mark} ")));
+    // The first cell of a row is a label, which a user may have written.
+    let means = || rows.iter().flat_map(|row| row.iter().skip(1));
+    let has = |mark: char| means().any(|cell| cell.ends_with(mark) || cell.contains(&format!("{mark} ")));
     let mut notes = String::new();
     if has('*') {
         notes.push_str("  * from few samples: the error may be larger\n");

@@ -101,7 +101,8 @@ impl StudyArguments {
         }
     }
 
-    /// Executes a study and shows how far it is, unless it is to be quiet; `runs` says what its runs are, given their number.
+    /// Executes a study and shows how far it is, unless it is to be quiet; `runs` says what its runs are, given their
+    /// number.
     pub fn execute<R: Record, O>(
         &self,
         study: StudyRun<R>,

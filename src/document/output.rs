@@ -59,8 +59,9 @@ pub struct Output {
     /// The numbers of neighbours of Voronoi cells after equilibration, as a table and a plot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<SampleInterval>,
-    /// The decay after equilibration of the shear wave that Voronoi cells start with, and the shear viscosity that follows from it. The time
-    /// between samples is to be long compared with that in which friction relaxes a single cell, and short compared with the decay of the wave.
+    /// The decay after equilibration of the shear wave that Voronoi cells start with, and the shear viscosity that
+    /// follows from it. The time between samples is to be long compared with that in which friction relaxes a single
+    /// cell, and short compared with the decay of the wave.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shear_wave: Option<SampleInterval>,
     /// Fields on the mesh of shallow water, as pictures and arrays; left out, depth and potential vorticity at the end.

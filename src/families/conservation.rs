@@ -99,3 +99,19 @@ pub(super) fn mass(state: &State, quantity: KeptQuantity, sums: &Sums, unit: f64
 
 /// Why the energy of forces is not kept exactly.
 pub(crate) const INTEGRATED: &str = "only as well as the time step integrates the forces";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_count_with_their_signs() {
+        let quantity = KeptQuantity::Momentum { walls: true, shear: false, body_forces: true };
+        let parts = vec![(0, 1), (1, -1), (2, 1), (5, 1)];
+        let sum = KeptSum { quantity, direction: "", unit: 1.0, parts, total: 0 };
+        assert_eq!(sum.of(&[7, 3, 10, 0, 0, 100]), Some(7 - 3 + 10 + 100));
+        // A report without one of them says nothing.
+        assert_eq!(sum.of(&[7, 3, 10, 0, 0]), None);
+        assert_eq!(sum.of(&[i64::MIN, 1, 0, 0, 0, 0]), Some(i64::MAX));
+    }
+}

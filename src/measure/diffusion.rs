@@ -26,7 +26,8 @@ const BEND_ERRORS: f64 = 4.0;
 ///     let times = || (0..lags).map(|lag| f64::from(lag) * interval);
 ///     let displacement: Vec<f64> = times().map(|time| 3.0 * (time - 0.5 * (1.0 - (-2.0 * time).exp()))).collect();
 ///     let velocity: Vec<f64> = times().map(|time| 3.0 * (-2.0 * time).exp()).collect();
-///     let [displacement, velocity] = [displacement, velocity].map(|curve| WindowedAverage::from_samples(curve.len(), &curve));
+///     let [displacement, velocity] = [displacement, velocity].map(|curve| WindowedAverage::from_samples(curve.len(),
+/// &curve));
 ///     DiffusionWindows { displacement, velocity, interval, dimension: 3 }
 /// };
 /// let fine = windows(0.01, 1000);

@@ -33,8 +33,8 @@ impl NeighbourCounts {
         Self { samples: samples.to_vec() }
     }
 
-    /// Cells by the number of their faces. Of a cell that meets another at several faces, or itself, all faces count: the mean
-    /// is then 6 in any tessellation without corners of more than three cells.
+    /// Cells by the number of their faces. Of a cell that meets another at several faces, or itself, all faces count:
+    /// the mean is then 6 in any tessellation without corners of more than three cells.
     #[must_use]
     pub fn of_cells(tessellation: &Tessellation) -> [f64; MOST_NEIGHBOURS + 1] {
         let mut counts = [0.0; MOST_NEIGHBOURS + 1];

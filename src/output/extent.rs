@@ -2,7 +2,7 @@
 
 use super::{OutputError, own_file};
 use serde::{Deserialize, Serialize};
-use std::io::{self, Read};
+use std::io::{self, BufReader, Read};
 use std::path::Path;
 
 /// Length and checksum of a file, or of its beginning.
@@ -32,7 +32,7 @@ impl Extent {
     pub fn of(path: &Path) -> Result<Self, OutputError> {
         let read = || {
             let mut sum = Checksum::default();
-            let bytes = io::copy(&mut own_file::open(path)?, &mut sum)?;
+            let bytes = sum.read(own_file::open(path)?)?;
             Ok(sum.extent(bytes))
         };
         read().map_err(OutputError::io("read", path))
@@ -47,7 +47,7 @@ impl Extent {
             let file = own_file::open(path)?;
             let length = file.metadata()?.len();
             let mut sum = Checksum::default();
-            if length < self.bytes || io::copy(&mut file.take(self.bytes), &mut sum)? != self.bytes {
+            if length < self.bytes || sum.read(file.take(self.bytes))? != self.bytes {
                 return Ok(Found::Nowhere);
             }
             Ok(match sum.extent(self.bytes) == *self {
@@ -82,6 +82,13 @@ impl Checksum {
     /// The extent of as many bytes, with the checksum of what was added.
     pub(super) fn extent(&self, bytes: u64) -> Extent {
         Extent { bytes, crc32: self.0.clone().finalize() }
+    }
+}
+
+impl Checksum {
+    /// Adds everything that a source holds, and returns its length.
+    pub(super) fn read(&mut self, source: impl Read) -> io::Result<u64> {
+        io::copy(&mut BufReader::with_capacity(1 << 16, source), self)
     }
 }
 

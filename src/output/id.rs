@@ -38,7 +38,7 @@ enum Kind {
 }
 
 impl Kind {
-    /// What it is the id of, which begins with the letter that its text does, and what files call it.
+    /// Its noun, which begins with the letter of its text, and its key in files.
     fn words(self) -> [&'static str; 2] {
         match self {
             Self::Run => ["run", RUN_KEY],
@@ -103,7 +103,7 @@ impl Id {
         }
     }
 
-    /// What it is the id of.
+    /// Its noun.
     pub(super) fn noun(self) -> &'static str {
         self.kind.words()[0]
     }

@@ -65,9 +65,13 @@ impl DirectoryLock {
                 let source = io::Error::new(io::ErrorKind::AlreadyExists, "it is not the lock of a run; move it away");
                 return Err(OutputError::Io { attempted: "lock", path, source });
             }
+            // The lock goes with its file if its number cannot be written.
+            let lock = Self { path: path.clone(), file };
+            let mut file = &lock.file;
             let number = format!("{BEFORE}{}\n", std::process::id());
             let signed = file.set_len(0).and_then(|()| file.rewind()).and_then(|()| file.write_all(number.as_bytes()));
-            return signed.map(|()| Self { path, file }).map_err(refused);
+            signed.map_err(refused)?;
+            return Ok(lock);
         }
     }
 }

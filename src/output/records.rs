@@ -4,7 +4,7 @@ use super::extent::{Checksum, Extent};
 use super::watch::Watch;
 use super::{OutputError, own_file};
 use std::fs::File;
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 /// Bytes kept back before they are written of themselves.
@@ -37,8 +37,7 @@ impl RecordFile {
     pub(super) fn resume(path: &Path, written: Extent) -> Result<Self, OutputError> {
         let mut file = own_file::open_to_continue(path).map_err(OutputError::io("continue", path))?;
         let mut checksum = Checksum::default();
-        let beginning = &mut (&mut file).take(written.bytes);
-        let found = io::copy(beginning, &mut checksum).map_err(OutputError::io("read", path))?;
+        let found = checksum.read((&mut file).take(written.bytes)).map_err(OutputError::io("read", path))?;
         if checksum.extent(found) != written {
             return Err(OutputError::Altered { path: path.to_path_buf() });
         }

@@ -190,8 +190,8 @@ impl Canvas {
         self.text(text, [at[0], at[1] + 0.5 * CAPITAL_HEIGHT * style.size], anchor, style);
     }
 
-    /// The headings of a page in lines of a width: a title of two lines at most, and notes below it; `sizes` are those of the
-    /// two, `most` is the number of lines that notes may take.
+    /// The headings of a page in lines of a width: a title of two lines at most, and notes below it; `sizes` are those
+    /// of the two, `most` is the number of lines that notes may take.
     pub(super) fn headings(
         &self,
         title: &str,

@@ -6,8 +6,8 @@ use super::quantities::{TIME, quantity_label};
 /// More names than this would crowd out the curves.
 const MOST_NAMES: usize = 12;
 
-/// The curves of a quantity over each other, against time, each with a name that tells its run from the others. Curves on a scale of colours are named at even distances
-/// where there are too many of them.
+/// The curves of a quantity over each other, against time, each with a name that tells its run from the others. Curves
+/// on a scale of colours are named at even distances where there are too many of them.
 ///
 /// ```
 /// use mesoscope::plot::{Series, overlay_chart};

@@ -1,7 +1,7 @@
 //! Shapes in a periodic box, and their images that show there too.
 
-/// By how much to move what reaches from a place to another along each axis, and is no longer than the box, so that a part of
-/// it is in the box: not at all, and where it stands out to the other side.
+/// By how much to move what reaches from a place to another along each axis, and is no longer than the box, so that a
+/// part of it is in the box: not at all, and where it stands out to the other side.
 pub(super) fn images(reach: [[f64; 2]; 2], lengths: [f64; 2]) -> Vec<[f64; 2]> {
     let [along_x, along_y] = [0, 1].map(|axis| {
         let ([low, high], length) = (reach[axis], lengths[axis]);

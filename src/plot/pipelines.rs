@@ -4,7 +4,6 @@ use super::error::PlotError;
 use super::renderer::Plotter;
 use bytemuck::Pod;
 use std::sync::OnceLock;
-use wgpu::util::{BufferInitDescriptor, DeviceExt};
 
 /// Written through an sRGB view, so that blending happens in linear light.
 pub(super) const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
@@ -124,7 +123,12 @@ impl Plotter<'_> {
     }
 
     fn filled_buffer(&self, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
-        self.gpu.device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
+        // Not mapped at creation: without memory for it wgpu would panic there.
+        let (size, usage) = (contents.len() as u64, usage | wgpu::BufferUsages::COPY_DST);
+        let descriptor = wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false };
+        let buffer = self.gpu.device.create_buffer(&descriptor);
+        self.gpu.queue.write_buffer(&buffer, 0, contents);
+        buffer
     }
 
     pub(super) fn texture(

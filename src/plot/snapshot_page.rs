@@ -136,8 +136,8 @@ impl Page {
         Area { left: aside, top, right: self.width - aside, bottom }
     }
 
-    /// The outline of a view in the middle of a frame, as large as there is room for what stands out of it, and pixels per
-    /// unit of length.
+    /// The outline of a view in the middle of a frame, as large as there is room for what stands out of it, and pixels
+    /// per unit of length.
     pub(super) fn outline(&self, frame: &Area, shape: [f64; 2], overhang: f64) -> (Area, f64) {
         let room = [frame.width(), frame.height()].map(|side| side - 2.0 * self.rule);
         let fits = (room[0] / (shape[0] + overhang)).min(room[1] / (shape[1] + overhang));

@@ -69,12 +69,12 @@ impl Content for SphereScene {
         }
         let spheres = plotter.once(&plotter.spheres, "pipeline of the particles", spheres_pipeline)?;
         let composite = plotter.once(&plotter.composite, "pipeline of the overlay", composite_pipeline)?;
-        let mut drawn = vec![(spheres, plotter.instances("plot: particles", &self.particles))];
-        if !self.rods.is_empty() {
-            let rods = plotter.once(&plotter.rods, "pipeline of the bonds", rods_pipeline)?;
-            drawn.push((rods, plotter.instances("plot: bonds", &self.rods)));
-        }
+        let bonded = !self.rods.is_empty();
+        let rods = bonded.then(|| plotter.once(&plotter.rods, "pipeline of the bonds", rods_pipeline)).transpose()?;
         plotter.checked("particles", || {
+            let rods = rods.map(|rods| (rods, plotter.instances("plot: bonds", &self.rods)));
+            let particles = (spheres, plotter.instances("plot: particles", &self.particles));
+            let drawn: Vec<_> = [particles].into_iter().chain(rods).collect();
             let [left, top, width, height] = clip;
             let tile = TILE_SIDE / self.samples;
             let size = [width, height].map(|side| side.min(tile) * self.samples);

@@ -36,7 +36,7 @@ pub(super) struct PlacedGlyph {
 
 /// Sets lines of text and collects the glyphs they use.
 pub(super) struct Typesetter {
-    /// Of the weights, in their order.
+    /// The fonts of the weights, in their order.
     fonts: [FontRef<'static>; 2],
     entries: HashMap<(Weight, GlyphId, u32), Option<PlacedGlyph>>,
     /// One byte of coverage per texel, rows of [`ATLAS_WIDTH`].

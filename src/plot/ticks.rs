@@ -20,8 +20,8 @@ impl AxisMap {
         Self { scale: Scale::Linear, low, high }
     }
 
-    /// The axis of a range that was given; none if that is left out, empty, not finite, or not positive where its logarithm is
-    /// taken.
+    /// The axis of a range that was given; none if that is left out, empty, not finite, or not positive where its
+    /// logarithm is taken.
     pub(super) fn given(scale: Scale, range: Option<[f64; 2]>) -> Option<Self> {
         let [low, high] = range?;
         let has_length = high - low > 1e-12 * low.abs().max(high.abs());

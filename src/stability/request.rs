@@ -89,8 +89,9 @@ impl Request {
     /// Varies the scene in a file, or a built-in one.
     ///
     /// Each of `vary` is a key with a range, `key=low..high/points`, or with values, `key=value,value,…`. One of them makes a
-    /// row, two a map: `time.step`, or else the second, is varied along rows. Without any the time step is. With `steps` the
-    /// scene has so many, to which its equilibration is shortened where it does not fit, as [`scene::load_for`] does it; an override of
+    /// row, two a map: `time.step`, or else the second, is varied along rows. Without any the time step is. With
+    /// `steps` the scene has so many, to which its equilibration is shortened where it does not fit, as
+    /// [`scene::load_for`] does it; an override of
     /// `time.steps` is such a number too.
     ///
     /// # Errors
@@ -238,7 +239,7 @@ impl Request {
     /// The look of pictures with changes to it, given as overrides of the scene.
     pub(super) fn style(&self, overrides: &[String]) -> Result<PlotStyle, SceneError> {
         let Arguments { scene, state_files, .. } = &self.arguments;
-        scene.style(&self.base, [], overrides, state_files)
+        scene.style(&self.base, [], overrides, state_files, StepCheck::Allow)
     }
 
     /// What was shortened in the scene to suit the number of steps.

@@ -6,6 +6,7 @@
 //! disk, and the header a copy only when that is: wherever a process or a machine stops, what the index names is there.
 
 use bytemuck::{Pod, Zeroable};
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::Path;
@@ -135,8 +136,8 @@ fn field(text: &str) -> [u8; NAME as usize] {
 }
 
 /// A text that is ended by a zero.
-fn text(field: &[u8]) -> &str {
-    until_zero(field).utf8_chunks().next().map_or("", |part| part.valid())
+fn text(field: &[u8]) -> Cow<'_, str> {
+    String::from_utf8_lossy(until_zero(field))
 }
 
 pub(super) fn until_zero(field: &[u8]) -> &[u8] {
@@ -206,13 +207,13 @@ impl GsdReader {
 
     /// The program that wrote the file.
     #[must_use]
-    pub fn application(&self) -> &str {
+    pub fn application(&self) -> Cow<'_, str> {
         text(&self.header.application)
     }
 
     /// What the names of arrays mean, by the name of a schema.
     #[must_use]
-    pub fn schema(&self) -> &str {
+    pub fn schema(&self) -> Cow<'_, str> {
         text(&self.header.schema)
     }
 

@@ -21,7 +21,8 @@ pub(crate) struct WrittenScene {
 }
 
 impl WrittenScene {
-    /// Reads a file, or takes a built-in scene. An override of `time.steps` is a number of steps to which what is longer is shortened, too.
+    /// Reads a file, or takes a built-in scene. An override of `time.steps` is a number of steps to which what is
+    /// longer is shortened, too.
     pub(crate) fn read(source: &str, set: &[String], steps: Option<u64>) -> Result<Self, SceneError> {
         let mut set = set.to_vec();
         let set_steps = steps_of(&mut set);
@@ -51,10 +52,11 @@ impl WrittenScene {
         own: impl IntoIterator<Item = String>,
         changes: &[String],
         files: &StateFiles,
+        step: StepCheck,
     ) -> Result<PlotStyle, SceneError> {
         if changes.is_empty() {
             return Ok(run.output.plot.clone());
         }
-        Ok(self.with(own.into_iter().chain(changes.iter().cloned()), files, StepCheck::Allow)?.0.output.plot)
+        Ok(self.with(own.into_iter().chain(changes.iter().cloned()), files, step)?.0.output.plot)
     }
 }

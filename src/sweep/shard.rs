@@ -38,9 +38,9 @@ impl StudyRun<SweepSummary> {
     /// ```
     ///
     /// # Errors
-    /// [`StudyError::OtherStudy`] when the directory holds another sweep, [`InUse`](crate::output::OutputError::InUse) when the same
-    /// shard, one of another number of shards, or who gathers them is under way there; [`StudyError::InterruptedShard`]; those of
-    /// [`execute`](StudyRun::execute).
+    /// [`StudyError::OtherStudy`] when the directory holds another sweep, [`InUse`](crate::output::OutputError::InUse)
+    /// when the same shard, one of another number of shards, or who gathers them is under way there;
+    /// [`StudyError::InterruptedShard`]; those of [`execute`](StudyRun::execute).
     pub fn execute_shard(
         mut self,
         shard: Shard,

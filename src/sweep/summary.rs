@@ -165,7 +165,8 @@ impl Record for SweepSummary {
     /// That of the first variant.
     fn style(&self, sweep: &Sweep, overrides: &[String]) -> Result<PlotStyle, SceneError> {
         let Some(first) = sweep.variants().first() else { return Ok(PlotStyle::default()) };
-        sweep.scene.style(&first.scene, first.settings.iter().map(Setting::argument), overrides, &sweep.files)
+        let own = first.settings.iter().map(Setting::argument);
+        sweep.scene.style(&first.scene, own, overrides, &sweep.files, StepCheck::Refuse)
     }
 
     fn progress(&self) -> String {

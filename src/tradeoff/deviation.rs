@@ -71,7 +71,8 @@ impl Deviation {
         self.size() + CONFIDENCE * self.uncertainty.unwrap_or(0.0)
     }
 
-    /// The verdict on an error that may be as large as `most`, with its uncertainty; open where nothing is known of that.
+    /// The verdict on an error that may be as large as `most`, with its uncertainty; open where nothing is known of
+    /// that.
     pub(crate) fn within(&self, most: f64) -> Verdict {
         let Some(uncertainty) = self.uncertainty else { return Verdict::Open };
         let (size, margin) = (self.size(), CONFIDENCE * uncertainty);

@@ -63,9 +63,10 @@ impl Arguments {
 }
 
 impl Request {
-    /// Varies the scene in a file, or a built-in one, as [`Sweep::load`] does, but for time steps that cannot be stable: they are run, too. With
-    /// `steps` the scene has so many, to which its equilibration is shortened where it does not fit, as [`crate::scene::load_for`] does it; an
-    /// override of `time.steps` is such a number too.
+    /// Varies the scene in a file, or a built-in one, as [`Sweep::load`] does, but for time steps that cannot be
+    /// stable: they are run, too. With
+    /// `steps` the scene has so many, to which its equilibration is shortened where it does not fit, as
+    /// [`crate::scene::load_for`] does it; an override of `time.steps` is such a number too.
     ///
     /// # Errors
     /// [`StudyError::Variants`] or [`StudyError::Arguments`] with all mistakes at once; [`StudyError::Scene`] when there is no such scene.
@@ -211,7 +212,7 @@ impl Request {
     /// The look of pictures with changes to it, given as overrides of the scene.
     pub(super) fn style(&self, overrides: &[String]) -> Result<PlotStyle, SceneError> {
         let Arguments { scene, state_files, .. } = &self.arguments;
-        scene.style(&self.base, [], overrides, state_files)
+        scene.style(&self.base, [], overrides, state_files, StepCheck::Allow)
     }
 
     /// What was shortened in the scene to suit the number of steps.

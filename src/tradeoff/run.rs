@@ -159,7 +159,8 @@ impl StudyRun<TradeoffSummary> {
         (0..choices).find(|twin| index >= choices && runs[*twin].1 == runs[index].1)
     }
 
-    /// The runs that have to come to the end of the stretch: not those that became unstable, nor those that another entry has.
+    /// The runs that have to come to the end of the stretch: not those that became unstable, nor those that another
+    /// entry has.
     fn members(&mut self, runs: &[(String, Scene)]) -> Vec<Member> {
         let stretch = self.summary.stretch;
         let mut members = Vec::new();

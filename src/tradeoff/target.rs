@@ -76,8 +76,8 @@ impl Target {
         Ok(Self { measure: measure.to_owned(), amount })
     }
 
-    /// True if it is a part of a reference of which there is none, as errors are not `relative` to it: zero is what drifts and distances
-    /// should be, and these are parts of something else.
+    /// True if it is a part of a reference of which there is none, as errors are not `relative` to it: zero is what
+    /// drifts and distances should be, and these are parts of something else.
     pub(super) fn is_part_of_nothing(&self, relative: bool) -> bool {
         matches!(self.amount, Amount::Relative(_)) && !relative && !measures::is_part(&self.measure)
     }

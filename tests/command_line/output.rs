@@ -525,7 +525,7 @@ fn gsd_holds_what_hoomd_expects() {
     drop(trajectory);
 
     let mut file = gsd::open(&path);
-    assert_eq!((file.schema(), file.schema_version()), ("hoomd", (1, 4)));
+    assert_eq!((&*file.schema(), file.schema_version()), ("hoomd", (1, 4)));
     assert_eq!(file.frames().unwrap(), 2);
     let numbers: Vec<f32> = gsd::scalars(&mut file, 0, "configuration/box");
     assert_eq!(numbers, [4.0, 5.0, 6.1, 0.0, 0.0, 0.0]);

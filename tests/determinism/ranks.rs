@@ -56,7 +56,7 @@ fn cases() -> Vec<(Vec<&'static str>, Vec<[u32; 3]>)> {
         (vec![GROOT_WARREN, "space.box=[4,4,9]", MANY_BODY], vec![[1, 1, 2]]),
         (vec![COTTER_REICH, "space.box=[4,7,9]", MIXTURE, MIXTURE_FORCE, GAUSSIAN], vec![[1, 2, 2], [1, 3, 1]]),
         (vec![STAGED, "space.box=[4,4,13]", POROUS], vec![[1, 1, 2], [1, 1, 3]]),
-        (vec![COTTER_REICH, "space.box=[4,4,13]", MIXTURE, BATHED], vec![[1, 1, 2]]),
+        (vec![COTTER_REICH, "space.box=[4,4,13]", MIXTURE, BATHED, FOLLOWED, "temperature=9"], vec![[1, 1, 2]]),
         (vec![PREDICTED, "space.box=[4,7,9]", POROUS, COUETTE, MANY_BODY], vec![[1, 2, 1]]),
     ]
 }

@@ -1,4 +1,4 @@
-//! Checks of scenes with bonds, angles, baths, coloured noise, tethers and fixed particles that a schema cannot express.
+//! Checks that a schema cannot express, of all that terms of particles have in common.
 
 use std::collections::{HashMap, HashSet};
 

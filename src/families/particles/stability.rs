@@ -96,8 +96,7 @@ pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
     let found = format!("{step}, at which B + W is {sum} for {}", worst.what);
     let share = |step: f64| {
         let other = at_step(scene, step);
-        let model = Model::new(&other);
-        strongest(&certain(&other, &model, Network::of(&other, &model).as_ref())) / LIMIT
+        strongest(&certain(&other, &Model::new(&other), network.as_ref())) / LIMIT
     };
     let largest = largest_step([step, worst.sum / LIMIT], 1e-6, &share);
     let mut accepted = format!(

@@ -1,4 +1,5 @@
-//! How particles start, once their places and momenta are known: at rest together, and with what their terms start with.
+//! How particles start, once their places and momenta are known: at rest together, and with what their terms start
+//! with.
 
 use super::space::walls::plan as walls;
 use crate::families::start::bring_to_rest;

@@ -101,7 +101,8 @@ impl MemoryKernel {
             return None;
         }
         let times = (0..SAMPLES).map(|j| range[0] + (range[1] - range[0]) * j as f64 / (SAMPLES - 1) as f64);
-        let line = weighted_line(times.map(|time| (time, self.averaged_friction(time), 1.0)))?;
+        let points: Vec<_> = times.map(|time| (time, self.averaged_friction(time), 1.0)).collect();
+        let line = weighted_line(points.into_iter())?;
         Some(Plateau { friction: line.intercept, slope: line.slope, range })
     }
 

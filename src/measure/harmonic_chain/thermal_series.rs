@@ -34,7 +34,8 @@ impl ThermalSeries {
         Self { clusters, separations: vec![0.0; clusters.saturating_sub(1)], ..Self::default() }
     }
 
-    /// The series of samples of which these numbers are known: one after the other the momenta of all clusters, the sums of
+    /// The series of samples of which these numbers are known: one after the other the momenta of all clusters, the
+    /// sums of
     /// `(X_{μ+1} - X_μ)²` of all pairs of neighbours, and one after the other the means over the chain of P² and of
     /// `(X_{μ+1} - X_μ)²`.
     #[must_use]
@@ -43,7 +44,8 @@ impl ThermalSeries {
         Self { clusters, momenta: momenta.to_vec(), separations: separations.to_vec(), history: history.to_vec() }
     }
 
-    /// The numbers that a sample adds to those of [`Self::from_parts`]: its momenta, the squares of its pairs, and the two means.
+    /// The numbers that a sample adds to those of [`Self::from_parts`]: its momenta, the squares of its pairs, and the
+    /// two means.
     #[must_use]
     pub fn numbers_of(displacements: &[f64], momenta: &[f64]) -> Vec<f64> {
         let squares: Vec<f64> =

@@ -58,7 +58,7 @@ impl GsdTrajectory {
         let altered = || OutputError::Altered { path: path.to_path_buf() };
         let damaged = |error| refused("continue", path, error);
         let ours = file.application().starts_with(PROGRAM);
-        if !ours || (file.schema(), file.schema_version()) != (SCHEMA, SCHEMA_VERSION) {
+        if !ours || (&*file.schema(), file.schema_version()) != (SCHEMA, SCHEMA_VERSION) {
             return Err(altered());
         }
         // Every frame has a step of its own, so no two beginnings hold the same.
@@ -350,7 +350,7 @@ fn is_ours(name: &str, chunk: Chunk) -> bool {
 fn hash(file: &mut GsdReader, chunk: Chunk, checksum: &mut Checksum) -> Result<(), GsdError> {
     let name = file.name(chunk).filter(|name| is_ours(name, chunk)).ok_or(GsdError::Index)?;
     begin_array(checksum, name, chunk.rows);
-    io::copy(&mut file.content(chunk)?, checksum)?;
+    checksum.read(file.content(chunk)?)?;
     Ok(())
 }
 

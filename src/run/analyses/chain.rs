@@ -18,6 +18,9 @@ const REDUCED_FRICTION: &str = "reduced_friction";
 /// Pulses, correlations and variances of harmonic chains.
 pub(super) struct Chain;
 
+/// The place of the pulses among the parts; three parts of each chain in equilibrium follow.
+const PULSES: usize = 1;
+
 impl Descriptor for Chain {
     fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling> {
         let every = scene.output.chain.as_ref().filter(|_| model.particles().chains.is_some())?.every;
@@ -28,7 +31,8 @@ impl Descriptor for Chain {
         true
     }
 
-    /// Samples; of each the step, energies and displacements of the chains with a pulse; and what is kept of each chain in equilibrium.
+    /// Samples; of each the step, energies and displacements of the chains with a pulse; and what is kept of each chain
+    /// in equilibrium.
     fn parts(&self, _: &Scene, model: &Model) -> Vec<Part> {
         let Some(trios) = &model.particles().chains else { return Vec::new() };
         let clusters = trios.thermal.clusters;
@@ -61,9 +65,9 @@ impl Descriptor for Chain {
 
     fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
         let trios = model.particles().chains.as_ref()?;
-        let pulses = gathered.part(1).chunks_exact(pulse_width(trios));
-        let thermal = [2, 5, 8].map(|first| {
-            let [momenta, separations, history] = [0, 1, 2].map(|part| gathered.part(first + part));
+        let pulses = gathered.part(PULSES).chunks_exact(pulse_width(trios));
+        let thermal = [0, 1, 2].map(|chain| {
+            let [momenta, separations, history] = [0, 1, 2].map(|part| gathered.part(PULSES + 1 + 3 * chain + part));
             ThermalSeries::from_parts(momenta, separations, history.as_chunks().0)
         });
         let interval = scene.output.chain.as_ref()?.every as f64 * model.time_step;

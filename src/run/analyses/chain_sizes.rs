@@ -75,8 +75,8 @@ impl Descriptor for ChainSizes {
                 "species": group.name,
                 "chains": group.chains,
                 "beads": group.beads,
-                // The last bead of a ring is next to its first, and their distance that of a bond; a branched molecule has
-                // more ends.
+                // The last bead of a ring is next to its first, and their distance that of a bond; a branched molecule
+                // has more ends.
                 END_TO_END: if group.linear { end_to_end } else { Value::Null },
                 GYRATION: gyration,
             })

@@ -55,8 +55,8 @@ impl Descriptor for Circulation {
         vec![Part::series(1 + model.physics().material_loops(model).map_or(0, |found| found.loops.len()))]
     }
 
-    /// Time and circulations of all closed loops, from position and velocity of every tracer, two integers a word. A circulation is not a
-    /// number once its loop is no curve any more.
+    /// Time and circulations of all closed loops, from position and velocity of every tracer, two integers a word. A
+    /// circulation is not a number once its loop is no curve any more.
     fn numbers_of_sample(&self, Setting { model, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
         let MaterialLoops { rotation, spacing, loops, .. } = model.physics().material_loops(model)?;
         let halves = |word: &i64| [*word as u32, (*word >> 32) as u32];

@@ -83,7 +83,9 @@ impl Gathered {
 
     /// Adds the numbers of a sample; one that has more or fewer than its parts is left out.
     pub(super) fn add(&mut self, mut numbers: &[f64]) {
-        if numbers.len() != self.parts.iter().map(Part::width).sum::<usize>() {
+        let width = self.parts.iter().map(Part::width).sum::<usize>();
+        debug_assert_eq!(numbers.len(), width, "a sampler leaves the numbers of all parts");
+        if numbers.len() != width {
             return;
         }
         self.samples += 1;
@@ -119,7 +121,8 @@ impl Gathered {
         self.parts.iter().map(|part| part.length_after(samples)).fold(0, u64::saturating_add)
     }
 
-    /// Continues from what [`Self::numbers`] gave after so many samples, which is as much as [`Self::length_after`] says.
+    /// Continues from what [`Self::numbers`] gave after so many samples, which is as much as [`Self::length_after`]
+    /// says.
     pub(super) fn restore(&mut self, mut numbers: &[f64], samples: u64) {
         self.samples = samples;
         for part in &mut self.parts {

@@ -231,8 +231,8 @@ fn density_chart(title: &str, table: &Table) -> Chart {
     histogram_chart(title, name(0), &edges, &densities, (label, &compared))
 }
 
-/// Means of powers of values and of magnitudes of vectors, of which there are so many, from Σx, Σx², Σx⁴ over values and Σr², Σr⁴ over
-/// magnitudes, in units of the range.
+/// Means of powers of values and of magnitudes of vectors, of which there are so many, from Σx, Σx², Σx⁴ over values
+/// and Σr², Σr⁴ over magnitudes, in units of the range.
 fn means(sums: &[f64; MOMENTS], range: f64, [values, particles]: [f64; 2]) -> [PowerMeans; 2] {
     let mean = |sum: usize, power: i32, count: f64| sums[sum] * range.powi(power) / count;
     let of_values = PowerMeans { first: mean(0, 1, values), second: mean(1, 2, values), fourth: mean(2, 4, values) };

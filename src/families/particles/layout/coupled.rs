@@ -70,11 +70,11 @@ impl CoupledLayout {
         self.list.is_some_and(|list| list.memory)
     }
 
-    /// Sets what terms keep, the last of all contents.
+    /// Sets the arrays of terms. Sums of the engine may follow them.
     fn unpack_kept(&self, contents: &[&[u32]], state: &mut State) -> Result<(), String> {
-        let first = contents.len().saturating_sub(self.kept.len());
-        for (kept, words) in self.kept.iter().zip(&contents[first..]) {
-            kept.unpack(words, state)?;
+        let first = self.buffers().len() - self.kept.len();
+        for (place, kept) in self.kept.iter().enumerate() {
+            kept.unpack(content(contents, first + place), state)?;
         }
         Ok(())
     }

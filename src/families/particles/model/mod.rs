@@ -1,4 +1,4 @@
-//! The physics of particles in numbers that terms share: walls and shear, links, momenta that forces make.
+//! The physics of particles in numbers that terms share: links between particles, and momenta that forces make.
 
 pub(crate) mod forces;
 mod molecules;

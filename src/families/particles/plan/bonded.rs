@@ -85,7 +85,7 @@ impl Scales<'_> {
 
 /// The bonds of a model, if any has a potential or a bath: others only exclude repulsion.
 fn pulling(model: &Model) -> Option<&Bonds> {
-    model.particles().bonds.as_ref().filter(|bonds| bonds.pull())
+    model.particles().bonds.as_ref().filter(|bonds| bonds.have_forces())
 }
 
 /// What adds impulses to the particles of a space.

@@ -132,11 +132,11 @@ pub(crate) trait Term: PlannedTerm + ReferenceTerm {
 
 /// The part of a term in plans.
 pub(crate) trait PlannedTerm {
-    /// Adds the constants and the state between steps of what it does in the passes over particles.
-    fn act(&self, _: &Scales<'_>, _: &mut Plan) {}
+    /// Adds the constants of what it does in the passes over particles.
+    fn add_constants(&self, _: &Scales<'_>, _: &mut Plan) {}
 
-    /// Adds kernels that gather its impulses for those passes, if it does not act in them; kernels of a report leave rows of sums after the given number
-    /// of rows, which they raise.
+    /// Adds kernels that gather its impulses for those passes, if it does not act in them; kernels of a report leave
+    /// rows of sums after the given number of rows, which they raise.
     fn gather(&self, _: &mut Builder<'_>, _rows: &mut u32, _: &mut GatheringKernels) {}
 }
 

@@ -257,7 +257,7 @@ impl<'a> Builder<'a> {
         self.plan.constants = constants;
         self.particle_constants();
         for term in self.model.particles().terms() {
-            term.act(&self.scales(), &mut self.plan);
+            term.add_constants(&self.scales(), &mut self.plan);
         }
         walls::add_constants(self.model, &mut self.plan);
         self.density_constants();

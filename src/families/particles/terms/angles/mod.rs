@@ -47,7 +47,7 @@ impl SceneTerm for AnglesInteraction {
 
     /// From a sharp bend to a straight chain.
     fn momentum(&self, particles: &forces::Particles<'_>) -> f64 {
-        2.0 * (particles.bent(self) * self.stiffness.abs()).sqrt()
+        2.0 * (particles.mass_of_angles(self) * self.stiffness.abs()).sqrt()
     }
 }
 

@@ -48,9 +48,9 @@ impl Corner {
 
     /// ∇²cos θ at the first end, the middle and the last end in d dimensions.
     ///
-    /// As a function of the direction of one arm, cos θ is a spherical harmonic of degree 1: ∇²cos θ = -(d - 1) cos θ/a²
-    /// for an arm of length a. Moving the middle moves both arms, which adds twice the mixed derivative
-    /// (d - 2 + cos²θ)/(ab).
+    /// As a function of the direction of one arm, cos θ is a spherical harmonic of degree 1:
+    /// ∇²cos θ = -(d - 1) cos θ/a² for an arm of length a. Moving the middle moves both arms, which adds twice the mixed
+    /// derivative (d - 2 + cos²θ)/(ab).
     fn laplacians(&self, dimension: usize) -> [f64; 3] {
         let dimension = dimension as f64;
         let [first, last] = self.lengths.map(|length| -(dimension - 1.0) * self.cosine / (length * length));

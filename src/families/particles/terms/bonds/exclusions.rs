@@ -30,8 +30,8 @@ pub(super) fn add_table(bonds: &Bonds, plan: &mut Plan) {
     plan.add_long_table(Array::ExcludedPairs, ExcludedPairs { bonds: bonds.clone() });
 }
 
-/// The ends of every bond that excludes repulsion. A pair that several bonds exclude is there once; for the others there is a
-/// particle with itself.
+/// The ends of every bond that excludes repulsion. A pair that several bonds exclude is there once; for the others
+/// there is a particle with itself.
 #[derive(Debug, Clone, PartialEq)]
 struct ExcludedPairs {
     bonds: Bonds,

@@ -75,7 +75,7 @@ impl Term for Bonds {
 
 impl Bonds {
     /// True if any bond has a potential or a bath: others only exclude repulsion.
-    pub(crate) fn pull(&self) -> bool {
+    pub(crate) fn have_forces(&self) -> bool {
         self.kinds.iter().any(|kind| kind.potential.is_some() || kind.bath.is_some())
     }
 

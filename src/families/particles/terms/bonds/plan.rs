@@ -12,7 +12,7 @@ use crate::shaders::{Array, Choices, Constant, Entry, baths, bonds};
 
 impl PlannedTerm for Bonds {
     fn gather(&self, builder: &mut Builder<'_>, rows: &mut u32, kernels: &mut GatheringKernels) {
-        if self.pull() {
+        if self.have_forces() {
             let scales = builder.scales();
             add_table(&scales, self, &mut builder.plan);
             builder.couple(&bonded(&scales, self), rows, kernels);

@@ -57,6 +57,7 @@ impl ReferenceTerm for Bonds {
         }
     }
 }
+
 /// Friction and noise along bonds, in rounds of bonds that share no particle. The velocity u along a bond of reduced
 /// mass μ is an Ornstein-Uhlenbeck process, u' = c u + √(kT(1 - c²)/μ) ξ with c = exp(-γdt/μ), and the ends get ±μ(u' -
 /// u).

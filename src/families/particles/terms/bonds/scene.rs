@@ -52,11 +52,11 @@ impl SceneTerm for BondsInteraction {
         match self.potential {
             None => 0.0,
             Some(BondPotential::Harmonic { stiffness, length }) => {
-                particles.of_bonds(self, stiffness, length, f64::INFINITY)
+                particles.momentum_of_bonds(self, stiffness, length, f64::INFINITY)
             }
             // Near its end the force grows beyond that of the spring.
             Some(BondPotential::Fene { stiffness, extent, length }) => {
-                2.0 * particles.of_bonds(self, stiffness, length, extent)
+                2.0 * particles.momentum_of_bonds(self, stiffness, length, extent)
             }
         }
     }
@@ -83,7 +83,8 @@ fn check_rest_length(scene: &Scene, bonds: &BondsInteraction, path: &str, proble
     }
 }
 
-/// Where the velocities along bonds relax one after the other, there are few enough of them, and a particle has few enough.
+/// Where the velocities along bonds relax one after the other, there are few enough of them, and a particle has few
+/// enough.
 pub(super) fn check_rounds(bonds: &Bonds, problems: &mut Problems) {
     let rubbing = bonds.rubbing_count();
     if rubbing > Bonds::MOST_IN_ROUNDS {

@@ -12,7 +12,7 @@ use crate::shaders::Constant;
 const LONGEST_TIME: f64 = 1e30;
 
 impl PlannedTerm for ColouredNoise {
-    fn act(&self, scales: &Scales<'_>, plan: &mut Plan) {
+    fn add_constants(&self, scales: &Scales<'_>, plan: &mut Plan) {
         let model = scales.model;
         let half_step = 0.5 * model.time_step;
         let key = noise::seed_key(model.seed, stream::JUMP);

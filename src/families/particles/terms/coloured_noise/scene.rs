@@ -61,9 +61,8 @@ impl SceneTerm for ColouredNoiseInteraction {
         particles.coloured_noise = Some(ColouredNoise { strength, time, process });
     }
 
-    /// The momentum that its forces may add up to before friction holds it: the longest time of a kangaroo process gives 64
-    /// times as much.
-    /// A coarser scale would lose the impulse of half a step in rounding.
+    /// The momentum that its forces may add up to before friction holds it: the longest time of a kangaroo process
+    /// gives 64 times as much. A coarser scale would lose the impulse of half a step in rounding.
     fn random_momenta(&self, time_step: f64) -> [f64; 2] {
         let times = if self.process == NoiseProcess::Short { 16.0 } else { 96.0 };
         let force = self.strength.sqrt();

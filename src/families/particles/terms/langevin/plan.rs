@@ -1,5 +1,5 @@
-//! Langevin friction on the device: a part of the kicks of a step, and in split steps without memory a kernel between the
-//! two passes over pairs.
+//! Langevin friction on the device: a part of the kicks of a step, and in split steps without memory a kernel between
+//! the two passes over pairs.
 
 use super::PositionBath;
 use crate::families::Model;
@@ -53,7 +53,7 @@ pub(crate) fn inverse(quantum: f64) -> f64 {
 }
 
 impl PlannedTerm for PositionBath {
-    fn act(&self, scales: &Scales<'_>, plan: &mut Plan) {
+    fn add_constants(&self, scales: &Scales<'_>, plan: &mut Plan) {
         let model = scales.model;
         plan.constants.push(switch(Constant::SeesFlow, self.peculiar));
         if model.particles().relaxes_particles(model) {

@@ -110,7 +110,8 @@ impl Builder<'_> {
         ]);
     }
 
-    /// Makes the kernels of densities. That of a report leaves rows of sums after the given number of rows, which it raises.
+    /// Makes the kernels of densities. That of a report leaves rows of sums after the given number of rows, which it
+    /// raises.
     pub(crate) fn densities(&mut self, masks: Masks, rows: &mut u32) -> DensityKernels {
         if self.force.many_body.is_none() {
             return DensityKernels::default();
@@ -128,8 +129,8 @@ impl Builder<'_> {
 }
 
 impl Builder<'_> {
-    /// The kernels that leave the stress of pairs, from what the report of the motion finds; none where no analysis needs it. Those of
-    /// the second of two stages of friction come first.
+    /// The kernels that leave the stress of pairs, from what the report of the motion finds; none where no analysis
+    /// needs it. Those of the second of two stages of friction come first.
     pub(crate) fn stress(&mut self) -> Vec<usize> {
         if !stress::is_needed(self.measured) {
             return Vec::new();

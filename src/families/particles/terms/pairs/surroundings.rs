@@ -200,7 +200,8 @@ impl Cells {
     }
 }
 
-/// How dense it is around the particles of a file or of molecules in a box of these edges; nothing without a pair force.
+/// How dense it is around the particles of a file or of molecules in a box of these edges; nothing without a pair
+/// force.
 pub(crate) fn of_start(scene: &Scene, start: &FileStart, lengths: &[f64]) -> Option<Surroundings> {
     let places = start.places.as_ref()?;
     let species = Species::of(scene);
