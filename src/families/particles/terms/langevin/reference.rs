@@ -11,6 +11,10 @@ use crate::state::State;
 
 impl ReferenceTerm for PositionBath {
     fn kick(&self, moment: &Moment<'_>, kicks: &mut Kicks) {
+        // In split steps baths without memory relax momenta.
+        if moment.model.particles().relaxes_particles(moment.model) {
+            return;
+        }
         let (model, state, motion) = (moment.model, moment.state, &moment.motion);
         let key = noise::step_key(model.seed, stream::PARTICLE, model.clock(state.step));
         let mut baths = state.position_baths.clone();
