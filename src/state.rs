@@ -161,7 +161,7 @@ pub struct State {
     pub tethers: Vec<[u32; 3]>,
     /// What body forces have given so far, one element in scenes with any; else empty.
     pub account: Vec<Account>,
-    /// What each wall has taken up so far, the lower before the upper of an axis; empty without walls.
+    /// What each wall has absorbed so far, the lower before the upper of an axis; empty without walls.
     pub walls: Vec<WallImpulse>,
     /// How often each particle has gone round the box along every axis, where a trajectory is written; else empty. The way
     /// since the start is the difference of positions and so many boxes.
@@ -432,7 +432,7 @@ impl Account {
     }
 }
 
-/// The momentum that a wall has taken up from all particles that met it, up to the positions of a state.
+/// The momentum that a wall has absorbed from all particles that met it, up to the positions of a state.
 ///
 /// ```
 /// use mesoscope::state::WallImpulse;
@@ -550,7 +550,7 @@ impl State {
         self.positions.is_empty()
     }
 
-    /// Total momentum with what walls have taken up, less what body forces have put in, in integer units.
+    /// Total momentum with what walls have absorbed, less what body forces have added, in integer units.
     ///
     /// ```
     /// use mesoscope::state::{Account, State};

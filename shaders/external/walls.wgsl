@@ -120,7 +120,7 @@ fn wall_push(axis: u32, upper: bool, species: i32) -> Steps {
 // Whether what happens to a particle is booked.
 var<private> is_booked: bool;
 
-// Slot external/reflections: books the momentum that a wall takes up. The plan chooses `booked` for kernels that move particles.
+// Slot external/reflections: books the momentum that a wall absorbs. The plan chooses `booked` for kernels that move particles.
 // Default: off, for kernels that follow a drift back.
 fn note_reflection(axis: u32, upper: bool, momentum: Steps) {}
 
@@ -131,7 +131,7 @@ fn wall_number(axis: u32, upper: bool) -> u32 {
     return 2u * (x + y) + select(0u, 1u, upper);
 }
 
-// Tells a report what walls have taken up. One invocation a sum; writes the row FIRST_GROUP of `partial_sums`.
+// Tells a report what walls have absorbed. One invocation a sum; writes the row FIRST_GROUP of `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
 fn report_walls(@builtin(local_invocation_index) lane: u32) {
     for (var sum = lane; sum < WALL_COUNT; sum += WORKGROUP) {

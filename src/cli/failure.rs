@@ -68,7 +68,8 @@ impl From<SceneError> for Failure {
         let advice = match &error {
             SceneError::NotFound { name, .. } => format!("\nhint: {}", super::guidance::of_scene(name)),
             SceneError::Invalid { further, .. } => format!(
-                "\n{}hint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes NAME` a complete scene",
+                "\n{}hint: `mesoscope schema` prints every key with its meaning, `mesoscope scenes NAME` a complete \
+                 scene",
                 if *further { "note: further checks follow once these mistakes are mended\n" } else { "" }
             ),
             _ => String::new(),

@@ -111,7 +111,7 @@ pub enum Placement {
         radius: f64,
     },
     /// In a layer behind the walls across an axis, evenly but in no order. The particles are frozen: they never move against their wall, and
-    /// what pairs give them the wall takes up.
+    /// the wall absorbs what pairs give them.
     #[serde(rename_all = "kebab-case")]
     BehindWalls {
         /// The axis that the walls cross.

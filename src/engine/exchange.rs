@@ -121,7 +121,7 @@ impl<'a> Exchange<'a> {
         if self.part.passages.iter().any(|passage| passage.until == kernel) {
             // The device goes on with what is recorded since.
             recording.submit();
-            self.take_up(step)?;
+            self.receive(step)?;
         }
         match (self.part.sum.clone(), self.summed.clone()) {
             (Some(sum), Some(buffer)) if kernel == sum.after => self.add_up(recording, &sum, &buffer),
@@ -231,7 +231,7 @@ impl<'a> Exchange<'a> {
     ///
     /// # Errors
     /// [`EngineError`] if the device or a peer fails. Too many particles are no error yet: the other ranks wait for the rest of the batch.
-    fn take_up(&mut self, step: u64) -> Result<(), EngineError> {
+    fn receive(&mut self, step: u64) -> Result<(), EngineError> {
         let Some((reading, submitted)) = self.outgoing_read.take() else { return Ok(()) };
         let particle = 4 * self.part.particle.count as u64;
         let head = self.head();

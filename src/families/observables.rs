@@ -56,9 +56,9 @@ pub struct Observables {
     pub bath_square: f64,
     /// Mean products of oscillators with their baths.
     pub bath_products: BathProducts,
-    /// What body forces have put in since the start.
+    /// What body forces have added since the start.
     pub put_in: PutIn,
-    /// What walls have taken up since the start.
+    /// What walls have absorbed since the start.
     pub on_walls: OnWalls,
     /// What is measured of Voronoi cells, in Voronoi DPD.
     pub cells: Option<CellObservables>,
@@ -76,7 +76,7 @@ pub struct BathProducts {
     pub momentum_displacement: f64,
 }
 
-/// What body forces have put in since the start of a run.
+/// What body forces have added since the start of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PutIn {
     /// Momentum, the sum of the impulses on all particles.
@@ -85,7 +85,7 @@ pub struct PutIn {
     pub work: f64,
 }
 
-/// What walls have taken up since the start of a run.
+/// What walls have absorbed since the start of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OnWalls {
     /// Momentum of the lower and the upper wall across x, then y, then z.

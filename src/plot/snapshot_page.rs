@@ -237,7 +237,7 @@ impl Page {
         match key {
             Key::Species { colours, .. } => {
                 let mut species = 0;
-                let (size, rows) = std::mem::take(&mut self.legend);
+                let (size, rows) = self.legend.clone();
                 let style = Type { size, ..style };
                 for (row, entries) in rows.into_iter().enumerate() {
                     let y = top + (row as f64 + 0.5) * 1.35 * size;

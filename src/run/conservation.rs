@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn walls_take_up_momentum() {
+    fn walls_absorb_momentum() {
         let told = |walls: &str, force: &str| {
             let text = format!(
                 r#"{{"title": "test", "space": {{"box": [5, 5, 5], "walls": {walls}}}, "time": {{"step": 0.01, "steps": 1}},
@@ -100,7 +100,7 @@ mod tests {
         };
         let (kept, lost) = told(r#"{"z": {}}"#, "");
         assert_eq!(kept, ["mass", "total momentum, including that absorbed by walls, to the last bit"]);
-        assert!(lost[0].contains(INTEGRATED) && lost[1].starts_with("total momentum: walls take it up"), "{lost:?}");
+        assert!(lost[0].contains(INTEGRATED) && lost[1].starts_with("total momentum: walls absorb it"), "{lost:?}");
         let force = r#", {"type": "body-force", "force": [1, 0, 0]}"#;
         let (kept, lost) = told(r#"{"z": {"upper_velocity": [1, 0, 0]}}"#, force);
         let both =
@@ -126,14 +126,17 @@ mod tests {
         let with_boundaries = "total momentum, including that lost at sheared boundaries, to the last bit";
         assert_eq!(kept, ["mass", with_boundaries]);
         assert_eq!(lost.len(), 2, "{lost:?}");
-        assert!(lost[0].starts_with("total energy: put in by shear") && lost[0].contains("the heat bath"), "{lost:?}");
-        assert!(lost[1].starts_with("total momentum: boundaries") && lost[1].contains("`shear_momentum`"), "{lost:?}");
+        assert!(lost[0].starts_with("total energy: added by shear") && lost[0].contains("the heat bath"), "{lost:?}");
+        assert!(
+            lost[1].starts_with("total momentum: sheared boundaries") && lost[1].contains("`shear_momentum`"),
+            "{lost:?}"
+        );
         let (kept, lost) = told(0.0);
         assert_eq!(kept, ["mass", "total momentum, to the last bit"]);
         assert_eq!(lost, ["total energy: exchanged with the heat bath"]);
     }
 
-    /// A force that changes its sign from half to half puts momentum in only as far as their numbers of particles differ, which is booked.
+    /// A force that changes its sign from half to half adds momentum only as far as their numbers of particles differ, which is booked.
     #[test]
     fn opposed_forces_are_booked() {
         let interactions = r#"{"type": "dpd", "friction": 1}, {"type": "body-force", "force": [1, 0, 0], "profile": "opposed", "axis": "z"}"#;
@@ -168,18 +171,18 @@ mod tests {
             ("", r#"{"type": "dpd", "friction": 1, "bath": {"type": "memory", "rate": 3}}"#, "exchanged", ""),
             ("", r#"{"type": "langevin", "friction": 1}"#, "exchanged", "friction and noise act on every particle"),
             ("", r#"{"type": "tether", "stiffness": 1}"#, INTEGRATED, "every particle is tied"),
-            (r#", {"species": "B", "count": 2, "fixed": true}"#, "", INTEGRATED, "fixed particles take up"),
+            (r#", {"species": "B", "count": 2, "fixed": true}"#, "", INTEGRATED, "fixed particles absorb"),
             (
                 "",
                 r#"{"type": "coloured-noise", "strength": 1, "time": 0.1}"#,
-                "put in by the coloured noise",
+                "added by the coloured noise",
                 "wanders; temperatures are about the velocity of the centre of mass",
             ),
             (
                 "",
                 r#"{"type": "dpd", "friction": 1, "bath": {"type": "white", "temperature": 0}},
                 {"type": "coloured-noise", "strength": 1, "time": 0.1}, {"type": "tether", "stiffness": 1}"#,
-                "put in by the coloured noise, taken away by friction",
+                "added by the coloured noise, taken away by friction",
                 "wanders; every particle is tied to a point fixed in space",
             ),
         ];

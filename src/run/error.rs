@@ -133,6 +133,13 @@ fn directory_of(file: &Path) -> &Path {
     file.parent().unwrap_or(file)
 }
 
+impl RunError {
+    /// True if the adapter has no room for the scene.
+    pub(crate) fn exceeds_adapter(&self) -> bool {
+        matches!(self, Self::TooLarge { .. } | Self::Gpu(GpuError::TooSmall { .. }))
+    }
+}
+
 impl From<EngineError> for RunError {
     fn from(error: EngineError) -> Self {
         match error {

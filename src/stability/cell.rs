@@ -3,7 +3,7 @@
 use super::request::Arguments;
 use super::verdict::{Verdict, verdict};
 use crate::families::Model;
-use crate::gpu::{AdapterChoice, GpuError};
+use crate::gpu::AdapterChoice;
 use crate::measure::equilibration::transient;
 use crate::run::{self, Interrupt, RunError, Stop, Trial};
 use crate::scene::{Scene, SceneError};
@@ -96,7 +96,7 @@ impl fmt::Display for Cell {
 pub(super) fn is_of_the_scene(error: &RunError) -> bool {
     match error {
         RunError::Scene(error) => !matches!(error, SceneError::StateChanged { .. }),
-        error => matches!(error, RunError::TooLarge { .. } | RunError::Gpu(GpuError::TooSmall { .. })),
+        error => error.exceeds_adapter(),
     }
 }
 

@@ -62,28 +62,30 @@ impl Member {
 }
 
 /// The next action of a study when this run has ended.
-type TakeUp<'t, R> = dyn FnMut(&mut StudyRun<R>, &Member, Result<Summary, RunError>, &mut Observer<'_, R>) -> Result<(), StudyError>
-    + 't;
+type OnEnd<'t, R> = dyn FnMut(&mut StudyRun<R>, &Member, Ended, &mut Observer<'_, R>) -> Result<(), StudyError> + 't;
+
+/// The summary of a run, or the error that ended it.
+type Ended = Result<Summary, RunError>;
 
 /// What a run under way reports.
 enum Message {
     Begun(u64),
     Advanced(Progress),
-    Ended(Box<Result<Summary, RunError>>),
+    Ended(Box<Ended>),
 }
 
 impl<R: Record> StudyRun<R> {
-    /// Brings runs to their last steps, `jobs` at once; `take_up` learns of each how it ended, and no others begin once that fails.
+    /// Brings runs to their last steps, `jobs` at once; `on_end` learns of each how it ended, and no others begin once that fails.
     ///
     /// # Errors
-    /// The first of `take_up`; [`StudyError::Interrupted`] if it was asked to stop.
+    /// The first of `on_end`; [`StudyError::Interrupted`] if it was asked to stop.
     pub(crate) fn simulate(
         &mut self,
         members: &[Member],
         jobs: usize,
         adapter: &AdapterChoice,
         observer: &mut Observer<'_, R>,
-        take_up: &mut TakeUp<'_, R>,
+        on_end: &mut OnEnd<'_, R>,
     ) -> Result<(), StudyError> {
         let (place, interrupt) = (self.directory().to_path_buf(), self.interrupt().clone());
         let work = |member: &Member, report: &dyn Fn(Message)| {
@@ -110,7 +112,7 @@ impl<R: Record> StudyRun<R> {
                 Message::Ended(ended) => match *ended {
                     // It waits to be continued.
                     Err(RunError::Interrupted { .. } | RunError::NotBegun) => {}
-                    ended => return take_up(self, &members[number], ended, observer),
+                    ended => return on_end(self, &members[number], ended, observer),
                 },
             }
             Ok(())

@@ -6,7 +6,7 @@ use crate::families::Model;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::run::{self, RunError};
 use crate::scene::Scene;
-use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyRun};
+use crate::study::{Member, Observer, StudyError, StudyEvent, StudyRun, Variant};
 
 /// Particles times steps that no adapter takes more than some minutes for.
 const WORTH_TIMING: f64 = 1e8;
@@ -66,23 +66,30 @@ impl StudyRun<SweepSummary> {
 
     /// Opens an adapter with the capacity for the largest of these variants, and says how many are to run at once.
     pub(super) fn open_adapter(&self, adapter: &AdapterChoice, waiting: &[usize]) -> Result<(Gpu, usize), StudyError> {
-        let scenes = waiting.iter().map(|number| &self.request.variants()[*number].scene);
-        let Some(scene) = study::largest(scenes) else {
+        let Some(Variant { name, scene, .. }) = self.largest(waiting) else {
             // Nothing to run: plots take little room.
             return Ok((Gpu::open(adapter, Requirements::default())?, 1));
         };
-        let gpu = run::adapter_for(scene, adapter)?;
+        let gpu = run::adapter_for(scene, adapter).map_err(|error| match error {
+            error if error.exceeds_adapter() => StudyError::of_run(name, error),
+            error => error.into(),
+        })?;
         let jobs = self.jobs_for(scene, waiting.len(), &gpu);
         Ok((gpu, jobs))
+    }
+
+    /// The variant of the most particles of some.
+    pub(super) fn largest(&self, numbers: &[usize]) -> Option<&Variant> {
+        let variants = numbers.iter().map(|number| &self.request.variants()[*number]);
+        variants.max_by_key(|variant| Model::new(&variant.scene).particle_count())
     }
 
     /// Seconds that variants take one after another with their pictures, in proportion to the largest, of which steps are timed; none where all are short
     /// or that one fails.
     fn expected(&self, waiting: &[usize], gpu: &Gpu) -> Option<f64> {
-        let scenes = || waiting.iter().map(|number| &self.request.variants()[*number].scene);
         let work = |scene: &Scene| Model::new(scene).particle_count() as f64 * scene.time.steps as f64;
-        let all: f64 = scenes().map(work).sum();
-        let largest = study::largest(scenes()).filter(|_| all > WORTH_TIMING)?;
+        let all: f64 = waiting.iter().map(|number| work(&self.request.variants()[*number].scene)).sum();
+        let largest = &self.largest(waiting).filter(|_| all > WORTH_TIMING)?.scene;
         let expected = run::expected_time(largest, gpu).ok()?;
         Some(expected.seconds * all / work(largest) + expected.drawing * waiting.len() as f64)
     }

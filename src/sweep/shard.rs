@@ -56,12 +56,11 @@ impl StudyRun<SweepSummary> {
         for number in &own {
             let variant = &self.request.variants()[*number];
             let entry = &mut self.summary.variants[*number];
-            entry.take_up(&place_of_sweep.join(&variant.name), &variant.scene);
+            entry.record(&place_of_sweep.join(&variant.name), &variant.scene);
         }
         let is_waiting = |number: &&usize| self.summary.variants[**number].state != VariantState::Finished;
         let waiting: Vec<usize> = own.iter().filter(is_waiting).copied().collect();
-        let largest = study::largest(waiting.iter().map(|number| &self.request.variants()[*number].scene));
-        let jobs = largest.map_or(1, |scene| self.jobs_for(scene, waiting.len(), &gpu));
+        let jobs = self.largest(&waiting).map_or(1, |variant| self.jobs_for(&variant.scene, waiting.len(), &gpu));
         self.summary.adapter = Some(gpu.description().into());
         self.note(&place, shard, &own)?;
         observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds: None });

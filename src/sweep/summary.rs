@@ -148,7 +148,7 @@ impl Record for SweepSummary {
         (new.sweep_id, new.adapter, new.plots) = (self.sweep_id, self.adapter, self.plots);
         for ((entry, earlier), variant) in new.variants.iter_mut().zip(self.variants).zip(sweep.variants()) {
             entry.run_id = earlier.run_id;
-            entry.take_up(&directory.file(&variant.name), &variant.scene);
+            entry.record(&directory.file(&variant.name), &variant.scene);
         }
         new
     }

@@ -105,7 +105,7 @@ impl VariantSummary {
     }
 
     /// Takes over what its run in a directory says, if it is finished.
-    pub(super) fn take_up(&mut self, directory: &Path, scene: &Scene) {
+    pub(super) fn record(&mut self, directory: &Path, scene: &Scene) {
         if let Some(run) = study::finished(directory, scene, self.run_id, files::SUMMARY) {
             self.finish(&run);
         }

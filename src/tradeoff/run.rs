@@ -244,7 +244,7 @@ impl StudyRun<TradeoffSummary> {
         for member in self.members(runs) {
             // One may have come to its end without being noted: the process was killed.
             if let Some(summary) = self.finished(&member) {
-                self.take_up(&member, Ok(summary))?;
+                self.record(&member, Ok(summary))?;
             } else {
                 members.push(member);
             }
@@ -254,7 +254,7 @@ impl StudyRun<TradeoffSummary> {
         let simulated = self.simulate(&members, jobs, adapter, observer, &mut |study, member, ended, observer| {
             // With every result, so that a budget holds after the process was killed.
             study.summary.spent = before + start.elapsed().as_secs_f64();
-            let entry = study.take_up(member, ended)?;
+            let entry = study.record(member, ended)?;
             observer(StudyEvent::Ended { run: &member.name, ended: entry });
             Ok(study.save()?)
         });
@@ -272,7 +272,7 @@ impl StudyRun<TradeoffSummary> {
     }
 
     /// Notes what a run measured, or that it became unstable.
-    fn take_up(&mut self, run: &Member, ended: Result<Summary, RunError>) -> Result<&Choice, StudyError> {
+    fn record(&mut self, run: &Member, ended: Result<Summary, RunError>) -> Result<&Choice, StudyError> {
         let directory = self.directory().join(&run.name);
         let entry = self.entry(run.entry);
         entry.time_step = run.scene.time.step;

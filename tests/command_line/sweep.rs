@@ -195,6 +195,22 @@ fn mistakes_in_variants_run_nothing() {
     assert!(!place.path("out").exists());
 }
 
+/// A variant that an adapter has no room for is named before anything is run or written.
+#[test]
+fn a_variant_that_no_adapter_has_room_for_is_refused() {
+    let place = place();
+    for command in ["sweep", "tradeoff"] {
+        let mut arguments = sweep_into(&place, "out", &["--vary", "space.box.0=4,4e6", "--yes"]);
+        command.clone_into(&mut arguments[0]);
+        fails(
+            &borrowed(&arguments),
+            3,
+            &["error: `box.0=4000000.0`: adapter ", " allows at most ", "this scene needs "],
+        );
+        assert!(!place.path("out").exists(), "{command}");
+    }
+}
+
 #[test]
 fn an_unstable_variant_does_not_stop_the_others() {
     let place = place();

@@ -189,11 +189,11 @@ fn losses(case: &Case, gpu: &Gpu, options: Options) -> Vec<String> {
         for sample in engine.finish().unwrap().iter().filter(|sample| sample.sampler == 0) {
             let mut found = sample.sums[first..first + momentum.len()].to_vec();
             if model.particles().body_forces.is_some() {
-                // What they have put in is told last.
+                // What they have added comes last.
                 let put_in = &sample.sums[sample.sums.len() - 4..];
                 found.iter_mut().zip(put_in).for_each(|(found, put_in)| *found -= put_in);
             }
-            // So is what walls, or boundaries that shear, have taken up, where there are no body forces.
+            // So is what walls, or boundaries that shear, have absorbed, where there are no body forces.
             let walls = 2 * model.particles().walls.len() + usize::from(model.particles().shear.is_some());
             for taken in sample.sums[sample.sums.len() - 3 * walls..].chunks_exact(3) {
                 found.iter_mut().zip(taken).for_each(|(found, taken)| *found += taken);

@@ -1,4 +1,4 @@
-//! Walls and the account of what they take up: the same bytes whatever changes that is not physics.
+//! Walls and the account of what they absorb: the same bytes whatever changes that is not physics.
 
 use mesoscope::plan::Options;
 use mesoscope::scene::Scene;

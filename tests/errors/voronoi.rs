@@ -83,7 +83,7 @@ fn cells_are_alone_and_in_a_plane() {
 fn cells_move_freely() {
     CELLS.refused(
         &["particles.0.fixed=true"],
-        "particles[0].fixed: found true; accepted: cells that move: one that is held would take up momentum and energy of \
+        "particles[0].fixed: found true; accepted: cells that move: one that is held would absorb momentum and energy of \
          the others",
     );
     CELLS.refused(

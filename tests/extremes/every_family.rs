@@ -309,7 +309,7 @@ fn compare(problems: &mut Problems, kind: Kind, scene: &Scene, device: &mut Engi
 
 /// What a family conserves is the same integer.
 fn conserved(problems: &mut Problems, model: &Model, found: &State, before: &State, what: &str) {
-    // With what forces have put in and boundaries and walls have taken.
+    // With what forces have added and boundaries and walls have taken.
     let particles = model.particles();
     let is_booked = particles.shear.is_some() || !particles.walls.is_empty();
     let exchanged = [before, found].map(State::exchanged_momentum);

@@ -55,7 +55,7 @@ fn nobody_is_behind_a_wall() {
 }
 
 /// Ten thousand steps in a small hot slit whose walls move with layers behind them, driven across itself too: nobody gets behind a wall, what is
-/// frozen stays there, and momentum with what the walls have taken up keeps one value.
+/// frozen stays there, and momentum with what the walls have absorbed keeps one value.
 #[test]
 fn ten_thousand_steps_beside_layers() {
     let particles = r#"particles=[{"species":"A","number_density":3},

@@ -113,7 +113,7 @@ fn body_forces_beside_others_agree_with_the_reference() {
     }
 }
 
-/// To the last bit: the momentum is that of the start and what body forces have put in. The impulses of a uniform force add up to its
+/// To the last bit: the momentum is that of the start and what body forces have added. The impulses of a uniform force add up to its
 /// part in every step, however small, less than a unit a particle off at either end of the steps.
 #[test]
 fn momentum_is_what_was_put_in() {

@@ -394,7 +394,7 @@ fn a_free_particle_is_mirrored() {
     }
 }
 
-/// A wall that moves gives twice its momentum to what it reverses, and takes up the rest, to the last bit.
+/// A wall that moves gives twice its momentum to what it reverses, and absorbs the rest, to the last bit.
 #[test]
 fn a_moving_wall_reverses_velocities_relative_to_its_own() {
     for integrator in INTEGRATORS {

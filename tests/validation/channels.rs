@@ -43,7 +43,7 @@ struct Flow {
     velocity: [f64; BINS],
     /// Mean density by bin.
     density: [f64; BINS],
-    /// Mean momentum along x that each wall takes up from a unit of area in a unit of time.
+    /// Mean momentum along x that each wall absorbs from a unit of area in a unit of time.
     stress: [f64; 2],
 }
 
@@ -114,7 +114,7 @@ fn couette(scene: &Scene, allowed: f64) -> [f64; 3] {
     [slope, slip, viscosity]
 }
 
-/// Plane Couette flow: linear in the middle, with the viscosity .84 ± 5 % of the standard fluid from the momentum that walls take up, and no
+/// Plane Couette flow: linear in the middle, with the viscosity .84 ± 5 % of the standard fluid from the momentum that walls absorb, and no
 /// slip but for a tenth of a cutoff. A bin holds 96 particles; the slowest wave, of amplitude (2kT/M)^½ = .03, is averaged over 800/2·36 of its
 /// times, and leaves .01 that the line may miss by twice.
 #[test]
@@ -166,7 +166,7 @@ fn poiseuille(scene: &Scene, force: f64) -> [f64; 2] {
 }
 
 /// Plane Poiseuille flow: a parabola in the middle, whose curvature fρ/η gives the viscosity with an error of 2 %, and no slip but for a tenth of a
-/// cutoff; walls take up what the force puts in.
+/// cutoff; walls absorb what the force adds.
 #[test]
 #[ignore = "a minute"]
 fn poiseuille_flow_is_a_parabola() {
@@ -224,7 +224,7 @@ fn layers_leave_the_fluid_as_it_is() {
 }
 
 /// A million steps in a small closed box, hot and in long steps: nobody is behind a wall whenever it is looked at, and momentum with what walls
-/// have taken up is what it was, to the last bit.
+/// have absorbed is what it was, to the last bit.
 #[test]
 #[ignore = "minutes"]
 fn a_million_steps_between_walls() {
@@ -267,7 +267,7 @@ fn nobody_is_behind_a_wall(integrator: &str, steps: u64, looks: u64) {
     assert!([0, 2].iter().all(|axis| f64::from(largest[*axis]) > 0.999 * f64::from(ends[*axis])));
 }
 
-/// Over a hundred thousand steps of a small box, hot and driven apart by halves, momentum less what forces have put in is one value; in a
+/// Over a hundred thousand steps of a small box, hot and driven apart by halves, momentum less what forces have added is one value; in a
 /// box of which each half holds as many particles on average, what they put in goes to and fro.
 #[test]
 #[ignore = "minutes"]

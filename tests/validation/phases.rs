@@ -36,7 +36,7 @@ fn two_phases(between: f64) -> Scene {
 }
 
 /// The part of the minority in the middle of both phases, with its standard error: means over 1600 units of time in blocks of 80, after
-/// 400 in which the phases take up what they hold of each other. Bins are counted from the middle of the phase of A, which drifts.
+/// 400 in which the phases absorb what they hold of each other. Bins are counted from the middle of the phase of A, which drifts.
 fn minority(scene: &Scene) -> [f64; 2] {
     const BLOCKS: usize = 20;
     let model = Model::new(scene);

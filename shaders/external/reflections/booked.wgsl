@@ -1,4 +1,4 @@
-// Adds the momentum that a wall takes up to its sums, low and high words, in any order.
+// Adds the momentum that a wall absorbs to its sums, low and high words, in any order.
 fn note_reflection(axis: u32, upper: bool, momentum: Steps) {
     let word = momentum_word(momentum, 0);
     let first = 6u * wall_number(axis, upper);

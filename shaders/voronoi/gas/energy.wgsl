@@ -2,7 +2,7 @@
 override ENERGY_UNIT: f32;
 override MOLECULAR_MASS: f32;
 
-// A negative energy is left to `take_up_exchange` to report; rounding may leave a cold cell with a few units of it.
+// A negative energy is left to `apply_exchange` to report; rounding may leave a cold cell with a few units of it.
 fn internal_energy_of(cell: Particle) -> f32 {
     let velocity = velocity_of(cell);
     return max(f32(cell.momentum.z) * ENERGY_UNIT - 0.5 * mass_of(cell) * dot(velocity, velocity), 0.0);

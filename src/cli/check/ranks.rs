@@ -34,7 +34,8 @@ pub fn rows(
         let copies = grouped(share.copies as u64);
         let part = 100.0 * share.own / (share.own + share.copies).max(1.0);
         let work = format!(
-            "a rank advances about {own} particles of its own and {copies} copies of others: {part:.0} % of its work is its own"
+            "a rank advances about {own} particles of its own and {copies} copies of others: {part:.0} % of its work is \
+             its own"
         );
         let mut sends = format!("about {sent} a step and rank, with {peers}");
         if share.overlapped > 0.0 {

@@ -72,12 +72,12 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
     if asked.window.is_none() {
         return;
     }
-    let rubs = |interaction: &Interaction| match interaction {
+    let has_friction = |interaction: &Interaction| match interaction {
         Interaction::Dpd(dpd) => dpd.has_bath() && !dpd.remembers(),
         Interaction::Bonds(bonds) => bonds.has_bath() && !bonds.bath.remembers(),
         _ => false,
     };
-    if asked.every > 1 && scene.interactions.iter().any(rubs) {
+    if asked.every > 1 && scene.interactions.iter().any(has_friction) {
         let accepted = "1 with a `window`: noise of a step that is not sampled would be missing from the viscosity";
         problems.refuse("output.stress.every", asked.every, accepted);
     }

@@ -55,7 +55,7 @@ pub(super) fn fate_of_momentum(model: &Model) -> Vec<&'static str> {
     let particles = model.particles();
     let mut reasons: Vec<_> = particles.terms().into_iter().filter_map(Term::momentum_source).collect();
     reasons.dedup();
-    reasons.extend(model.has_fixed_particles().then_some("fixed particles take up what others give them"));
+    reasons.extend(model.has_fixed_particles().then_some("fixed particles absorb what others give them"));
     let wanders = particles.coloured_noise.is_some() && model.measures_about_centre_of_mass();
     reasons.extend(wanders.then_some("temperatures are about the velocity of the centre of mass"));
     reasons

@@ -55,7 +55,7 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
     for (index, group) in scene.particles.iter().enumerate() {
         let path = format!("particles[{index}]");
         if group.fixed {
-            let accepted = "cells that move: one that is held would take up momentum and energy of the others";
+            let accepted = "cells that move: one that is held would absorb momentum and energy of the others";
             problems.refuse(format!("{path}.fixed"), "true", accepted);
         }
         if group.chain.is_some() {

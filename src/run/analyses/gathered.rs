@@ -132,3 +132,50 @@ impl Gathered {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{BlockSums, Gathered, Part};
+
+    fn of_all_parts() -> Gathered {
+        Gathered::new(vec![Part::Last(1, Vec::new()), Part::series(2), Part::sums(2), Part::Blocks(BlockSums::new(1))])
+    }
+
+    fn after(samples: u64) -> Gathered {
+        let mut gathered = of_all_parts();
+        for sample in 0..samples {
+            let first = 6.0 * sample as f64;
+            gathered.add(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|place| first + place));
+        }
+        gathered
+    }
+
+    #[test]
+    fn each_part_keeps_its_own_numbers() {
+        let gathered = after(3);
+        assert_eq!(gathered.samples(), 3);
+        assert_eq!(gathered.part(0), [12.0]);
+        assert_eq!(gathered.part(1), [1.0, 2.0, 7.0, 8.0, 13.0, 14.0]);
+        assert_eq!(gathered.part(2), [27.0, 30.0]);
+        assert_eq!(gathered.part(3), [5.0, 11.0, 17.0]);
+        assert_eq!(gathered.part(4), [0.0; 0]);
+        assert_eq!(gathered.blocks().map(|blocks| blocks.total(0)), Some(33.0));
+    }
+
+    /// What is restored is what was kept, and goes on as it would have: without a sample, with some, and with blocks of two.
+    #[test]
+    fn restored_numbers_continue() {
+        for samples in [0, 1, 5, 513] {
+            let kept: Vec<f64> = after(samples).numbers().collect();
+            assert_eq!(kept.len() as u64, of_all_parts().length_after(samples), "after {samples}");
+            let mut restored = of_all_parts();
+            restored.restore(&kept, samples);
+            assert_eq!(restored, after(samples), "after {samples}");
+            let mut continued = after(samples);
+            for gathered in [&mut restored, &mut continued] {
+                gathered.add(&[9.0; 6]);
+            }
+            assert_eq!(restored, continued, "after {samples} and one more");
+        }
+    }
+}

@@ -133,7 +133,8 @@ impl Descriptor for Profiles {
         if !unsettled.is_empty() {
             let names = unsettled.join(", ");
             warnings.push(format!(
-                "the errors in the profiles of {names} are known to more than a quarter of themselves, and may be larger: the run is short against correlations"
+                "the errors in the profiles of {names} are uncertain by more than a quarter and may be larger: the run is \
+                 short against correlations"
             ));
         }
         Some(Conclusion { warnings, ..Conclusion::new(table, result) })

@@ -980,7 +980,7 @@ pub fn features() -> Vec<Feature> {
                 "friction_setup",
                 "friction_solve",
                 "friction_step",
-                "take_up",
+                "apply",
                 "demands",
                 "directions",
                 "estimates",

@@ -101,7 +101,7 @@ impl StateLayout for CoupledLayout {
 
     fn unpack(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
         let mut state = self.particles.unpack(step, contents, count)?;
-        // A list of pairs without memory may be made anew at any time.
+        // A list of pairs without memory may be rebuilt at any time.
         if let Some(list) = self.list.filter(|list| list.memory) {
             let particles = content(contents, 0).chunks_exact(WORDS);
             let numbers: Vec<u32> = particles.take(count).map(|particle| particle[3]).collect();

@@ -18,7 +18,7 @@ pub(super) const PARTICLE: u64 = 32;
 const WORDS: usize = PARTICLE as usize / 4;
 
 /// One array `particles` of position and id, momentum and species, with what a predicted
-/// momentum adds; and the account of body forces and the momentum that walls have taken up, where there are any.
+/// momentum adds; and the account of body forces and the momentum that walls have absorbed, where there are any.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ParticleLayout {
     /// Number of dimensions.
@@ -92,7 +92,7 @@ impl StateLayout for ParticleLayout {
         }
         if self.walls > 0 {
             if state.walls.len() != self.walls {
-                return Err("what walls have taken up is".into());
+                return Err("what walls have absorbed is".into());
             }
             contents.push(state.words(StateArray::Walls).to_vec());
         }

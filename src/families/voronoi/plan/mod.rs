@@ -1,7 +1,7 @@
 //! The plan of a scene of Voronoi DPD: Flekkøy, Coveney and De Fabritiis, doi:10.1103/PhysRevE.62.2140.
 //!
 //! Particles are brought into an order that depends on their positions and numbers only, every cell clips its polygon, the
-//! owner of each face computes what crosses it and hands it to both cells in integers, and the cells take it up. What is
+//! owner of each face computes what crosses it and hands it to both cells in integers, and the cells receive it. What is
 //! summed in single precision, for the solver of the friction, is summed in that order: a run depends neither on the order
 //! of storage before nor on the size of workgroups.
 

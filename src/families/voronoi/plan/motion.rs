@@ -6,7 +6,7 @@ use super::tessellation::Occasion;
 use crate::shaders::exchange::{Change, EnergyCheck};
 use crate::shaders::{Array, Choices, Constant, Entry, voronoi};
 
-/// Which way cells go once they have taken up what they got.
+/// Which way cells go once they have received what crossed their faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Drift {
     None,
@@ -49,7 +49,7 @@ impl Builder<'_> {
     fn explicit_step(&mut self) -> Vec<usize> {
         self.exchange_buffer(Array::Exchanges);
         let mut kernels = self.exchange(Part::Everything, Array::Exchanges);
-        kernels.push(self.take_up(Change::Taken, Drift::Explicit));
+        kernels.push(self.apply(Change::Taken, Drift::Explicit));
         kernels
     }
 
@@ -67,25 +67,25 @@ impl Builder<'_> {
             kernels.extend(self.exchange(Part::Pressure, Array::Pushes));
             if let Some(part) = between {
                 self.exchange_buffer(Array::Exchanges);
-                kernels.push(self.take_up(Change::Kept, Drift::None));
+                kernels.push(self.apply(Change::Kept, Drift::None));
                 kernels.extend(self.between(part));
-                kernels.push(self.take_up(Change::Again, Drift::Half));
+                kernels.push(self.apply(Change::Again, Drift::Half));
             } else {
-                kernels.push(self.take_up(Change::Twice, Drift::Half));
+                kernels.push(self.apply(Change::Twice, Drift::Half));
             }
             return kernels;
         }
         self.exchange_buffer(Array::Exchanges);
         let push = self.exchange(Part::Pressure, Array::Exchanges);
-        let take_up = self.take_up(Change::Taken, Drift::None);
+        let apply = self.apply(Change::Taken, Drift::None);
         kernels.extend(&push);
-        kernels.push(take_up);
+        kernels.push(apply);
         if let Some(part) = between {
             kernels.extend(self.between(part));
-            kernels.push(take_up);
+            kernels.push(apply);
         }
         kernels.extend(&push);
-        kernels.push(self.take_up(Change::Taken, Drift::Half));
+        kernels.push(self.apply(Change::Taken, Drift::Half));
         kernels
     }
 
@@ -101,7 +101,7 @@ impl Builder<'_> {
     }
 
     /// The kernel that adds to the cells what came through their faces.
-    fn take_up(&mut self, change: Change, drift: Drift) -> usize {
+    fn apply(&mut self, change: Change, drift: Drift) -> usize {
         let choices =
             Choices::new().with(change).with_if(self.cells.keeps_energy(), EnergyCheck::Kept).with_any(match drift {
                 Drift::None => None,
@@ -109,7 +109,7 @@ impl Builder<'_> {
                 Drift::Explicit => Some(voronoi::Motion::Before),
             });
         let groups = self.groups(self.particles);
-        let kernel = self.kernel("take_up", Entry::TakeUpExchange, &choices, groups);
+        let kernel = self.kernel("apply", Entry::ApplyExchange, &choices, groups);
         if drift != Drift::None {
             self.plan.kernels[kernel].constants = self.drift_constants(if drift == Drift::Half { 0.5 } else { 1.0 });
         }

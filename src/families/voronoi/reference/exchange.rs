@@ -77,7 +77,7 @@ impl Ledger {
     }
 
     /// Adds the sums to a state.
-    pub(super) fn take_up(&self, state: &mut State) -> Result<(), Unstable> {
+    pub(super) fn apply_to(&self, state: &mut State) -> Result<(), Unstable> {
         let step = state.step;
         for particle in 0..state.len() {
             for axis in 0..2 {

@@ -243,7 +243,7 @@ impl VoronoiReference {
         for (face, exchange) in faces.iter().zip(exchanges) {
             ledger.hand(&self.model, &self.cells, face, exchange);
         }
-        ledger.take_up(&mut self.state)?;
+        ledger.apply_to(&mut self.state)?;
         if self.cells.keeps_energy() {
             let after = self.velocities();
             let mut ledger = Ledger::new(self.state.len());
@@ -251,7 +251,7 @@ impl VoronoiReference {
                 let energy = exchange.total_energy(face, &before.velocities, &after);
                 ledger.hand_energy(&self.cells, face, energy);
             }
-            ledger.take_up(&mut self.state)?;
+            ledger.apply_to(&mut self.state)?;
         }
         Ok(())
     }

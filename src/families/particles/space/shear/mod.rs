@@ -31,11 +31,12 @@ impl ReferenceTerm for ShearedBox {}
 
 impl Term for ShearedBox {
     fn energy_source(&self) -> Option<&'static str> {
-        Some("put in by shear, at the rate of the shear stress times the shear rate and the volume")
+        Some("added by shear, at the rate of the shear stress times the shear rate and the volume")
     }
 
     fn momentum_source(&self) -> Option<&'static str> {
-        let way = "boundaries that shear take it from what crosses them, as much as `shear_momentum` in the table of energies says";
+        let way = "sheared boundaries take it from particles that cross them, as much as `shear_momentum` in the table \
+                   of energies says";
         Some(way)
     }
 

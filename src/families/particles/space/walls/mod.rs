@@ -32,12 +32,12 @@ impl ReferenceTerm for PlaneWalls {}
 
 impl Term for PlaneWalls {
     fn energy_source(&self) -> Option<&'static str> {
-        let way = "put in by moving walls, whose work is `wall_work` in the table of energies";
+        let way = "added by moving walls, whose work is `wall_work` in the table of energies";
         self.move_along().then_some(way)
     }
 
     fn momentum_source(&self) -> Option<&'static str> {
-        Some("walls take it up, as much as the columns `wall_..._momentum_...` in the table of energies say")
+        Some("walls absorb it, as much as the columns `wall_..._momentum_...` in the table of energies say")
     }
 }
 

@@ -1,4 +1,4 @@
-//! Walls: the numbers of reflections, and the kernel that tells a report what walls have taken up. Particles are reflected where they
+//! Walls: the numbers of reflections, and the kernel that tells a report what walls have absorbed. Particles are reflected where they
 //! drift.
 
 use super::PlaneWalls;
@@ -7,7 +7,7 @@ use crate::families::Model;
 use crate::plan::{Kernel, Plan, Sums, switch};
 use crate::shaders::{Array, Choices, Constant, Entry, Sum, external, space};
 
-/// What a model has that takes up momentum: its walls, and boundaries that shear as one.
+/// The parts of a model that absorb momentum: its walls, and boundaries that shear as one.
 pub(crate) fn count(model: &Model) -> usize {
     2 * model.particles().walls.len() + usize::from(model.particles().shear.is_some())
 }

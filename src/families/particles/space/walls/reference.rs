@@ -78,7 +78,7 @@ fn advance(place: u32, way: i64, end: u32) -> u32 {
     if end == 0 { place.wrapping_add(way as u32) } else { (i64::from(place) + way).clamp(0, i64::from(end) - 1) as u32 }
 }
 
-/// Flies one of the parts of a step; adds what walls take up to their sums.
+/// Flies one of the parts of a step; adds what walls absorb to their sums.
 pub(crate) fn fly(model: &Model, start: Flight, way: Way, taken: &mut [[i64; 3]]) -> Flight {
     let ends = model.units.ends();
     let mut flight = start;
@@ -131,7 +131,7 @@ pub(crate) fn before(model: &Model, state: &State, particle: usize, parts: i64) 
     Flight { momentum: flight.momentum.map(|units| -units), ..flight }
 }
 
-/// What walls have taken up, with what they have taken up since.
+/// What walls have absorbed, with what they have absorbed since.
 pub(crate) fn add(walls: &[WallImpulse], taken: &[[i64; 3]]) -> Vec<WallImpulse> {
     let sum = |(index, taken): (usize, &[i64; 3])| {
         let before = walls.get(index).copied().unwrap_or_default().momentum();
@@ -140,7 +140,7 @@ pub(crate) fn add(walls: &[WallImpulse], taken: &[[i64; 3]]) -> Vec<WallImpulse>
     taken.iter().enumerate().map(sum).collect()
 }
 
-/// What walls have taken up until a report point, with what they are to take up of the momenta of frozen particles there.
+/// What walls have absorbed until a report point, with what they are to absorb of the momenta of frozen particles there.
 pub(crate) fn on_walls(model: &Model, state: &State, momenta: &[[i64; 3]]) -> OnWalls {
     let all = add(&state.walls, &held::absorbed(model, state, momenta));
     let walls = if all.is_empty() { &state.walls } else { &all };

@@ -51,11 +51,11 @@ impl PlannedTerm for BodyForces {}
 
 impl Term for BodyForces {
     fn energy_source(&self) -> Option<&'static str> {
-        Some("put in by body forces, whose work is `body_force_work` in the table of energies")
+        Some("added by body forces, whose work is `body_force_work` in the table of energies")
     }
 
     fn momentum_source(&self) -> Option<&'static str> {
-        Some("body forces put it in, as much as `body_force_momentum` in the table of energies says")
+        Some("body forces add it, as much as `body_force_momentum` in the table of energies says")
     }
 
     fn check_capacity(&self, scene: &Scene, model: &Model, problems: &mut Problems) {

@@ -50,7 +50,7 @@ impl SceneTerm for BodyForceInteraction {
             names.check(name, &path, problems);
             if scene.particles.iter().any(|group| group.species == *name && group.is_held()) {
                 let found = format!("`{name}`, whose particles are fixed");
-                problems.refuse(path, found, "species that can move: what is held takes up no momentum");
+                problems.refuse(path, found, "species that can move: held particles absorb no momentum");
             }
         }
     }

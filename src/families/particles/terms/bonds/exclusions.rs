@@ -61,7 +61,7 @@ impl Builder<'_> {
     /// Partners from whose repulsion each particle is excluded, in rows of equal length, if there are any.
     pub(crate) fn exclusions(&mut self) -> Option<couplings::Exclusions> {
         let bonds = self.model.particles().bonds.as_ref().filter(|_| self.leaves_pairs_out())?;
-        let width = bonds.most_spared().max(1) as u64;
+        let width = bonds.most_excluded().max(1) as u64;
         self.plan.constants.push((Constant::Exclusions, width as f64));
         let table = ExclusionTable { bonds: bonds.clone(), particles: self.particles, width };
         self.plan.add_long_table(Array::Exclusions, table);

@@ -35,7 +35,7 @@ pub struct BondKind {
     pub bath: Option<BathStep>,
     /// Temperature kT of the bath.
     pub temperature: f64,
-    /// Whether bonded particles are spared each other's repulsion.
+    /// Whether the repulsion between bonded particles is excluded.
     pub exclude_repulsion: bool,
 }
 
@@ -109,12 +109,12 @@ impl Bonds {
         self.runs.alike()
     }
 
-    /// The largest number of partners whose repulsion a particle is spared.
-    pub(crate) fn most_spared(&self) -> usize {
+    /// The largest number of partners of a particle between which the repulsion is excluded.
+    pub(crate) fn most_excluded(&self) -> usize {
         self.runs.most_partners(|kind| self.kinds[kind as usize].exclude_repulsion)
     }
 
-    /// Number of bonds whose ends are spared each other's repulsion.
+    /// Number of bonds that exclude the repulsion of their ends.
     pub(crate) fn excluding(&self) -> u64 {
         self.runs.count_of(|kind| self.kinds[kind as usize].exclude_repulsion)
     }
@@ -125,8 +125,8 @@ impl Bonds {
     pub(crate) fn rounds(&self) -> Vec<Vec<(u32, Bond)>> {
         let mut rounds: Vec<Vec<(u32, Bond)>> = Vec::new();
         // A bit of each round that a particle has a bond in.
-        let mut taken = vec![0_u64; self.rubbed()];
-        for (place, bond) in self.rubbing() {
+        let mut taken = vec![0_u64; self.frictional_end()];
+        for (place, bond) in self.frictional() {
             let both = bond.ends.iter().fold(0, |both, end| both | taken[*end as usize]);
             let round = both.trailing_ones();
             if round >= Self::MOST_ROUNDS {
@@ -148,34 +148,34 @@ impl Bonds {
 
     /// The most bonds with friction that a particle may have where they relax in rounds: two that share a bond exclude
     /// that from one round less than twice as many.
-    pub(crate) const MOST_RUBBING: u32 = Self::MOST_ROUNDS / 2;
+    pub(crate) const MOST_FRICTIONAL: u32 = Self::MOST_ROUNDS / 2;
 
     /// The most bonds with friction that are put into rounds: a list of them takes two gigabytes then.
     pub(crate) const MOST_IN_ROUNDS: u64 = 1 << 27;
 
     /// A particle with more bonds with friction than that, and how many.
     pub(crate) fn most_crowded(&self) -> Option<(u32, u32)> {
-        let mut bonds = vec![0_u32; self.rubbed()];
-        for end in self.rubbing().flat_map(|(_, bond)| bond.ends) {
+        let mut bonds = vec![0_u32; self.frictional_end()];
+        for end in self.frictional().flat_map(|(_, bond)| bond.ends) {
             bonds[end as usize] += 1;
         }
         let most = (0..).zip(bonds).max_by_key(|(particle, bonds)| (*bonds, std::cmp::Reverse(*particle)));
-        most.filter(|(_, bonds)| *bonds > Self::MOST_RUBBING)
+        most.filter(|(_, bonds)| *bonds > Self::MOST_FRICTIONAL)
     }
 
     /// One more than the last particle with friction along a bond.
-    fn rubbed(&self) -> usize {
-        self.rubbing().flat_map(|(_, bond)| bond.ends).max().map_or(0, |last| last as usize + 1)
+    fn frictional_end(&self) -> usize {
+        self.frictional().flat_map(|(_, bond)| bond.ends).max().map_or(0, |last| last as usize + 1)
     }
 
     /// The bonds with friction, with their places among all.
-    fn rubbing(&self) -> impl Iterator<Item = (u32, Bond)> {
-        let rubs = |bond: &Bond| self.kinds[bond.kind as usize].bath.is_some();
-        self.iter().enumerate().filter(move |(_, bond)| rubs(bond)).map(|(place, bond)| (place as u32, bond))
+    fn frictional(&self) -> impl Iterator<Item = (u32, Bond)> {
+        let has_friction = |bond: &Bond| self.kinds[bond.kind as usize].bath.is_some();
+        self.iter().enumerate().filter(move |(_, bond)| has_friction(bond)).map(|(place, bond)| (place as u32, bond))
     }
 
     /// Number of bonds with friction.
-    pub(crate) fn rubbing_count(&self) -> u64 {
+    pub(crate) fn frictional_count(&self) -> u64 {
         self.runs.count_of(|kind| self.kinds[kind as usize].bath.is_some())
     }
 

@@ -155,7 +155,7 @@ struct BondTable {
 
 impl Words for BondTable {
     fn count(&self) -> u64 {
-        let relaxed = if self.relaxes { self.bonds.rubbing_count() } else { 0 };
+        let relaxed = if self.relaxes { self.bonds.frictional_count() } else { 0 };
         self.bonds.count().saturating_add(relaxed).saturating_mul(4).saturating_add(self.head.len() as u64)
     }
 

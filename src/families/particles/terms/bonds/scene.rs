@@ -86,15 +86,15 @@ fn check_rest_length(scene: &Scene, bonds: &BondsInteraction, path: &str, proble
 /// Where the velocities along bonds relax one after the other, there are few enough of them, and a particle has few
 /// enough.
 pub(super) fn check_rounds(bonds: &Bonds, problems: &mut Problems) {
-    let rubbing = bonds.rubbing_count();
-    if rubbing > Bonds::MOST_IN_ROUNDS {
-        let found = format!("`splitting` and {} bonds with friction", grouped(rubbing));
+    let frictional = bonds.frictional_count();
+    if frictional > Bonds::MOST_IN_ROUNDS {
+        let found = format!("`splitting` and {} bonds with friction", grouped(frictional));
         let accepted = format!("at most {}; or `cotter-reich`", grouped(Bonds::MOST_IN_ROUNDS));
         problems.refuse("integrator.type", found, accepted);
         return;
     }
     let Some((particle, bonds)) = bonds.most_crowded() else { return };
     let found = format!("`splitting` and {bonds} bonds with friction at particle {particle}");
-    let accepted = format!("at most {} at one particle; or `cotter-reich`", Bonds::MOST_RUBBING);
+    let accepted = format!("at most {} at one particle; or `cotter-reich`", Bonds::MOST_FRICTIONAL);
     problems.refuse("integrator.type", found, accepted);
 }

@@ -39,7 +39,7 @@ pub struct Jump {
 
 impl Term for ColouredNoise {
     fn energy_source(&self) -> Option<&'static str> {
-        Some("put in by the coloured noise")
+        Some("added by the coloured noise")
     }
 
     fn momentum_source(&self) -> Option<&'static str> {

@@ -153,8 +153,9 @@ impl PairForce {
             let (uncoupled, unmoved) = (one.fixed && other.fixed, one.frozen && other.frozen);
             let acting = tables.iter().map(|table| table[pair].repulsion);
             repulsions.push(acting.filter(|own| own.strength != 0.0 && !unmoved).collect());
-            let rubbing = tables.iter().zip(interactions).find(|(table, own)| own.bath.acts(table[pair].friction));
-            let Coefficients { friction, repulsion, exponent } = rubbing.map_or(&tables[0], |(table, _)| table)[pair];
+            let frictional = tables.iter().zip(interactions).find(|(table, own)| own.bath.acts(table[pair].friction));
+            let Coefficients { friction, repulsion, exponent } =
+                frictional.map_or(&tables[0], |(table, _)| table)[pair];
             let coefficient = if uncoupled { 0.0 } else { friction };
             frictions.push(PairFriction { coefficient, cutoff: repulsion.cutoff, exponent, uncoupled });
         }
@@ -176,14 +177,15 @@ impl PairForce {
     /// Finds the largest cutoff of all forces that there are, and gives it to pairs of species without friction, which
     /// need none.
     fn find_largest_cutoff(&mut self, repulsions: &[Vec<SoftRepulsion>]) {
-        let rubs = |friction: &PairFriction| self.bath.acts(friction.coefficient);
-        let of_frictions = self.frictions.iter().filter(|friction| rubs(friction)).map(|friction| friction.cutoff);
+        let has_friction = |friction: &PairFriction| self.bath.acts(friction.coefficient);
+        let of_frictions =
+            self.frictions.iter().filter(|friction| has_friction(friction)).map(|friction| friction.cutoff);
         let of_repulsions = repulsions.iter().flatten().map(|repulsion| repulsion.cutoff);
         let of_densities = self.many_body.map(|many_body| many_body.cutoff);
         if let Some(largest) = of_frictions.chain(of_repulsions).chain(of_densities).reduce(f64::max) {
             self.cutoff = largest;
         }
-        let exponent = self.frictions.iter().find(|friction| rubs(friction)).map(|friction| friction.exponent);
+        let exponent = self.frictions.iter().find(|friction| has_friction(friction)).map(|friction| friction.exponent);
         for friction in self.frictions.iter_mut().filter(|friction| !self.bath.acts(friction.coefficient)) {
             friction.cutoff = self.cutoff;
             friction.exponent = exponent.unwrap_or(friction.exponent);
@@ -278,9 +280,9 @@ impl PairForce {
     /// ```
     #[must_use]
     pub fn cutoff_between(&self, a: usize, b: usize) -> f64 {
-        let rubs = self.bath.acts(self.friction(a, b)).then(|| self.friction_cutoff(a, b));
+        let of_friction = self.bath.acts(self.friction(a, b)).then(|| self.friction_cutoff(a, b));
         let acting = self.repulsions(a, b).filter(|own| own.strength != 0.0).map(|own| own.cutoff);
-        acting.chain(rubs).reduce(f64::max).unwrap_or(self.cutoff)
+        acting.chain(of_friction).reduce(f64::max).unwrap_or(self.cutoff)
     }
 
     /// Range of friction and noise between two species.

@@ -127,17 +127,17 @@ impl Model {
     fn viscosity_of_friction(&self, force: &PairForce) -> f64 {
         let dimension = self.units.dimension;
         let temperature = self.particles().pair_temperature(self);
-        let (mut rubbed, mut carried) = (0.0, 0.0);
+        let (mut by_friction, mut carried) = (0.0, 0.0);
         for index in 0..self.species.len() {
             let density = self.densities(index).nth(index).map_or(0.0, |(_, density)| density);
             let of_pair = |(other, others): (usize, f64)| {
                 force.friction(index, other) * others * force.weighted_square(index, other, dimension, 1.0)
             };
             let divisor = (2 * dimension * (dimension + 2)) as f64;
-            rubbed += density * self.densities(index).map(of_pair).sum::<f64>() / divisor;
+            by_friction += density * self.densities(index).map(of_pair).sum::<f64>() / divisor;
             let rate = self.friction_rate(force, index);
             carried += if rate > 0.0 { density * temperature / (2.0 * rate) } else { 0.0 };
         }
-        if rubbed > 0.0 { rubbed / (rubbed + carried) } else { 0.0 }
+        if by_friction > 0.0 { by_friction / (by_friction + carried) } else { 0.0 }
     }
 }

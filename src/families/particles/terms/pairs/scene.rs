@@ -145,25 +145,25 @@ fn find_shared_friction<'a>(
     dpd: &DpdInteraction,
     species: &SpeciesNames<'a>,
 ) -> Option<(usize, [&'a str; 2])> {
-    let rubbing = RubbingPairs::new(dpd);
-    let others: Vec<(usize, RubbingPairs<'_>)> =
-        others.iter().map(|(index, other)| (*index, RubbingPairs::new(other))).collect();
+    let own = FrictionalPairs::new(dpd);
+    let others: Vec<(usize, FrictionalPairs<'_>)> =
+        others.iter().map(|(index, other)| (*index, FrictionalPairs::new(other))).collect();
     let names = species.names();
     let pairs = names.iter().enumerate().flat_map(|(place, a)| names[place..].iter().map(move |b| [*a, *b]));
-    let mut rubbed = pairs.filter(|pair| rubbing.have(*pair));
-    rubbed.find_map(|pair| {
+    let mut frictional = pairs.filter(|pair| own.have(*pair));
+    frictional.find_map(|pair| {
         let (index, _) = others.iter().find(|(_, other)| other.have(pair))?;
         Some((*index, pair))
     })
 }
 
 /// Pairs of species that have a bath in an interaction.
-struct RubbingPairs<'a> {
+struct FrictionalPairs<'a> {
     dpd: &'a DpdInteraction,
     own: HashMap<[&'a str; 2], &'a DpdPair>,
 }
 
-impl<'a> RubbingPairs<'a> {
+impl<'a> FrictionalPairs<'a> {
     fn new(dpd: &'a DpdInteraction) -> Self {
         Self { dpd, own: dpd.pairs.iter().map(|pair| (pair.key(), pair)).collect() }
     }

@@ -1,4 +1,4 @@
-// Voronoi cells take up what came through their faces: slot exchange/change, see voronoi/cell.
+// Voronoi cells receive what came through their faces: slot exchange/change, see voronoi/cell.
 const UNITS_LIMIT: i32 = 1073741824; // 2^30
 
 // Slot voronoi/motion: the position after the exchange, from the velocity before it or after it.
@@ -10,10 +10,10 @@ fn moved_place(cell: Particle, before: Vector) -> vec4<u32> { return cell.positi
 // Default: off, cells at the temperature of the scene have no energy of their own. The plan chooses `kept` if they do.
 fn check_energy(cell: Particle) {}
 
-// Every cell takes up what came through its faces. One invocation a cell; reads and clears `exchanges` or `pushes`, updates the
+// Every cell receives what came through its faces. One invocation a cell; reads and clears `exchanges` or `pushes`, updates the
 // particle.
 @compute @workgroup_size(WORKGROUP)
-fn take_up_exchange(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+fn apply_exchange(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let slot = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (slot >= PARTICLES) { return; }
     var me = stored_particle(slot);
