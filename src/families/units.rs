@@ -2,7 +2,7 @@
 
 use super::particles::model::forces;
 use super::particles::terms;
-use super::{ChainTrios, PairForce, Species, speeds};
+use super::{PairForce, Species, speeds};
 use crate::document::Scene;
 
 /// A momentum that forces make this many times larger than motion from elsewhere is the one that integers have to hold: they
@@ -17,16 +17,11 @@ const RESOLVED: f64 = 4096.0;
 /// A power of two near 2 to the minus `bits` of the largest momentum a species has for a reason: thermal, that of its
 /// fastest listed particle or of one that a coloured noise has pushed, or, in a scene without any of these, that of a
 /// particle that has rolled down the repulsion. Where forces make momenta far beyond, as in a cold scene, it follows those.
-pub(super) fn momentum_unit(
-    scene: &Scene,
-    species: &[Species],
-    pair_force: Option<&PairForce>,
-    chains: Option<&ChainTrios>,
-    bits: f64,
-) -> f64 {
+pub(super) fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Option<&PairForce>, bits: f64) -> f64 {
     let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
     let hottest = speeds::hottest(scene).max(scene.temperature);
-    let mut scale = (heaviest * hottest).sqrt().max(chains.map_or(0.0, ChainTrios::momentum_scale));
+    let own = terms::acting(scene).map(|term| term.momentum_of_particles(scene)).fold(0.0, f64::max);
+    let mut scale = (heaviest * hottest).sqrt().max(own);
     for group in &scene.particles {
         scale = scale.max(group.mass * speeds::given(scene, group).unwrap_or(0.0) / 8.0);
     }

@@ -25,9 +25,8 @@ pub use layout::{CoupledLayout, KeptArray, ListLayout, ParticleLayout};
 
 use super::reference::Stepper;
 use super::{
-    Angles, BathStep, BodyForces, Bonds, ChainGroup, ChainTrios, ColouredNoise, Column, ExactMean, KeptQuantity,
-    KeptSum, Limit, Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, Tethers,
-    units,
+    Angles, BathStep, BodyForces, Bonds, ChainGroup, ColouredNoise, Column, ExactMean, KeptQuantity, KeptSum, Limit,
+    Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, Tethers, units,
 };
 use crate::document::{BondPotential, Integrator, PairRelaxation, Problems, Scene, Surroundings, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
@@ -63,8 +62,9 @@ pub struct Particles {
     pub bonds: Option<Bonds>,
     /// Angles between bonds, if they are stiff.
     pub angles: Option<Angles>,
-    /// Harmonic chains, if the scene is of them; their springs are among the bonds.
-    pub chains: Option<ChainTrios>,
+    /// True if particles are of systems side by side that never meet, each at a temperature of its own; then they lie
+    /// species by species.
+    pub side_by_side: bool,
 }
 
 /// What acts on the particles of other families.
@@ -157,7 +157,6 @@ impl Particles {
             self.bonds.as_ref().map(term),
             self.angles.as_ref().map(term),
             self.tethers.as_ref().map(term),
-            self.chains.as_ref().map(term),
         ];
         before.into_iter().flatten().chain(self.walls.iter().map(term)).chain(after.into_iter().flatten()).collect()
     }
@@ -222,7 +221,7 @@ impl Particles {
 
 impl Physics for Particles {
     fn momentum_unit(&self, scene: &Scene, species: &[Species]) -> f64 {
-        units::momentum_unit(scene, species, self.pair_force.as_ref(), self.chains.as_ref(), 24.0)
+        units::momentum_unit(scene, species, self.pair_force.as_ref(), 24.0)
     }
 
     fn gaps(&self, scene: &Scene) -> [f64; 3] {
@@ -263,7 +262,7 @@ impl Physics for Particles {
     }
 
     fn reaches_equilibrium(&self) -> bool {
-        self.chains.is_none() && self.body_forces.is_none() && !self.walls_move() && self.shear.is_none()
+        !self.side_by_side && self.body_forces.is_none() && !self.walls_move() && self.shear.is_none()
     }
 
     fn is_conservative(&self, model: &Model) -> bool {
@@ -290,8 +289,8 @@ impl Physics for Particles {
         warnings::warnings(self, scene, model)
     }
 
-    fn complete_start(&self, state: &mut State, _: &Scene, model: &Model, thermal: &[usize]) {
-        start::complete(self, state, model, thermal);
+    fn complete_start(&self, state: &mut State, scene: &Scene, model: &Model, thermal: &[usize]) {
+        start::complete(self, state, scene, model, thermal);
     }
 
     fn may_refuse_starts(&self) -> bool {

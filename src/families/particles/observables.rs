@@ -52,8 +52,7 @@ pub(super) fn columns(particles: &Particles, model: &Model) -> Vec<Column> {
     if particles.oscillates_in_memory() {
         columns.extend(column::BATH_PRODUCTS);
     }
-    // Harmonic chains are at temperature zero and at that of the scene side by side.
-    columns.extend(particles.chains.is_none().then_some(column::TEMPERATURE));
+    columns.extend((!particles.side_by_side).then_some(column::TEMPERATURE));
     // Curvature is summed over all particles, and the force on those that are held is not one of heat.
     if potential && !model.has_fixed_particles() && particles.angles.is_none() {
         columns.push(column::CONFIGURATIONAL_TEMPERATURE);

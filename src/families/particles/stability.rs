@@ -356,10 +356,10 @@ fn places(scene: &Scene, bonds: &Bonds) -> Vec<usize> {
     (0..scene.interactions.len()).filter(is_bonds).collect()
 }
 
-/// The species of all particles; those of harmonic chains lie species by species.
+/// The species of all particles.
 fn numbered_species<'a>(scene: &'a Scene, model: &Model) -> NumberedSpecies<'a> {
-    let of_chains = model.species.iter().filter(|_| model.particles().chains.is_some());
-    NumberedSpecies::new(scene).with(of_chains.map(|species| species.count))
+    let side_by_side = model.species.iter().filter(|_| model.particles().side_by_side);
+    NumberedSpecies::new(scene).with(side_by_side.map(|species| species.count))
 }
 
 /// Every bond by itself, on the reduced mass of its ends.

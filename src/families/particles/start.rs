@@ -2,12 +2,17 @@
 //! with.
 
 use super::space::walls::plan as walls;
+use super::terms;
+use crate::document::Scene;
 use crate::families::start::bring_to_rest;
 use crate::families::{Model, Particles};
 use crate::state::{State, WallImpulse};
 
 /// Gives particles at their places what they start with.
-pub(super) fn complete(particles: &Particles, state: &mut State, model: &Model, thermal: &[usize]) {
+pub(super) fn complete(particles: &Particles, state: &mut State, scene: &Scene, model: &Model, thermal: &[usize]) {
+    for term in terms::acting(scene) {
+        term.add_particles(scene, state, model);
+    }
     if model.exchanges_momentum() {
         let masses: Vec<f64> = state.species.iter().map(|species| model.species[*species as usize].mass).collect();
         bring_to_rest(state, thermal, model.units.dimension, |id| masses[id]);

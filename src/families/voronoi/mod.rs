@@ -32,7 +32,7 @@ use std::ops::Range;
 impl Physics for Voronoi {
     fn momentum_unit(&self, scene: &Scene, species: &[Species]) -> f64 {
         // Cells that come close throw each other apart, at steps that are too long for them by hundreds of these momenta.
-        units::momentum_unit(scene, species, None, None, 20.0)
+        units::momentum_unit(scene, species, None, 20.0)
     }
 
     /// Those that jump over many others see nothing of them, and none may go round the box.

@@ -7,7 +7,7 @@ use crate::measure::statistics::Estimate;
 use crate::plot::{
     Chart, chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart,
 };
-use crate::scene::{Interaction, Scene};
+use crate::scene::Scene;
 use crate::state::Reported;
 use crate::table::Table;
 use serde_json::{Map, Value, json};
@@ -22,8 +22,8 @@ pub(super) struct Chain;
 const PULSES: usize = 1;
 
 impl Descriptor for Chain {
-    fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling> {
-        let every = scene.output.chain.as_ref().filter(|_| model.particles().chains.is_some())?.every;
+    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+        let every = scene.output.chain.as_ref()?.every;
         Some(Sampling { every, ..Sampling::default() })
     }
 
@@ -33,16 +33,16 @@ impl Descriptor for Chain {
 
     /// Samples; of each the step, energies and displacements of the chains with a pulse; and what is kept of each chain
     /// in equilibrium.
-    fn parts(&self, _: &Scene, model: &Model) -> Vec<Part> {
-        let Some(trios) = &model.particles().chains else { return Vec::new() };
+    fn parts(&self, scene: &Scene, _: &Model) -> Vec<Part> {
+        let Some(trios) = ChainTrios::from_scene(scene) else { return Vec::new() };
         let clusters = trios.thermal.clusters;
         let thermal = [Part::series(clusters), Part::sums(clusters.saturating_sub(1)), Part::series(2)];
-        let pulse = [Part::sums(1), Part::series(pulse_width(trios))];
+        let pulse = [Part::sums(1), Part::series(pulse_width(&trios))];
         pulse.into_iter().chain(std::iter::repeat_n(thermal, 3).flatten()).collect()
     }
 
-    fn numbers_of_state(&self, Setting { model, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
-        let trios = model.particles().chains.as_ref()?;
+    fn numbers_of_state(&self, Setting { scene, model, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
+        let trios = ChainTrios::from_scene(scene)?;
         let [pulse, thermal] = trios.strands();
         let clusters = |number: usize, strand: &Strand| {
             let (displacements, momenta) = strand.motion(&state.positions, &state.momenta, &model.units);
@@ -64,15 +64,15 @@ impl Descriptor for Chain {
     }
 
     fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
-        let trios = model.particles().chains.as_ref()?;
-        let pulses = gathered.part(PULSES).chunks_exact(pulse_width(trios));
+        let trios = ChainTrios::from_scene(scene)?;
+        let pulses = gathered.part(PULSES).chunks_exact(pulse_width(&trios));
         let thermal = [0, 1, 2].map(|chain| {
             let [momenta, separations, history] = [0, 1, 2].map(|part| gathered.part(PULSES + 1 + 3 * chain + part));
             ThermalSeries::from_parts(momenta, separations, history.as_chunks().0)
         });
         let interval = scene.output.chain.as_ref()?.every as f64 * model.time_step;
-        let pulses = pulses.map(|numbers| PulseSample::new(numbers, trios, model.time_step)).collect();
-        let chains = Chains { trios, interval, pulses, thermal };
+        let pulses = pulses.map(|numbers| PulseSample::new(numbers, &trios, model.time_step)).collect();
+        let chains = Chains { trios: &trios, interval, pulses, thermal };
         let kernels = chains.kernels();
         let pulse = chains.pulse();
         let result = chains.results(&pulse, &kernels);
@@ -361,20 +361,16 @@ fn memory(kernels: &[MemoryKernel]) -> Table {
 
 /// The conditions under which the numbers of pulses, of the memory and of equilibrium were found, for their plots.
 fn subtitles(scene: &Scene) -> [String; 3] {
-    let Some(chain) = scene.interactions.iter().find_map(|interaction| match interaction {
-        Interaction::HarmonicChain(chain) => Some(chain),
-        _ => None,
-    }) else {
-        return Default::default();
-    };
-    let [size, friction, temperature] = [f64::from(chain.cluster_size), chain.friction, scene.temperature];
+    let Some(trios) = ChainTrios::from_scene(scene) else { return Default::default() };
+    let ChainTrios { pulse, width, thermal, temperature, .. } = trios;
+    let (size, friction) = (pulse.cluster_size, pulse.reduced_friction);
     [
         format!(
-            "{} clusters of {size} beads, Gaussian pulse of width {} clusters at rest, kT = 0, γ* = {friction}",
-            chain.pulse.clusters, chain.pulse.width
+            "{} clusters of {size} beads, Gaussian pulse of width {width} clusters at rest, kT = 0, γ* = {friction}",
+            pulse.clusters
         ),
         "exact, of clusters of n beads whose centres are held; the plateau lasts while ω_{0}t is far below n"
             .to_owned(),
-        format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", chain.equilibrium.clusters),
+        format!("{} clusters of {size} beads, kT = {temperature}, γ* = {friction}", thermal.clusters),
     ]
 }

@@ -134,7 +134,7 @@ fn damaged(problem: &str) -> Mistake {
 
 /// The particles of a state of a model.
 fn of_state(model: &Model, state: &State) -> Result<ParticleFile, Mistake> {
-    if !matches!(model.family, Family::Particles(_)) || model.particles().chains.is_some() {
+    if !matches!(model.family, Family::Particles(_)) || model.particles().side_by_side {
         let found = "found a run whose particles have more than a species, a position and a momentum";
         return Err(Mistake::new("", found, "a run of particles with forces between them"));
     }

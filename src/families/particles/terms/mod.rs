@@ -53,6 +53,14 @@ pub(crate) trait SceneTerm {
     /// Adds its numbers to those of a model.
     fn add(&self, scene: &Scene, species: &mut Vec<Species>, particles: &mut Particles);
 
+    /// Adds particles that it makes itself to a start.
+    fn add_particles(&self, _: &Scene, _: &mut State, _: &Model) {}
+
+    /// A momentum as large as those of particles that it makes itself.
+    fn momentum_of_particles(&self, _: &Scene) -> f64 {
+        0.0
+    }
+
     /// The largest momentum that its potential is expected to give a particle at the start.
     fn momentum(&self, _: &forces::Particles<'_>) -> f64 {
         0.0

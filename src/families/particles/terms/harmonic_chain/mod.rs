@@ -9,9 +9,8 @@ pub use chain::{HarmonicChain, SpringChain};
 pub use pulse::{HalfPulse, Pulse, half_pulses};
 pub use thermal_start::thermal_start;
 
-use super::{PlannedTerm, ReferenceTerm, Term};
-use crate::document::{BondPotential, Generator, HarmonicChainInteraction, Scene};
-use crate::families::{BathStep, BondKind, Bonds, Model, Species};
+use crate::document::{BondPotential, Generator, HarmonicChainInteraction, Interaction, Scene};
+use crate::families::{BathStep, BondKind, Bonds, Species};
 use crate::noise::{self, stream};
 use crate::state::{State, Units};
 
@@ -99,16 +98,15 @@ const SPECIES: [&str; 3] = ["bead", "cluster", "end"];
 /// Index of the last of them.
 const END: usize = 2;
 
-impl PlannedTerm for ChainTrios {}
-impl ReferenceTerm for ChainTrios {}
-
-impl Term for ChainTrios {
-    fn complete_start(&self, state: &mut State, model: &Model) {
-        self.fill(state, &model.units, model.seed);
-    }
-}
-
 impl ChainTrios {
+    /// Those of a scene, if it is of harmonic chains.
+    pub(crate) fn from_scene(scene: &Scene) -> Option<Self> {
+        scene.interactions.iter().find_map(|interaction| match interaction {
+            Interaction::HarmonicChain(chain) => Some(Self::new(chain, scene)),
+            _ => None,
+        })
+    }
+
     pub(crate) fn new(interaction: &HarmonicChainInteraction, scene: &Scene) -> Self {
         let chain = |clusters: u32| HarmonicChain {
             clusters: clusters as usize,

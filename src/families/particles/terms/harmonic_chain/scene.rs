@@ -4,7 +4,8 @@ use super::ChainTrios;
 use crate::document::{HarmonicChainInteraction, Problems, Scene, SpeciesNames};
 use crate::families::particles::combinations::Feature;
 use crate::families::particles::terms::{SceneTerm, Springs};
-use crate::families::{Particles, Species};
+use crate::families::{Model, Particles, Species};
+use crate::state::State;
 
 /// Springs are this many standard deviations of their length long, so that they never turn over.
 const LONGEST_EXTENSION: f64 = 8.0;
@@ -58,7 +59,15 @@ impl SceneTerm for HarmonicChainInteraction {
         let trios = ChainTrios::new(self, scene);
         species.extend(trios.species());
         trios.add_bonds(particles.bonds.get_or_insert_default(), scene.time.step);
-        particles.chains = Some(trios);
+        particles.side_by_side = true;
+    }
+
+    fn add_particles(&self, scene: &Scene, state: &mut State, model: &Model) {
+        ChainTrios::new(self, scene).fill(state, &model.units, model.seed);
+    }
+
+    fn momentum_of_particles(&self, scene: &Scene) -> f64 {
+        ChainTrios::new(self, scene).momentum_scale()
     }
 
     /// Half the box is checked with their spacing.
