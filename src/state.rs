@@ -561,9 +561,10 @@ impl State {
     /// ```
     #[must_use]
     pub fn exchanged_momentum(&self) -> [i64; 3] {
-        let (total, put_in) = (self.total_momentum(), self.account.first().copied().unwrap_or_default().momentum());
+        let (total, from_body_forces) =
+            (self.total_momentum(), self.account.first().copied().unwrap_or_default().momentum());
         let taken = |axis: usize| self.walls.iter().map(|wall| wall.momentum()[axis]).sum::<i64>();
-        std::array::from_fn(|axis| total[axis] - put_in[axis] + taken(axis))
+        std::array::from_fn(|axis| total[axis] - from_body_forces[axis] + taken(axis))
     }
 
     /// Total momentum in integer units.

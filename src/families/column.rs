@@ -94,10 +94,10 @@ pub(crate) fn motion(dimension: usize) -> Vec<Column> {
 }
 
 /// Impulse and work of body forces.
-pub(crate) fn put_in(dimension: usize) -> Vec<Column> {
+pub(crate) fn body_forces(dimension: usize) -> Vec<Column> {
     const MOMENTUM: [&str; 3] = ["body_force_momentum_x", "body_force_momentum_y", "body_force_momentum_z"];
-    let momentum = components(MOMENTUM, dimension, |row| row.put_in.momentum);
-    [momentum, vec![column("body_force_work", |row, _| row.put_in.work)]].concat()
+    let momentum = components(MOMENTUM, dimension, |row| row.from_body_forces.momentum);
+    [momentum, vec![column("body_force_work", |row, _| row.from_body_forces.work)]].concat()
 }
 
 /// Momentum absorbed by each wall: by the axis that it crosses, lower before upper.

@@ -35,7 +35,7 @@ pub use field::{Field, FieldError};
 pub use instability::Instability;
 pub use limits::{Beyond, LargestStep, Limit, largest_steps, limits};
 pub use model::{Model, Species};
-pub use observables::{BathProducts, CellObservables, Observables, OnWalls, PutIn};
+pub use observables::{BathProducts, CellObservables, Observables, OnWalls, Transfer};
 pub(crate) use particles::chains::mirrored;
 pub(crate) use particles::model::Alike;
 pub use particles::model::{Angle, Bond, ChainGroup, Link, Walks};

@@ -56,9 +56,9 @@ pub struct Observables {
     pub bath_square: f64,
     /// Mean products of oscillators with their baths.
     pub bath_products: BathProducts,
-    /// What body forces have added since the start.
-    pub put_in: PutIn,
-    /// What walls have absorbed since the start.
+    /// Momentum and work of body forces since the start.
+    pub from_body_forces: Transfer,
+    /// Momentum that walls have absorbed since the start, and their work.
     pub on_walls: OnWalls,
     /// What is measured of Voronoi cells, in Voronoi DPD.
     pub cells: Option<CellObservables>,
@@ -76,16 +76,16 @@ pub struct BathProducts {
     pub momentum_displacement: f64,
 }
 
-/// What body forces have added since the start of a run.
+/// Momentum and work that body forces have added since the start of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PutIn {
+pub struct Transfer {
     /// Momentum, the sum of the impulses on all particles.
     pub momentum: [f64; 3],
     /// Work: force times displacement over all drifts so far.
     pub work: f64,
 }
 
-/// What walls have absorbed since the start of a run.
+/// Momentum that walls have absorbed since the start of a run, and their work.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct OnWalls {
     /// Momentum of the lower and the upper wall across x, then y, then z.
@@ -239,7 +239,7 @@ mod tests {
         bath_energy: 0.0,
         bath_square: 0.0,
         bath_products: BathProducts { momentum: 0.0, displacement: 0.0, momentum_displacement: 0.0 },
-        put_in: PutIn { momentum: [0.0; 3], work: 0.0 },
+        from_body_forces: Transfer { momentum: [0.0; 3], work: 0.0 },
         on_walls: OnWalls { momentum: [[0.0; 3]; 6], sheared: 0.0, work: 0.0 },
         cells: None,
     };

@@ -190,8 +190,8 @@ fn losses(case: &Case, gpu: &Gpu, options: Options) -> Vec<String> {
             let mut found = sample.sums[first..first + momentum.len()].to_vec();
             if model.particles().body_forces.is_some() {
                 // What they have added comes last.
-                let put_in = &sample.sums[sample.sums.len() - 4..];
-                found.iter_mut().zip(put_in).for_each(|(found, put_in)| *found -= put_in);
+                let from_body_forces = &sample.sums[sample.sums.len() - 4..];
+                found.iter_mut().zip(from_body_forces).for_each(|(found, from_body_forces)| *found -= from_body_forces);
             }
             // So is what walls, or boundaries that shear, have absorbed, where there are no body forces.
             let walls = 2 * model.particles().walls.len() + usize::from(model.particles().shear.is_some());

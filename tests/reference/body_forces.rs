@@ -57,11 +57,11 @@ fn forces(dimension: usize) -> Vec<Vec<Value>> {
 fn same_account(found: &Observables, expected: &Observables, model: &Model, exact: bool, steps: u64, what: &str) {
     let halves = 2.0 * (steps * model.particle_count()) as f64 * model.units.momentum;
     for axis in 0..3 {
-        let [a, b] = [found, expected].map(|observables| observables.put_in.momentum[axis]);
+        let [a, b] = [found, expected].map(|observables| observables.from_body_forces.momentum[axis]);
         assert!((a - b).abs() <= if exact { 0.0 } else { halves }, "momentum along {axis}: {a}, {b} ({what})");
     }
     let strongest = 10.0 * model.time_step * (steps * model.particle_count()) as f64;
-    let [a, b] = [found, expected].map(|observables| observables.put_in.work);
+    let [a, b] = [found, expected].map(|observables| observables.from_body_forces.work);
     assert!((a - b).abs() <= 1e-5 * strongest, "work: {a}, {b} ({what})");
 }
 
@@ -116,7 +116,7 @@ fn body_forces_beside_others_agree_with_the_reference() {
 /// To the last bit: the momentum is that of the start and what body forces have added. The impulses of a uniform force add up to its
 /// part in every step, however small, less than a unit a particle off at either end of the steps.
 #[test]
-fn momentum_is_what_was_put_in() {
+fn momentum_is_what_forces_add() {
     const STEPS: u64 = 200;
     for (number, integrator) in INTEGRATORS.iter().enumerate() {
         let edges = BOXES[1 + number % 2];
@@ -159,8 +159,8 @@ fn energy_is_the_work_that_was_done() {
             document["output"]["energies"]["every"] = json!(100);
             let scene = read(&document);
             for (name, [first, last]) in before_and_after(&scene, 500) {
-                let (gained, work) = (last.total_energy() - first.total_energy(), last.put_in.work);
-                assert_eq!(first.put_in.work, 0.0);
+                let (gained, work) = (last.total_energy() - first.total_energy(), last.from_body_forces.work);
+                assert_eq!(first.from_body_forces.work, 0.0);
                 assert!(work.abs() > 20.0, "{work}: too little to say something");
                 assert!((gained - work).abs() < 1e-3 * last.total_energy(), "{name}: {gained} {work}");
             }

@@ -91,7 +91,7 @@ fn agree_in_motion(document: &Value, exchanged: impl Fn(&State, [i64; 3], &str))
     // Velocities of walls are a few units.
     assert!((measured.on_walls.work - expected.on_walls.work).abs() <= 20.0 * scale);
     // Work is a sum in single precision of impulses times velocities of a few units.
-    let [a, b] = [measured.put_in.work, expected.put_in.work];
+    let [a, b] = [measured.from_body_forces.work, expected.from_body_forces.work];
     let strongest = 10.0 * model.time_step * STEPS as f64 * state.len() as f64;
     assert!((a - b).abs() <= 1e-5 * strongest, "work: {a}, {b}\n{document:#}");
 }
@@ -463,7 +463,7 @@ fn energy_is_the_work_that_was_done() {
         let scene = read(&document);
         for (name, [first, last]) in before_and_after(&scene, 500) {
             let gained = last.total_energy() - first.total_energy();
-            let [walls, forces] = [last.on_walls.work, last.put_in.work];
+            let [walls, forces] = [last.on_walls.work, last.from_body_forces.work];
             assert!(walls.abs() > 20.0 && forces.abs() > 5.0, "{walls}, {forces}: too little to say something");
             assert!((gained - walls - forces).abs() < 1e-3 * last.total_energy(), "{name}: {gained} {walls} {forces}");
         }

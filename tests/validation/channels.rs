@@ -160,8 +160,12 @@ fn poiseuille(scene: &Scene, force: f64) -> [f64; 2] {
     }
     assert!((viscosity / 0.84 - 1.0).abs() < 0.05 + 0.03, "{viscosity}");
     let count = scene.particles[0].resolved_count(&scene.space) as f64;
-    let put_in = force * count / AREA;
-    assert!(((flow.stress[0] + flow.stress[1]) / put_in - 1.0).abs() < 0.02, "{:?} {put_in}", flow.stress);
+    let from_body_forces = force * count / AREA;
+    assert!(
+        ((flow.stress[0] + flow.stress[1]) / from_body_forces - 1.0).abs() < 0.02,
+        "{:?} {from_body_forces}",
+        flow.stress
+    );
     [slip, viscosity]
 }
 
@@ -289,8 +293,8 @@ fn momentum_under_opposed_forces_over_a_hundred_thousand_steps() {
         for _ in 0..200 {
             run.step(500);
             let state = run.state();
-            let put_in = state.total_momentum()[0] - start.total_momentum()[0];
-            most = most.max(put_in.abs());
+            let from_body_forces = state.total_momentum()[0] - start.total_momentum()[0];
+            most = most.max(from_body_forces.abs());
             assert_eq!(state.exchanged_momentum(), start.total_momentum(), "{integrator}, step {}", state.step);
         }
         println!("| {integrator} | most momentum that forces had put in | {:.1} |", most as f64 * model.units.momentum);

@@ -273,7 +273,7 @@ fn the_poiseuille_scene_gives_the_viscosity() {
     let mut run = Device::new(&scene);
     let mut work = || {
         run.step(1500);
-        run.observe().put_in.work
+        run.observe().from_body_forces.work
     };
     let before = work();
     let done = (work() - before) / (6000.0 * 1500.0 * scene.time.step);

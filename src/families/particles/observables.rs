@@ -2,7 +2,7 @@
 
 use super::space::walls::plan as walls;
 use super::sums::sums;
-use crate::families::{BathProducts, Column, Model, Observables, OnWalls, Particles, PutIn, column};
+use crate::families::{BathProducts, Column, Model, Observables, OnWalls, Particles, Transfer, column};
 use crate::plan::Plan;
 use crate::shaders::Sum;
 
@@ -30,7 +30,7 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model)
             displacement: row.number(Sum::BathDisplacement) * products.displacement / coordinates,
             momentum_displacement: row.number(Sum::MomentumDisplacement) * products.momentum_displacement / coordinates,
         },
-        put_in: PutIn {
+        from_body_forces: Transfer {
             momentum: row.vector(Sum::GivenMomentum, 0).map(|sum| sum * units.momentum),
             work: row.number(Sum::GivenWork) * quanta.energy,
         },
@@ -64,7 +64,7 @@ pub(super) fn columns(particles: &Particles, model: &Model) -> Vec<Column> {
     }
     columns.extend(column::motion(model.units.dimension));
     if particles.body_forces.is_some() {
-        columns.extend(column::put_in(model.units.dimension));
+        columns.extend(column::body_forces(model.units.dimension));
     }
     columns.extend(column::on_walls(particles.walls.iter().map(|walls| walls.axis), model.units.dimension));
     columns.extend(particles.shear.is_some().then_some(column::SHEAR_MOMENTUM));

@@ -29,7 +29,7 @@ pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &
         mass: (0..state.len()).filter(|id| !held::is_frozen(model, state, *id)).map(|id| masses[id]).sum(),
         kinetic_energy,
         momentum: total.map(|units| units as f64 * model.units.momentum),
-        put_in: body_forces::reference::put_in(model, state, masses),
+        from_body_forces: body_forces::reference::transfer(model, state, masses),
         on_walls: walls::on_walls(model, state, momenta),
         ..Observables::zero(model, state)
     }

@@ -11,7 +11,7 @@ use crate::families::particles::reference::{Kicks, Moment, end_of_step};
 use crate::families::particles::space::walls::reference as walls;
 use crate::families::particles::terms::ReferenceTerm;
 use crate::families::reference::add;
-use crate::families::{Model, PutIn};
+use crate::families::{Model, Transfer};
 use crate::state::{Account, State};
 use std::f64::consts::TAU;
 
@@ -94,13 +94,13 @@ pub(crate) fn account(model: &Model, state: &State, masses: &[f64]) -> Vec<Accou
 }
 
 /// What body forces have given up to the report point of a state.
-pub(crate) fn put_in(model: &Model, state: &State, masses: &[f64]) -> PutIn {
-    let Some(forces) = model.particles().body_forces.as_ref() else { return PutIn::default() };
+pub(crate) fn transfer(model: &Model, state: &State, masses: &[f64]) -> Transfer {
+    let Some(forces) = model.particles().body_forces.as_ref() else { return Transfer::default() };
     let impulses = impulses(model, forces, state);
     let so_far = state.account.first().copied().unwrap_or_default();
     let [given, sum] = [so_far.momentum(), sum(&impulses)];
     let closed = if model.clock(state.step) > 0 { sum } else { [0; 3] };
-    PutIn {
+    Transfer {
         momentum: std::array::from_fn(|axis| (given[axis] + closed[axis]) as f64 * model.units.momentum),
         work: so_far.work() as f64 * quanta(model).energy + work(model, forces, state, masses, &impulses),
     }
