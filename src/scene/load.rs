@@ -11,7 +11,7 @@ use serde_json::Value;
 use crate::families::{self, StepCheck};
 
 use super::path::related;
-use super::shape::Substitute;
+use super::shape::{Schema, Substitute};
 use super::start::Fits;
 use super::{
     FileStart, KeptStart, Problem, Problems, Scene, SceneError, StateFiles, Warning, builtin, nearest, overrides,
@@ -230,7 +230,7 @@ impl Draft<'_> {
             self.steps.map(|steps| shorten::shorten(&mut document, steps, self.overrides)).unwrap_or_default();
         let left_out = |place: &str| document.pointer(place).is_none();
         let (integrator, colour) = (left_out("/integrator"), left_out("/output/snapshot/color"));
-        problems.append(shape::check(&SCHEMA, &mut document, substitute));
+        problems.append(shape::check(&SHAPE, &mut document, substitute));
         let groups = document.get("particles").and_then(Value::as_array).into_iter().flatten();
         let masses = groups.map(|group| group.get("mass").is_some()).collect();
         // What the shape check has mended may be readable, and then everything can be said at once.
@@ -308,6 +308,9 @@ fn says_where_particles_are(path: &str) -> bool {
 
 /// The schema, which is derived once.
 static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
+
+/// The same as documents are compared with it.
+static SHAPE: LazyLock<Schema<'_>> = LazyLock::new(|| Schema::read(&SCHEMA, &SCHEMA));
 
 /// The first mistake that overrides make in the shape of a scene, whatever it means.
 pub(crate) fn misshapen(name: &str, text: &str, overrides: &[String]) -> Option<Problem> {

@@ -3,8 +3,6 @@
 //! The schema is derived from the types, so keys, types, ranges and choices are written once. This reads the part of
 //! JSON Schema that the derivation emits; a test refuses a schema with a keyword that is not read here.
 
-use std::collections::HashMap;
-
 use serde_json::{Map, Value};
 
 use super::path::Path;
@@ -23,8 +21,8 @@ pub(super) enum Substitute {
 /// Checks `document` against `schema` and repairs it: afterwards it satisfies the schema wherever it can be read at all. Unknown keys,
 /// and optional values that cannot be read, are removed after they are reported; numbers out of range and lists of a wrong length
 /// are replaced; whole numbers written as `1e6` or `2000.0` become integers.
-pub(super) fn check(schema: &Value, document: &mut Value, substitute: Substitute) -> Problems {
-    let mut walker = Walker { root: schema, substitute, problems: Problems::default(), ranges: HashMap::new() };
+pub(super) fn check(schema: &Schema<'_>, document: &mut Value, substitute: Substitute) -> Problems {
+    let mut walker = Walker { substitute, problems: Problems::default() };
     walker.check(schema, document, &Path::Root);
     walker.problems
 }
@@ -36,88 +34,208 @@ fn is_reckonable(number: f64) -> bool {
     number == 0.0 || (MAGNITUDES[0]..=MAGNITUDES[1]).contains(&number.abs())
 }
 
-struct Walker<'a> {
-    root: &'a Value,
-    substitute: Substitute,
-    problems: Problems,
-    /// Ranges of the schemas of numbers met so far; of other schemas none.
-    ranges: HashMap<*const Value, Option<Range>>,
+/// What a schema accepts, together with those that it refers to.
+pub(super) struct Schema<'a> {
+    kind: Kind<'a>,
+    /// Whether there may be no value.
+    nullable: bool,
 }
 
-impl<'a> Walker<'a> {
-    /// Whether the value can be read, right or wrong.
-    fn check(&mut self, schema: &'a Value, value: &mut Value, path: &Path<'_>) -> bool {
-        if value.is_number() && self.is_right_number(schema, value) {
-            return true;
+enum Kind<'a> {
+    Any,
+    Boolean,
+    Number(Range),
+    /// A text of so many letters at least.
+    Text(u64),
+    List(List<'a>),
+    Object(Object<'a>),
+    Choices(Vec<&'a str>),
+    /// Several kinds of object, distinguished by the text of `type`.
+    Tagged(Vec<(&'a str, Schema<'a>)>),
+    Alternatives(Vec<Schema<'a>>),
+}
+
+struct List<'a> {
+    least: Option<u64>,
+    most: Option<u64>,
+    items: Box<Schema<'a>>,
+}
+
+struct Object<'a> {
+    known: Vec<(&'a str, Schema<'a>)>,
+    is_closed: bool,
+    required: Vec<&'a str>,
+    /// Keys that are required where those of a condition are not there.
+    otherwise: Vec<&'a str>,
+    condition: Vec<&'a str>,
+}
+
+impl<'a> Schema<'a> {
+    /// Reads a part of a schema, in which no type contains itself.
+    pub(super) fn read(root: &'a Value, schema: &'a Value) -> Self {
+        let read = |schema: &'a Value| Self::read(root, schema);
+        if let Some(reference) = schema["$ref"].as_str() {
+            return read(root.pointer(reference.strip_prefix('#').unwrap_or(reference)).unwrap_or(&Value::Null));
         }
-        let layers = layers(self.root, schema);
-        if let Some(alternatives) = layers.iter().find_map(|layer| alternatives(layer)) {
-            return self.check_alternatives(schema, alternatives, value, path);
-        }
-        if !self.check_type(schema, &layers, value, path) {
-            return false;
-        }
-        match value {
-            Value::Number(_) => self.check_number(schema, &layers, value, path),
-            Value::String(text) => self.check_text(schema, &layers, text, path),
-            Value::Array(list) => self.check_list(schema, &layers, list, path),
-            Value::Object(object) => self.check_object(&layers, object, path),
-            Value::Null | Value::Bool(_) => true,
-        }
+        let types = texts(&schema["type"]);
+        let nullable = types.contains(&"null");
+        let properties = schema["properties"].as_object().into_iter().flatten();
+        let kind = match types.into_iter().find(|kind| *kind != "null") {
+            Some("boolean") => Kind::Boolean,
+            Some("number" | "integer") => Kind::Number(Range::of(schema)),
+            Some("string") => Kind::Text(schema["minLength"].as_u64().unwrap_or(0)),
+            Some("array") => Kind::List(List {
+                least: schema["minItems"].as_u64(),
+                most: schema["maxItems"].as_u64(),
+                items: Box::new(read(&schema["items"])),
+            }),
+            Some("object") => Kind::Object(Object {
+                known: properties.map(|(key, schema)| (key.as_str(), read(schema))).collect(),
+                is_closed: schema["additionalProperties"] == false,
+                required: texts(&schema["required"]),
+                otherwise: texts(&schema["else"]["required"]),
+                condition: texts(&schema["if"]["required"]),
+            }),
+            _ => return Self::one_of(root, schema),
+        };
+        Self { kind, nullable }
     }
 
-    /// Whether a number is one that a schema of numbers accepts. Scenes may list a hundred thousand of them.
-    fn is_right_number(&mut self, schema: &'a Value, value: &Value) -> bool {
-        let root = self.root;
-        let range = self.ranges.entry(std::ptr::from_ref(schema)).or_insert_with(|| {
-            let layers = layers(root, schema);
-            let of_numbers = |layer: &&Value| {
-                types(layer).iter().all(|kind| ["number", "integer"].contains(kind)) && alternatives(layer).is_none()
-            };
-            (layers.iter().all(of_numbers) && layers.iter().any(|layer| !types(layer).is_empty()))
-                .then(|| Range::of(&layers))
-        });
-        let Some(range) = range else { return false };
-        value.as_f64().is_some_and(|number| {
-            let whole = value.is_u64() || value.is_i64();
-            range.contains(number) && (whole || !range.integer) && (range.integer || is_reckonable(number))
-        })
+    /// Reads a schema of alternatives.
+    fn one_of(root: &'a Value, schema: &'a Value) -> Self {
+        let Some(all) = schema["oneOf"].as_array().or_else(|| schema["anyOf"].as_array()) else {
+            return Self { kind: Kind::Any, nullable: false };
+        };
+        let tag = |branch: &'a Value| branch["properties"]["type"]["const"].as_str();
+        let read = |branch: &'a Value| Self::read(root, branch);
+        let mut others: Vec<Self> = all.iter().filter(|branch| branch["type"] != "null").map(read).collect();
+        let nullable = others.len() < all.len();
+        let kind = if let Some(choices) = all.iter().map(|choice| choice["const"].as_str()).collect() {
+            Kind::Choices(choices)
+        } else if let Some(tags) = all.iter().map(tag).collect::<Option<Vec<_>>>() {
+            Kind::Tagged(tags.into_iter().zip(others).collect())
+        } else if others.len() == 1 {
+            others.remove(0).kind
+        } else {
+            Kind::Alternatives(others)
+        };
+        Self { kind, nullable }
+    }
+
+    /// A phrase for what it accepts.
+    fn accepted(&self) -> String {
+        match &self.kind {
+            Kind::Any => "any value".to_owned(),
+            Kind::Boolean => "true or false".to_owned(),
+            Kind::Number(range) => range.describe(),
+            Kind::Text(0) => "text".to_owned(),
+            Kind::Text(_) => "text that is not empty".to_owned(),
+            Kind::List(List { least, most, items }) => {
+                let length = match (least, most) {
+                    (Some(least), Some(most)) if least == most => format!(" of {least} entries"),
+                    (Some(least), Some(most)) => format!(" of {least} to {most} entries"),
+                    (Some(least), None) => format!(" of at least {least} entries"),
+                    (None, Some(most)) => format!(" of at most {most} entries"),
+                    (None, None) => String::new(),
+                };
+                format!("a list{length}, each {}", items.accepted())
+            }
+            Kind::Object(object) => format!("an object with {}", quoted(object.names(), '`')),
+            Kind::Choices(choices) => quoted(choices.iter().copied(), '"'),
+            Kind::Tagged(kinds) => format!("an object whose `type` is {}", quoted(names(kinds), '"')),
+            Kind::Alternatives(all) => all.iter().map(Self::accepted).collect::<Vec<_>>().join(", or "),
+        }
+    }
+}
+
+impl List<'_> {
+    /// Gives a list of a wrong length a right one, if there are entries for it.
+    fn resize(&self, list: &mut Vec<Value>, substitute: Substitute) -> bool {
+        let least = self.least.unwrap_or(0) as usize;
+        let length = match substitute {
+            Substitute::Least => least,
+            Substitute::Most => self.most.map_or(list.len(), |most| most as usize).max(least),
+        };
+        if list.len() > length {
+            list.truncate(length);
+        } else if let Kind::Number(range) = &self.items.kind {
+            list.resize(length.min(least.max(8)), range.substitute(substitute));
+        }
+        list.len() >= least
+    }
+}
+
+impl<'a> Object<'a> {
+    fn schema(&self, key: &str) -> Option<&Schema<'a>> {
+        self.known.iter().find(|(name, _)| *name == key).map(|(_, schema)| schema)
+    }
+
+    /// Keys as messages name them.
+    fn names(&self) -> impl Iterator<Item = &'a str> {
+        names(&self.known).filter(|name| *name != "$schema")
+    }
+
+    /// Keys that an object has to have.
+    fn required(&self, object: &Map<String, Value>) -> Vec<&'a str> {
+        let is_there = |key: &&str| object.get(*key).is_some_and(|value| !value.is_null());
+        let otherwise = self.otherwise.iter().filter(|_| !self.condition.iter().all(is_there));
+        self.required.iter().chain(otherwise).copied().collect()
+    }
+}
+
+struct Walker {
+    substitute: Substitute,
+    problems: Problems,
+}
+
+impl Walker {
+    /// Whether the value can be read, right or wrong.
+    fn check(&mut self, schema: &Schema<'_>, value: &mut Value, path: &Path<'_>) -> bool {
+        match (&schema.kind, &mut *value) {
+            (_, Value::Null) if schema.nullable => true,
+            (Kind::Choices(choices), _) => {
+                let is_right = value.as_str().is_some_and(|text| choices.contains(&text));
+                if !is_right {
+                    let suggestion = value.as_str().and_then(|text| nearest(text, choices.iter().copied()));
+                    self.report(schema, path, found(value), suggestion);
+                }
+                is_right
+            }
+            (Kind::Tagged(kinds), _) => self.check_tagged(schema, kinds, value, path),
+            (Kind::Alternatives(all), _) => self.check_alternatives(all, value, path),
+            (Kind::Any, _) | (Kind::Boolean, Value::Bool(_)) => true,
+            (Kind::Number(range), Value::Number(_)) => self.check_number(schema, range, value, path),
+            (Kind::Text(least), Value::String(text)) => {
+                if (text.chars().count() as u64) < *least {
+                    self.report(schema, path, format!("found \"{text}\""), None);
+                }
+                true
+            }
+            (Kind::List(kind), Value::Array(list)) => self.check_list(schema, kind, list, path),
+            (Kind::Object(kind), Value::Object(object)) => self.check_object(kind, object, path),
+            _ => {
+                self.refuse(schema, value, path);
+                false
+            }
+        }
     }
 
     /// Reports that the value at `path` is not accepted by `schema`.
-    fn refuse(&mut self, schema: &Value, value: &Value, path: &Path<'_>) {
+    fn refuse(&mut self, schema: &Schema<'_>, value: &Value, path: &Path<'_>) {
         self.report(schema, path, found(value), None);
     }
 
     /// Reports what is not accepted by `schema`, and what may have been meant.
-    fn report(&mut self, schema: &Value, path: &Path<'_>, phrase: String, suggestion: Option<String>) {
-        let accepted = if self.problems.is_full() { String::new() } else { accepted(self.root, schema) };
+    fn report(&mut self, schema: &Schema<'_>, path: &Path<'_>, phrase: String, suggestion: Option<String>) {
+        let accepted = if self.problems.is_full() { String::new() } else { schema.accepted() };
         self.problems.push(Problem::new(path, phrase, accepted).suggest(suggestion));
     }
 
-    fn check_alternatives(
-        &mut self,
-        schema: &'a Value,
-        alternatives: &'a [Value],
-        value: &mut Value,
-        path: &Path<'_>,
-    ) -> bool {
-        if let Some(choices) = choices(alternatives) {
-            let is_right = value.as_str().is_some_and(|text| choices.contains(&text));
-            if !is_right {
-                let suggestion = value.as_str().and_then(|text| nearest(text, choices));
-                self.report(schema, path, found(value), suggestion);
-            }
-            return is_right;
-        }
-        if let Some(tags) = tags(self.root, alternatives) {
-            return self.check_tagged(schema, alternatives, &tags, value, path);
-        }
+    fn check_alternatives(&mut self, all: &[Schema<'_>], value: &mut Value, path: &Path<'_>) -> bool {
         // Whatever the value comes nearest to being is what its author meant.
         let mut fewest: Option<(Problems, Value, bool)> = None;
-        // But for a null, nobody means none by saying something.
-        for branch in alternatives.iter().filter(|branch| value.is_null() || branch["type"] != "null") {
-            let mut attempt = Walker { problems: Problems::default(), ranges: HashMap::new(), ..*self };
+        for branch in all {
+            let mut attempt = Self { problems: Problems::default(), ..*self };
             let mut mended = value.clone();
             let readable = attempt.check(branch, &mut mended, path);
             if fewest.as_ref().is_none_or(|(problems, ..)| attempt.problems.count() < problems.count()) {
@@ -134,82 +252,50 @@ impl<'a> Walker<'a> {
     /// One of several kinds of object, distinguished by the text of `type`.
     fn check_tagged(
         &mut self,
-        schema: &'a Value,
-        alternatives: &'a [Value],
-        tags: &[&'a str],
+        schema: &Schema<'_>,
+        kinds: &[(&str, Schema<'_>)],
         value: &mut Value,
         path: &Path<'_>,
     ) -> bool {
-        let kinds = quoted(tags, '`');
         let Value::Object(object) = value else {
-            let meant = value.as_str().and_then(|text| nearest(text, tags.iter().copied()));
+            let meant = value.as_str().and_then(|text| nearest(text, names(kinds)));
             self.report(schema, path, found(value), meant.map(|tag| format!("{{\"type\": \"{tag}\"}}")));
             return false;
         };
-        let place = path.key("type");
+        let (place, accepted) = (path.key("type"), quoted(names(kinds), '`'));
         match object.get("type") {
             None => {
                 // A misspelt `type` is both an unknown key and a missing one.
                 let suggestion = object.keys().find(|key| nearest(key, ["type"]).is_some());
                 let found = suggestion.map_or("missing".to_owned(), |key| format!("missing (found `{key}`)"));
-                self.problems.add(place, found, kinds);
+                self.problems.add(place, found, accepted);
             }
             Some(Value::String(text)) => {
-                if let Some(chosen) = tags.iter().position(|tag| tag == text) {
-                    return self.check(&alternatives[chosen], value, path);
+                if let Some((_, chosen)) = kinds.iter().find(|(tag, _)| tag == text) {
+                    return self.check(chosen, value, path);
                 }
-                let problem = Problem::new(place, format!("found \"{text}\""), kinds);
-                self.problems.push(problem.suggest(nearest(text, tags.iter().copied())));
+                let problem = Problem::new(place, format!("found \"{text}\""), accepted);
+                self.problems.push(problem.suggest(nearest(text, names(kinds))));
             }
-            Some(other) => self.problems.add(place, found(other), kinds),
+            Some(other) => self.problems.add(place, found(other), accepted),
         }
         false
     }
 
-    fn check_type(&mut self, schema: &Value, layers: &[&Value], value: &mut Value, path: &Path<'_>) -> bool {
-        for layer in layers {
-            let types = types(layer);
-            if types.is_empty() {
-                continue;
-            }
-            if types.contains(&"integer")
-                && let Some(number) = value.as_f64()
-                && value.is_f64()
-                && number.fract() == 0.0
-            {
-                if number >= 0.0 && number < u64::MAX as f64 {
-                    *value = (number as u64).into();
-                } else if number < 0.0 && number >= i64::MIN as f64 {
-                    *value = (number as i64).into();
-                }
-            }
-            let matches = match value {
-                Value::Null => types.contains(&"null"),
-                Value::Bool(_) => types.contains(&"boolean"),
-                Value::Number(number) => types.contains(&"number") || types.contains(&"integer") && !number.is_f64(),
-                Value::String(_) => types.contains(&"string"),
-                Value::Array(_) => types.contains(&"array"),
-                Value::Object(_) => types.contains(&"object"),
-            };
-            if !matches {
+    fn check_number(&mut self, schema: &Schema<'_>, range: &Range, value: &mut Value, path: &Path<'_>) -> bool {
+        let number = value.as_f64().unwrap_or(f64::NAN);
+        if range.integer && value.is_f64() {
+            let Some(whole) = whole(number) else {
                 self.refuse(schema, value, path);
                 return false;
-            }
+            };
+            *value = whole;
         }
-        true
-    }
-
-    fn check_number(&mut self, schema: &Value, layers: &[&Value], value: &mut Value, path: &Path<'_>) -> bool {
-        let range = Range::of(layers);
         // Within a whole number's format, u64 and f64 compare exactly enough: every bound is far below 2^53 or at 2^64.
-        let inside = value.as_f64().is_some_and(|number| range.contains(number))
-            && !(range.integer && value.as_i64().is_none() && value.as_u64().is_none());
-        if !inside {
+        if !range.contains(number) {
             self.refuse(schema, value, path);
             *value = range.substitute(self.substitute);
-        } else if !range.integer
-            && let Some(number) = value.as_f64().filter(|number| !is_reckonable(*number))
-        {
+        } else if !range.integer && !is_reckonable(number) {
             let [least, most] = MAGNITUDES;
             let accepted = format!(
                 "a number nearer to the others of the scene, of a magnitude from {least:e} to {most:e}: choose other units"
@@ -220,96 +306,45 @@ impl<'a> Walker<'a> {
         true
     }
 
-    fn check_text(&mut self, schema: &Value, layers: &[&Value], text: &str, path: &Path<'_>) -> bool {
-        for layer in layers {
-            let short = layer["minLength"].as_u64().is_some_and(|least| (text.chars().count() as u64) < least);
-            let other = layer.get("const").is_some_and(|only| only != text);
-            let none = layer["enum"].as_array().is_some_and(|choices| !choices.iter().any(|choice| choice == text));
-            if short || other || none {
-                let choices = layer["enum"].as_array().into_iter().flatten().filter_map(Value::as_str);
-                self.report(schema, path, format!("found \"{text}\""), nearest(text, choices));
-                return short;
-            }
-        }
-        true
-    }
-
-    fn check_list(&mut self, schema: &'a Value, layers: &[&'a Value], list: &mut Vec<Value>, path: &Path<'_>) -> bool {
+    fn check_list(&mut self, schema: &Schema<'_>, kind: &List<'_>, list: &mut Vec<Value>, path: &Path<'_>) -> bool {
         let mut readable = true;
-        for layer in layers {
-            let length = list.len() as u64;
-            let short = layer["minItems"].as_u64().is_some_and(|least| length < least);
-            let long = layer["maxItems"].as_u64().is_some_and(|most| length > most);
-            if short || long {
-                let entries = if length == 1 { "entry" } else { "entries" };
-                self.report(schema, path, format!("found a list of {length} {entries}"), None);
-                readable &= layer["minItems"] != layer["maxItems"] && self.resize(layer, list);
-            }
-            let first = layer["prefixItems"].as_array().map_or(&[][..], Vec::as_slice);
-            for (index, entry) in list.iter_mut().enumerate() {
-                if let Some(schema) = first.get(index).or_else(|| layer.get("items")) {
-                    readable &= self.check(schema, entry, &path.index(index));
-                }
-            }
+        let length = list.len() as u64;
+        if kind.least.is_some_and(|least| length < least) || kind.most.is_some_and(|most| length > most) {
+            let entries = if length == 1 { "entry" } else { "entries" };
+            self.report(schema, path, format!("found a list of {length} {entries}"), None);
+            readable = kind.least != kind.most && kind.resize(list, self.substitute);
+        }
+        for (index, entry) in list.iter_mut().enumerate() {
+            readable &= self.check(&kind.items, entry, &path.index(index));
         }
         readable
     }
 
-    /// Gives a list of a wrong length a right one, if there are entries for it.
-    fn resize(&self, layer: &'a Value, list: &mut Vec<Value>) -> bool {
-        let bound = |key: &str| layer[key].as_u64().map(|bound| bound as usize);
-        let (least, most) = (bound("minItems").unwrap_or(0), bound("maxItems"));
-        let length = match self.substitute {
-            Substitute::Least => least,
-            Substitute::Most => most.unwrap_or(list.len()).max(least),
-        };
-        let items = layers(self.root, &layer["items"]);
-        let is_number = items.iter().any(|layer| types(layer).iter().any(|kind| ["number", "integer"].contains(kind)));
-        if list.len() > length {
-            list.truncate(length);
-        } else if is_number {
-            list.resize(length.min(least.max(8)), Range::of(&items).substitute(self.substitute));
-        }
-        list.len() >= least
-    }
-
-    fn check_object(&mut self, layers: &[&'a Value], object: &mut Map<String, Value>, path: &Path<'_>) -> bool {
-        let known: Vec<(&'a str, &'a Value)> = layers
-            .iter()
-            .filter_map(|layer| layer["properties"].as_object())
-            .flatten()
-            .map(|(key, schema)| (key.as_str(), schema))
-            .collect();
-        let closed = layers
-            .iter()
-            .any(|layer| layer["additionalProperties"] == false || layer["unevaluatedProperties"] == false);
-        let required = layers.iter().filter_map(|layer| layer["required"].as_array()).flatten();
-        let required = required.chain(layers.iter().flat_map(|layer| required_otherwise(layer, object)));
-        let required: Vec<&str> = required.filter_map(Value::as_str).collect();
+    fn check_object(&mut self, kind: &Object<'_>, object: &mut Map<String, Value>, path: &Path<'_>) -> bool {
+        let required = kind.required(object);
         let mut missing: Vec<&str> = required.iter().copied().filter(|key| !object.contains_key(*key)).collect();
         let mut readable = missing.is_empty();
 
         let mut taken_out = Vec::new();
         for (key, value) in object.iter_mut() {
-            match known.iter().find(|(name, _)| name == key) {
-                Some((_, schema)) if self.check(schema, value, &path.key(key)) => {}
+            match kind.schema(key) {
+                Some(schema) if self.check(schema, value, &path.key(key)) => {}
                 // Without a list of interactions or pairs a scene would be another one.
                 Some(_) if value.is_array() => readable = false,
                 Some(_) => {
                     readable &= !required.contains(&key.as_str());
                     taken_out.push(key.clone());
                 }
-                None if closed && self.problems.is_full() => {
+                None if kind.is_closed && self.problems.is_full() => {
                     self.problems.add("", "", "");
                     taken_out.push(key.clone());
                 }
-                None if closed => {
+                None if kind.is_closed => {
                     // What is not there yet is likelier to be meant than what is; a missing key most of all.
-                    let names = known.iter().map(|(name, _)| *name);
-                    let suggestion = nearest(key, missing.iter().copied()).or_else(|| nearest(key, names.clone()));
+                    let suggestion = nearest(key, missing.iter().copied()).or_else(|| nearest(key, names(&kind.known)));
                     // A misspelt required key is one mistake, not two.
                     missing.retain(|key| suggestion.as_deref() != Some(*key));
-                    let accepted = names.filter(|name| *name != "$schema").collect::<Vec<_>>().join(", ");
+                    let accepted = kind.names().collect::<Vec<_>>().join(", ");
                     let problem = Problem::new(path.key(key), "unknown key", accepted);
                     self.problems.push(problem.suggest(suggestion));
                     taken_out.push(key.clone());
@@ -321,64 +356,38 @@ impl<'a> Walker<'a> {
             object.remove(&key);
         }
         for key in missing {
-            let schema = known.iter().find(|(name, _)| *name == key).map_or(&Value::Null, |(_, schema)| *schema);
-            self.problems.add(path.key(key), "missing", accepted(self.root, schema));
+            let accepted = kind.schema(key).map_or_else(|| "any value".to_owned(), Schema::accepted);
+            self.problems.add(path.key(key), "missing", accepted);
         }
         readable
     }
 }
 
-/// Keys that are required where those that an `if` requires are not there.
-fn required_otherwise<'a>(layer: &'a Value, object: &Map<String, Value>) -> &'a [Value] {
-    let is_there = |key: &Value| key.as_str().and_then(|key| object.get(key)).is_some_and(|value| !value.is_null());
-    let condition = layer["if"]["required"].as_array().map_or(&[][..], Vec::as_slice);
-    let otherwise = layer["else"]["required"].as_array().map_or(&[][..], Vec::as_slice);
-    if condition.iter().all(is_there) { &[] } else { otherwise }
+/// The texts of a list, or one alone.
+fn texts(value: &Value) -> Vec<&str> {
+    value.as_array().map_or(std::slice::from_ref(value), Vec::as_slice).iter().filter_map(Value::as_str).collect()
 }
 
-/// A schema and what it refers to, outermost first.
-fn layers<'a>(root: &'a Value, schema: &'a Value) -> Vec<&'a Value> {
-    let mut layers = vec![schema];
-    let mut current = schema;
-    while let Some(target) =
-        current["$ref"].as_str().and_then(|reference| root.pointer(reference.strip_prefix('#').unwrap_or(reference)))
-    {
-        layers.push(target);
-        current = target;
-    }
-    layers
-}
-
-fn alternatives(schema: &Value) -> Option<&[Value]> {
-    schema.get("oneOf").or_else(|| schema.get("anyOf"))?.as_array().map(Vec::as_slice)
-}
-
-/// The texts that are accepted, where every alternative is one.
-fn choices(alternatives: &[Value]) -> Option<Vec<&str>> {
-    alternatives.iter().map(|choice| choice["const"].as_str()).collect()
-}
-
-/// The texts of `type` that select an alternative, where every one has such a text.
-fn tags<'a>(root: &'a Value, alternatives: &'a [Value]) -> Option<Vec<&'a str>> {
-    let tag = |layer: &&'a Value| layer["properties"]["type"]["const"].as_str();
-    alternatives.iter().map(|branch| layers(root, branch).iter().find_map(tag)).collect()
+fn names<'a>(schemas: &[(&'a str, Schema<'_>)]) -> impl Iterator<Item = &'a str> {
+    schemas.iter().map(|(name, _)| *name)
 }
 
 /// Names in a row, each between quotes.
-fn quoted(names: &[&str], quote: char) -> String {
-    names.iter().map(|name| format!("{quote}{name}{quote}")).collect::<Vec<_>>().join(", ")
+fn quoted<'a>(names: impl Iterator<Item = &'a str>, quote: char) -> String {
+    names.map(|name| format!("{quote}{name}{quote}")).collect::<Vec<_>>().join(", ")
 }
 
-fn types(schema: &Value) -> Vec<&str> {
-    match &schema["type"] {
-        Value::String(only) => vec![only],
-        Value::Array(several) => several.iter().filter_map(Value::as_str).collect(),
-        _ => Vec::new(),
+/// A number as an integer, if it is one.
+fn whole(number: f64) -> Option<Value> {
+    match number {
+        _ if number.fract() != 0.0 => None,
+        0.0..18_446_744_073_709_551_616.0 => Some((number as u64).into()),
+        -9_223_372_036_854_775_808.0..0.0 => Some((number as i64).into()),
+        _ => None,
     }
 }
 
 /// The numbers a schema accepts.
-#[derive(Default)]
 struct Range {
     integer: bool,
     least: Option<f64>,
@@ -388,21 +397,19 @@ struct Range {
 }
 
 impl Range {
-    fn of(layers: &[&Value]) -> Self {
-        let mut range = Self::default();
-        for layer in layers {
-            range.integer |= types(layer).contains(&"integer");
-            let (least, most) = match layer["format"].as_str() {
-                Some("uint32") => (Some(0.0), Some(f64::from(u32::MAX))),
-                Some("uint64") => (Some(0.0), None),
-                _ => (None, None),
-            };
-            range.least = layer["minimum"].as_f64().or(least).or(range.least);
-            range.most = layer["maximum"].as_f64().or(most).or(range.most);
-            range.above = layer["exclusiveMinimum"].as_f64().or(range.above);
-            range.below = layer["exclusiveMaximum"].as_f64().or(range.below);
+    fn of(schema: &Value) -> Self {
+        let (least, most) = match schema["format"].as_str() {
+            Some("uint32") => (Some(0.0), Some(f64::from(u32::MAX))),
+            Some("uint64") => (Some(0.0), None),
+            _ => (None, None),
+        };
+        Self {
+            integer: texts(&schema["type"]).contains(&"integer"),
+            least: schema["minimum"].as_f64().or(least),
+            above: schema["exclusiveMinimum"].as_f64(),
+            most: schema["maximum"].as_f64().or(most),
+            below: schema["exclusiveMaximum"].as_f64(),
         }
-        range
     }
 
     fn contains(&self, number: f64) -> bool {
@@ -458,59 +465,6 @@ fn found(value: &Value) -> String {
     }
 }
 
-/// What a schema accepts, as a phrase.
-fn accepted(root: &Value, schema: &Value) -> String {
-    let layers = layers(root, schema);
-    if let Some(alternatives) = layers.iter().find_map(|layer| alternatives(layer)) {
-        if let Some(choices) = choices(alternatives) {
-            return quoted(&choices, '"');
-        }
-        if let Some(tags) = tags(root, alternatives) {
-            return format!("an object whose `type` is {}", quoted(&tags, '"'));
-        }
-        let phrases: Vec<String> = alternatives
-            .iter()
-            .filter(|branch| types(branch) != ["null"])
-            .map(|branch| accepted(root, branch))
-            .collect();
-        return phrases.join(", or ");
-    }
-    let kind = layers.iter().find_map(|layer| types(layer).into_iter().find(|kind| *kind != "null"));
-    let from_layers = |key: &str| layers.iter().find_map(|layer| layer.get(key));
-    match kind {
-        Some("number" | "integer") => Range::of(&layers).describe(),
-        Some("string") => match from_layers("enum").and_then(Value::as_array) {
-            Some(choices) => choices.iter().map(Value::to_string).collect::<Vec<_>>().join(", "),
-            None => match from_layers("const") {
-                Some(only) => only.to_string(),
-                None if from_layers("minLength").is_some() => "text that is not empty".to_owned(),
-                None => "text".to_owned(),
-            },
-        },
-        Some("boolean") => "true or false".to_owned(),
-        Some("array") => {
-            let bound = |key: &str| from_layers(key).and_then(Value::as_u64);
-            let length = match (bound("minItems"), bound("maxItems")) {
-                (Some(least), Some(most)) if least == most => format!(" of {least} entries"),
-                (Some(least), Some(most)) => format!(" of {least} to {most} entries"),
-                (Some(least), None) => format!(" of at least {least} entries"),
-                (None, Some(most)) => format!(" of at most {most} entries"),
-                (None, None) => String::new(),
-            };
-            match from_layers("items") {
-                Some(items) => format!("a list{length}, each {}", accepted(root, items)),
-                None => format!("a list{length}"),
-            }
-        }
-        Some("object") => {
-            let keys = layers.iter().filter_map(|layer| layer["properties"].as_object()).flat_map(Map::keys);
-            let keys: Vec<&str> = keys.map(String::as_str).filter(|key| *key != "$schema").collect();
-            format!("an object with {}", quoted(&keys, '`'))
-        }
-        _ => "any value".to_owned(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use serde_json::json;
@@ -520,13 +474,15 @@ mod tests {
     /// Every keyword in the published schema, by the place where keywords stand.
     fn keywords(schema: &Value, into: &mut Vec<String>) {
         let Some(object) = schema.as_object() else { return };
+        let may_stand_beside = |key: &String| ["$ref", "default", "description"].contains(&key.as_str());
+        assert!(!object.contains_key("$ref") || object.keys().all(may_stand_beside), "beside a reference: {object:?}");
         for (key, value) in object {
             into.push(key.clone());
             match key.as_str() {
                 "properties" | "$defs" => {
                     value.as_object().into_iter().flatten().for_each(|(_, schema)| keywords(schema, into));
                 }
-                "oneOf" | "anyOf" | "prefixItems" => {
+                "oneOf" | "anyOf" => {
                     value.as_array().into_iter().flatten().for_each(|schema| keywords(schema, into));
                 }
                 "items" => keywords(value, into),
@@ -548,7 +504,6 @@ mod tests {
             "description",
             // Of `if` and `else` the required keys are read; numbers of particles are checked, in better words, with their meaning.
             "else",
-            "enum",
             "exclusiveMaximum",
             "exclusiveMinimum",
             "format",
@@ -560,13 +515,11 @@ mod tests {
             "minLength",
             "minimum",
             "oneOf",
-            "prefixItems",
             "properties",
             "required",
             "then",
             "title",
             "type",
-            "unevaluatedProperties",
         ];
         let mut found = Vec::new();
         keywords(&crate::scene::schema(), &mut found);
@@ -576,16 +529,15 @@ mod tests {
     }
 
     fn messages(schema: &Value, mut value: Value) -> Vec<String> {
-        check(schema, &mut value, Substitute::Least).iter().map(ToString::to_string).collect()
+        check(&Schema::read(schema, schema), &mut value, Substitute::Least).iter().map(ToString::to_string).collect()
     }
 
     #[test]
-    fn references_with_siblings_are_one_object() {
+    fn references_lead_to_objects() {
         let schema = json!({
-            "type": "object", "$ref": "#/$defs/Inner", "properties": {"type": {"const": "x", "type": "string"}},
-            "unevaluatedProperties": false,
-            "$defs": {"Inner": {"type": "object", "properties": {"size": {"type": "integer", "maximum": 3}},
-                "required": ["size"]}},
+            "$ref": "#/$defs/Inner",
+            "$defs": {"Inner": {"type": "object", "properties": {"type": {"const": "x", "type": "string"},
+                "size": {"type": "integer", "maximum": 3}}, "required": ["size"], "additionalProperties": false}},
         });
         assert!(messages(&schema, json!({"type": "x", "size": 3})).is_empty());
         assert_eq!(
@@ -600,18 +552,18 @@ mod tests {
     }
 
     #[test]
-    fn tuples_enumerations_and_absent_values() {
+    fn lists_enumerations_and_absent_values() {
         let schema = json!({"type": "object", "properties": {
-            "pair": {"type": "array", "prefixItems": [{"type": "string"}, {"type": "number"}], "minItems": 2},
-            "mode": {"type": "string", "enum": ["fast", "exact"]},
+            "pair": {"type": "array", "items": {"type": "number"}, "minItems": 2},
+            "mode": {"oneOf": [{"type": "string", "const": "fast"}, {"type": "string", "const": "exact"}]},
             "maybe": {"anyOf": [{"type": "object", "properties": {"n": {"type": "integer"}}}, {"type": "null"}]},
         }});
-        assert!(messages(&schema, json!({"pair": ["a", 1], "mode": "fast", "maybe": null})).is_empty());
+        assert!(messages(&schema, json!({"pair": [2, 1], "mode": "fast", "maybe": null})).is_empty());
         assert_eq!(
-            messages(&schema, json!({"pair": ["a", "b"], "mode": "exat", "maybe": {"n": 1.5}})),
+            messages(&schema, json!({"pair": [1, "b"], "mode": "exat", "maybe": {"n": 1.5}})),
             [
                 "pair[1]: found the text \"b\"; accepted: a number",
-                "mode: found \"exat\"; did you mean `exact`? accepted: \"fast\", \"exact\"",
+                "mode: found the text \"exat\"; did you mean `exact`? accepted: \"fast\", \"exact\"",
                 "maybe.n: found 1.5; accepted: a whole number",
             ]
         );
@@ -647,7 +599,7 @@ mod tests {
     fn whole_numbers_may_be_written_with_an_exponent() {
         let schema = json!({"type": "integer", "format": "uint64", "minimum": 0});
         let mut value = json!(1e12);
-        assert!(check(&schema, &mut value, Substitute::Least).is_empty());
+        assert!(check(&Schema::read(&schema, &schema), &mut value, Substitute::Least).is_empty());
         assert_eq!(value, json!(1_000_000_000_000_u64));
         assert_eq!(messages(&schema, json!(1e30)).len(), 1);
         assert_eq!(messages(&schema, json!(-1.0)).len(), 1);
