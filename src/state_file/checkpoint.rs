@@ -87,23 +87,25 @@ impl Fnv {
 /// Bytes read at once.
 pub(crate) const BUFFER: usize = 1 << 16;
 
-/// Reads a checkpoint. `check` sees its scene, step and number of particles before the arrays are read.
-pub(crate) fn read<E: From<ContentError>>(
+/// Reads a checkpoint. `check` sees its scene, step and number of particles before the arrays are read; the error inside is that of it.
+pub(crate) fn read<E>(
     mut file: File,
     check: impl FnOnce(&str, u64, u64) -> Result<(), E>,
-) -> Result<Content, E> {
+) -> Result<Result<Content, E>, ContentError> {
     let length = check_envelope(&mut file)?;
     // What was checked is read once more, rather than kept: a state may fill the memory.
-    file.seek(SeekFrom::Start(HEADER as u64)).map_err(ContentError::Io)?;
+    file.seek(SeekFrom::Start(HEADER as u64))?;
     let mut payload = Payload { file: BufReader::with_capacity(BUFFER, file), left: length };
     let (run_id, scene) = (payload.text()?, payload.text()?);
     let (step, count) = (payload.number()?, payload.number()?);
-    check(&scene, step, count)?;
+    if let Err(refusal) = check(&scene, step, count) {
+        return Ok(Err(refusal));
+    }
     let content = payload.content(run_id, scene, step, count)?;
     if payload.left > 0 {
-        return Err(ContentError::Malformed(format!("{} bytes follow its content", payload.left)).into());
+        return Err(malformed(format!("{} bytes follow its content", payload.left)));
     }
-    Ok(content)
+    Ok(Ok(content))
 }
 
 /// Checks everything around the payload, and its checksum; returns its length.

@@ -36,8 +36,7 @@ struct Frame {
 
 pub(super) fn read(file: File, length: u64, frame: i64, fits: &Fits<'_>) -> Result<ParticleFile, Mistakes> {
     let mut lines = Lines::of(file);
-    let (frames, place) = find(&mut lines, length, frame)?;
-    let start = frames[place];
+    let start = find(&mut lines, length, frame)?;
     lines.seek(start.offset, start.lines_before)?;
     let count = count_of(&mut lines, length)?.unwrap_or(0);
     fits(count)?;
@@ -50,8 +49,8 @@ pub(super) fn read(file: File, length: u64, frame: i64, fits: &Fits<'_>) -> Resu
     particles(&mut lines, count, &columns, file)
 }
 
-/// The frames as far as they are needed, and which of them is meant.
-fn find(lines: &mut Lines, length: u64, frame: i64) -> Result<(Vec<Frame>, usize), Mistakes> {
+/// Finds the frame that is meant.
+fn find(lines: &mut Lines, length: u64, frame: i64) -> Result<Frame, Mistakes> {
     let mut frames = Vec::new();
     loop {
         let start = Frame { offset: lines.offset(), lines_before: lines.number() };
@@ -65,39 +64,32 @@ fn find(lines: &mut Lines, length: u64, frame: i64) -> Result<(Vec<Frame>, usize
             if !lines.skip()? {
                 let number = frames.len() - 1;
                 let found = format!("frame {number} ends after {} of {count} particles", line.saturating_sub(1));
-                let accepted = match number {
-                    0 => "a whole file".to_owned(),
-                    _ => {
-                        format!("a whole file, or an earlier frame: `\"frame\": {}` is the last whole one", number - 1)
-                    }
-                };
+                let earlier = |last: usize| format!(", or an earlier frame: `\"frame\": {last}` is the last whole one");
+                let accepted = format!("a whole file{}", number.checked_sub(1).map_or_else(String::new, earlier));
                 return Err(Mistake::new(lines.place(), found, accepted).into());
             }
         }
     }
-    let place = place_of_frame(frame, frames.len() as u64)? as usize;
-    Ok((frames, place))
+    Ok(frames[place_of_frame(frame, frames.len() as u64)? as usize])
 }
 
 /// The number of particles at the beginning of a frame; none at the end of the file, which empty lines may precede.
 fn count_of(lines: &mut Lines, length: u64) -> Result<Option<u64>, Mistakes> {
-    loop {
+    let mut text = String::new();
+    while text.is_empty() {
         let Some(line) = lines.next()? else { return Ok(None) };
-        let text = line.trim().to_owned();
-        if text.is_empty() {
-            continue;
-        }
-        let Some(count) = text.parse::<u64>().ok().filter(|count| *count <= MOST_PARTICLES) else {
-            let found = format!("found `{}` in place of a number of particles", shortened(&text));
-            return Err(Mistake::new(lines.place(), found, format!("a whole number up to {MOST_PARTICLES}")).into());
-        };
-        // A line of a particle has a letter, a digit or two, and its end.
-        if count > length {
-            let found = format!("found {count} particles in a file of {length} bytes");
-            return Err(Mistake::new(lines.place(), found, "a whole file").into());
-        }
-        return Ok(Some(count));
+        line.trim().clone_into(&mut text);
     }
+    let Some(count) = text.parse::<u64>().ok().filter(|count| *count <= MOST_PARTICLES) else {
+        let found = format!("found `{}` in place of a number of particles", shortened(&text));
+        return Err(Mistake::new(lines.place(), found, format!("a whole number up to {MOST_PARTICLES}")).into());
+    };
+    // A line of a particle has a letter, a digit or two, and its end.
+    if count > length {
+        let found = format!("found {count} particles in a file of {length} bytes");
+        return Err(Mistake::new(lines.place(), found, "a whole file").into());
+    }
+    Ok(Some(count))
 }
 
 /// The first columns of what is read.

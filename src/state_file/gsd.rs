@@ -23,18 +23,16 @@ struct Gsd {
 
 impl From<GsdError> for Mistakes {
     fn from(error: GsdError) -> Self {
-        match error {
-            GsdError::Io(error) => error.into(),
-            GsdError::Cut => {
-                let found = "it was cut short, or is damaged: parts of it should lie beyond its end";
-                Mistake::new("", found, "a whole GSD file").into()
-            }
+        let damaged = match error {
+            GsdError::Io(error) => return error.into(),
             GsdError::Version(version) => {
                 let found = format!("found version {version} of the file layer of GSD");
-                Mistake::new("", found, "versions 1 and 2").into()
+                return Mistake::new("", found, "versions 1 and 2").into();
             }
-            error => Mistake::new("", format!("it is damaged: {error}"), "a whole GSD file").into(),
-        }
+            GsdError::Cut => "it was cut short, or is damaged: parts of it should lie beyond its end".to_owned(),
+            error => format!("it is damaged: {error}"),
+        };
+        Mistake::new("", damaged, "a whole GSD file").into()
     }
 }
 

@@ -33,18 +33,10 @@ impl Keys {
         let exact = self.0.iter().any(|(key, _)| key == name);
         let is_meant = |key: &str| if exact { key == name } else { key.eq_ignore_ascii_case(name) };
         let mut values = self.0.iter().filter(|(key, _)| is_meant(key)).map(|(_, value)| value.as_str());
-        let first = values.next();
-        match values.find(|value| Some(*value) != first) {
-            None => Ok(first),
-            Some(other) => {
-                let found = format!(
-                    "found {name} twice, as \"{}\" and as \"{}\"",
-                    shortened(first.unwrap_or_default()),
-                    shortened(other)
-                );
-                Err(Mistake::new(place, found, "every key once"))
-            }
-        }
+        let Some(first) = values.next() else { return Ok(None) };
+        let Some(other) = values.find(|value| *value != first) else { return Ok(Some(first)) };
+        let found = format!("found {name} twice, as \"{}\" and as \"{}\"", shortened(first), shortened(other));
+        Err(Mistake::new(place, found, "every key once"))
     }
 }
 

@@ -190,16 +190,11 @@ impl Reader<'_> {
             }
         }
         for (axis, name) in BOUNDS.into_iter().enumerate() {
-            match self.header.bounds[axis] {
-                None => {
-                    self.mistakes.push(Mistake::new("", format!("no `{name}` in the header"), "the bounds of the box"));
-                }
-                Some([low, high]) => {
-                    if let Some(mistake) = box_mistake(&[high - low]) {
-                        self.mistakes.push(Mistake { found: format!("{} (`{name}`)", mistake.found), ..mistake });
-                    }
-                }
-            }
+            let named = |mistake: Mistake| Mistake { found: format!("{} (`{name}`)", mistake.found), ..mistake };
+            self.mistakes.extend(match self.header.bounds[axis] {
+                None => Some(Mistake::new("", format!("no `{name}` in the header"), "the bounds of the box")),
+                Some([low, high]) => box_mistake(&[high - low]).map(named),
+            });
         }
         for (types, name) in self.kinds.iter_mut().zip(["atom types", "bond types", "angle types"]) {
             types.count = self.header.count(name) as u32;
@@ -225,11 +220,9 @@ impl Reader<'_> {
             }
             _ => {}
         }
+        let found = format!("found `{}`", shortened(text));
         let [count] = numbers.as_slice() else {
-            return self.refuse(
-                format!("found `{}`", shortened(text)),
-                "a line of the header, or a section that LAMMPS knows",
-            );
+            return self.refuse(found, "a line of the header, or a section that LAMMPS knows");
         };
         // A line has at least a few digits and its end.
         let (most, limit) = if name.ends_with("types") {
@@ -238,7 +231,7 @@ impl Reader<'_> {
             ((length / 4).min(MOST_PARTICLES) as f64, format!("no more than fit in a file of {length} bytes"))
         };
         if !(*count >= 0.0 && count.fract() == 0.0 && *count <= most) {
-            return self.refuse(format!("found `{}`", shortened(text)), format!("a whole number, {limit}"));
+            return self.refuse(found, format!("a whole number, {limit}"));
         }
         let count = *count as u64;
         // Types of what is not read, and room for what may be added, are neither.
@@ -253,19 +246,18 @@ impl Reader<'_> {
 
     /// The next line that is not empty, without its comment; none where a section begins or the file ends.
     fn body_line(&mut self) -> Result<Option<String>, Mistakes> {
-        loop {
-            let Some(line) = self.lines.next()? else { return Ok(None) };
-            let text = uncommented(line);
-            if text.is_empty() {
-                continue;
-            }
+        while let Some(line) = self.lines.next()? {
             // Labels may be anything, and yet a section is known by its whole line.
             if let Some(section) = section_of(line) {
                 self.ahead = Some(section);
-                return Ok(None);
+                break;
             }
-            return Ok(Some(text.to_owned()));
+            let text = uncommented(line);
+            if !text.is_empty() {
+                return Ok(Some(text.to_owned()));
+            }
         }
+        Ok(None)
     }
 
     fn read_sections(&mut self) -> Result<(), Mistakes> {
@@ -310,15 +302,10 @@ impl Reader<'_> {
                 return Ok(());
             };
             let words: Vec<&str> = text.split_ascii_whitespace().collect();
-            let read = match (section, &style) {
-                (Section::Atoms, None) => {
-                    let found = AtomStyle::of_columns(words.len()).map_err(|mistake| self.refusal(mistake))?;
-                    self.read_atom(style.insert(found), &words)
-                }
-                (Section::Atoms, Some(style)) => self.read_atom(style, &words),
-                _ => self.read_line(section, &words),
-            };
-            if let Err(accepted) = read {
+            if section == Section::Atoms && style.is_none() {
+                style = Some(AtomStyle::of_columns(words.len()).map_err(|mistake| self.refusal(mistake))?);
+            }
+            if let Err(accepted) = self.read_line(section, style.as_ref(), &words) {
                 self.refuse(format!("found `{}`", shortened(&text)), accepted);
                 if self.mistakes.are_enough() {
                     return Ok(());
@@ -336,8 +323,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Takes a line of a section but that of atoms; else says what would be accepted.
-    fn read_line(&mut self, section: Section, words: &[&str]) -> Result<(), String> {
+    /// Takes a line of a section, where atoms have a style; else says what would be accepted.
+    fn read_line(&mut self, section: Section, style: Option<&AtomStyle>, words: &[&str]) -> Result<(), String> {
         match section {
             Section::Masses => {
                 let [kind, mass] = words else { return Err("a type and its mass".to_owned()) };
@@ -349,7 +336,7 @@ impl Reader<'_> {
                 }
                 self.masses[place as usize] = Some(mass.ok_or("a mass greater than zero")?);
             }
-            Section::Atoms => {}
+            Section::Atoms => style.map_or(Ok(()), |style| self.read_atom(style, words))?,
             Section::Velocities => {
                 let read = || {
                     let [id, velocity @ ..] = words else { return None };
@@ -357,14 +344,8 @@ impl Reader<'_> {
                 };
                 self.velocities.push(read().ok_or("an id and three numbers")?);
             }
-            Section::Bonds => {
-                let bond = self.link(1, words, "a number, a type and two ids")?;
-                self.bonds.push(bond);
-            }
-            Section::Angles => {
-                let angle = self.link(2, words, "a number, a type and three ids")?;
-                self.angles.push(angle);
-            }
+            Section::Bonds => self.bonds.push(self.link(1, words, "a number, a type and two ids")?),
+            Section::Angles => self.angles.push(self.link(2, words, "a number, a type and three ids")?),
             Section::Labels(of) => {
                 let types = &mut self.kinds[of];
                 let [number, label] = words else { return Err("a number of a type and its label".to_owned()) };
@@ -407,14 +388,10 @@ impl Reader<'_> {
             (Some(HYBRID), Some(given)) if given.name.starts_with(HYBRID) => Ok(Some(given.clone())),
             (Some(named), given) => {
                 let style = AtomStyle::of(named)?;
-                match given.filter(|given| given.columns != style.columns) {
-                    None => Ok(Some(style)),
-                    Some(given) => Err(Mistake::new(
-                        "",
-                        format!("found atoms of the style `{named}`, and the `atom_style` \"{given}\" in `state`"),
-                        "the style that the file says, or no `atom_style`",
-                    )),
-                }
+                let other = given.filter(|given| given.columns != style.columns);
+                let Some(other) = other else { return Ok(Some(style)) };
+                let found = format!("found atoms of the style `{named}`, and the `atom_style` \"{other}\" in `state`");
+                Err(Mistake::new("", found, "the style that the file says, or no `atom_style`"))
             }
         }
     }

@@ -181,12 +181,8 @@ impl From<Mistake> for Mistakes {
 
 impl From<io::Error> for Mistakes {
     fn from(error: io::Error) -> Self {
-        unreadable(&error).into()
+        Mistake::new("", format!("it cannot be read ({error})"), FORMATS).into()
     }
-}
-
-fn unreadable(error: &io::Error) -> Mistake {
-    Mistake::new("", format!("it cannot be read ({error})"), FORMATS)
 }
 
 /// What is accepted in place of anything else.
@@ -227,14 +223,10 @@ const BYTES_PER_PARTICLE: u64 = 64;
 /// Looks whether so many particles fit into so much memory, if that is known.
 pub(crate) fn fits_in_memory(count: u64, free: Option<u64>) -> Result<(), Mistake> {
     let needed = count.saturating_mul(BYTES_PER_PARTICLE);
-    match free {
-        Some(free) if needed > free => Err(Mistake::new(
-            "",
-            format!("found {} particles, which take at least {} of memory", grouped(count), bytes(needed)),
-            format!("particles that fit into the {} that are free on this machine", bytes(free)),
-        )),
-        _ => Ok(()),
-    }
+    let Some(free) = free.filter(|free| needed > *free) else { return Ok(()) };
+    let found = format!("found {} particles, which take at least {} of memory", grouped(count), bytes(needed));
+    let accepted = format!("particles that fit into the {} that are free on this machine", bytes(free));
+    Err(Mistake::new("", found, accepted))
 }
 
 /// Opens a file that ends: a device may not, and a pipe is not even opened before somebody writes to it.
@@ -312,16 +304,12 @@ fn place_of_frame(frame: i64, frames: u64) -> Result<u64, Mistake> {
     {
         return Ok(place);
     }
-    let found = format!("found frame {frame}");
-    Err(Mistake::new(
-        "",
-        found,
-        match frames {
-            0 => "a file with a frame: this one has none".to_owned(),
-            1 => "0, or -1 from the end: the file has 1 frame".to_owned(),
-            _ => format!("0 to {}, or -1 to -{frames} from the end: the file has {frames} frames", frames - 1),
-        },
-    ))
+    let accepted = match frames {
+        0 => "a file with a frame: this one has none".to_owned(),
+        1 => "0, or -1 from the end: the file has 1 frame".to_owned(),
+        _ => format!("0 to {}, or -1 to -{frames} from the end: the file has {frames} frames", frames - 1),
+    };
+    Err(Mistake::new("", format!("found frame {frame}"), accepted))
 }
 
 impl ParticleFile {
@@ -354,11 +342,9 @@ impl ParticleFile {
             (0..dimension).filter(|axis| self.open_axes[*axis] && !walled[*axis]).map(|axis| AXES[axis]).collect();
         if let [all @ .., last] = open.as_slice() {
             let axes = if all.is_empty() { (*last).to_owned() } else { format!("{} and {last}", all.join(", ")) };
-            mistakes.push(Mistake::new(
-                "",
-                format!("found a box that is not periodic along {axes}"),
-                "a box that is periodic along every axis of the scene without `space.walls`: `pbc=\"T T T\"`",
-            ));
+            let accepted =
+                "a box that is periodic along every axis of the scene without `space.walls`: `pbc=\"T T T\"`";
+            mistakes.push(Mistake::new("", format!("found a box that is not periodic along {axes}"), accepted));
         }
         // In a box that leans along x a place may be beside the upright one.
         let leaning = self.displacements.iter().fold(0.0_f64, |most, way| most.max(way.abs()));
@@ -400,12 +386,10 @@ impl ParticleFile {
     #[must_use]
     pub fn mistakes_of_velocities(&self, dimension: usize) -> Vec<Mistake> {
         let mut mistakes = self.velocity_mistakes.clone();
-        let is_endless = |velocity: &[f64; 3]| velocity[..dimension].iter().any(|value| !value.is_finite());
-        let velocities = self.velocities.iter().enumerate();
-        let endless: Tally = velocities
-            .filter(|(_, velocity)| is_endless(velocity))
-            .map(|(particle, _)| self.number(particle))
-            .collect();
+        let is_endless =
+            |particle: &usize| self.velocities[*particle][..dimension].iter().any(|value| !value.is_finite());
+        let particles = (0..self.velocities.len()).filter(is_endless);
+        let endless: Tally = particles.map(|particle| self.number(particle)).collect();
         let what = "with velocities that are no finite numbers";
         mistakes.extend(endless.mistake("particle", what, "finite numbers"));
         mistakes
@@ -415,11 +399,8 @@ impl ParticleFile {
     fn check_links<const LENGTH: usize>(&self, all: &[Links<LENGTH>], noun: &str, mistakes: &mut Mistakes) {
         for links in all {
             let (mut missing, mut repeated) = (Tally::default(), Tally::default());
-            let named = |members: &[u32; LENGTH]| {
-                let numbers: Vec<String> =
-                    members.iter().map(|member| self.number(*member as usize).to_string()).collect();
-                numbers.join("-")
-            };
+            let named =
+                |members: &[u32; LENGTH]| members.map(|member| self.number(member as usize).to_string()).join("-");
             let mut known = Vec::with_capacity(links.members.len());
             for members in &links.members {
                 if members.iter().any(|member| *member as usize >= self.len()) {
@@ -476,11 +457,8 @@ fn displacements(second: f64, third: f64, along_y: f64) -> Option<[f64; 3]> {
 /// The refusal of a box that is not orthogonal.
 fn triclinic(place: impl Into<String>, tilts: &str) -> Mistake {
     let found = format!("found a triclinic box ({tilts})");
-    Mistake::new(
-        place,
-        found,
-        "an orthogonal box: positions are fractions of the edges, which have to be along the axes",
-    )
+    let accepted = "an orthogonal box: positions are fractions of the edges, which have to be along the axes";
+    Mistake::new(place, found, accepted)
 }
 
 /// What a trajectory says of the number of particles that are frozen behind walls.

@@ -4,7 +4,7 @@ use super::{Checkpoint, CheckpointError};
 use crate::families::Model;
 use crate::numbers::counted;
 use crate::output::{Extent, Id, OutputError, own_file};
-use crate::scene::{self, FileStart, Scene, SceneError};
+use crate::scene::{self, FileStart, Scene};
 use crate::state_file::checkpoint::{self, BUFFER, Content, ContentError, MAGIC, START, VERSION};
 use std::io::Read;
 use std::path::Path;
@@ -17,22 +17,26 @@ use std::sync::Arc;
 /// A [`CheckpointError`] for whatever is not exactly as [`save`](super::save) writes it.
 pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
     let mut early = None;
+    let refused = |source| CheckpointError::Scene { path: path.to_path_buf(), source };
     let check = |text: &str, step: u64, count: u64| {
-        let scene = scene::parse_kept("its scene", text, &[], None).map_err(Refusal::Scene)?;
+        let scene = scene::parse_kept("its scene", text, &[], None).map_err(refused)?;
         let (last, asked) = (scene.time.steps, Model::new(&scene).particle_count());
         if step > last {
             let problem = format!("it is of step {step}, and its scene ends with step {last}");
-            return Err(ContentError::Malformed(problem).into());
+            return Err(CheckpointError::malformed(path, problem));
         }
         if count != asked {
             let problem = format!("it has {}, and its scene {asked}", counted(count, "particle"));
-            return Err(ContentError::Malformed(problem).into());
+            return Err(CheckpointError::malformed(path, problem));
         }
         early = Some(scene);
         Ok(())
     };
-    let file = own_file::open(path).map_err(|error| Refusal::from(ContentError::Io(error)).of(path))?;
-    let content = checkpoint::read(file, check).map_err(|refusal: Refusal| refusal.of(path))?;
+    let file = own_file::open(path).map_err(ContentError::Io);
+    let content = file.and_then(|file| checkpoint::read(file, check)).map_err(|error| match error {
+        ContentError::Io(error) => OutputError::io("read the checkpoint", path)(error).into(),
+        source => CheckpointError::Content { path: path.to_path_buf(), source },
+    })??;
     let malformed = |problem: &str| CheckpointError::malformed(path, problem.to_owned());
     let run_id = Id::parse(&content.run_id).ok_or_else(|| malformed("its run id is none"))?;
     let Content { scene: text, state, files, mut sections, .. } = content;
@@ -49,8 +53,7 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
         let start = start
             .filter(fits)
             .ok_or_else(|| malformed("what it keeps of the start of its particles makes no sense"))?;
-        scene = scene::parse_kept("its scene", &text, &[], Some(Arc::new(start)))
-            .map_err(|source| Refusal::Scene(source).of(path))?;
+        scene = scene::parse_kept("its scene", &text, &[], Some(Arc::new(start))).map_err(refused)?;
     }
     let files = files.into_iter().map(|(name, bytes, crc32)| (name, Extent { bytes, crc32 })).collect();
     Ok(Checkpoint { run_id, scene, state, files, sections })
@@ -64,27 +67,4 @@ pub(in crate::output) fn id_of(path: &Path) -> Option<Id> {
     let (length, rest) = payload.split_first_chunk()?;
     let text = rest.get(..usize::try_from(u64::from_le_bytes(*length)).ok()?)?;
     Id::parse(std::str::from_utf8(text).ok()?)
-}
-
-/// Why a checkpoint is refused, before the path is added.
-enum Refusal {
-    Content(ContentError),
-    Scene(SceneError),
-}
-
-impl From<ContentError> for Refusal {
-    fn from(error: ContentError) -> Self {
-        Self::Content(error)
-    }
-}
-
-impl Refusal {
-    fn of(self, path: &Path) -> CheckpointError {
-        let own = path.to_path_buf();
-        match self {
-            Self::Scene(source) => CheckpointError::Scene { path: own, source },
-            Self::Content(ContentError::Io(error)) => OutputError::io("read the checkpoint", path)(error).into(),
-            Self::Content(source) => CheckpointError::Content { path: own, source },
-        }
-    }
 }

@@ -83,14 +83,10 @@ pub(super) fn particles(path: &Path, fits: &Fits<'_>) -> Result<(ParticleFile, R
         let found = format!("the directory has no `{FILE}`: no run has saved its state there");
         return Err(Mistake::new("", found, "the directory of a run with a checkpoint, or a file"));
     }
-    let content = open_regular_file(path).map_err(ContentError::Io);
-    let content = content.map_err(|error| refusal(&error))?;
+    let file = open_regular_file(path).map_err(ContentError::Io);
     // Its arrays are in the file, or it is refused: their number is no news to anyone but the adapter.
-    let content = checkpoint::read(content, |_, _, count| fits(count).map_err(Refusal::Mistake));
-    let content = content.map_err(|refusal| match refusal {
-        Refusal::Content(error) => self::refusal(&error),
-        Refusal::Mistake(mistake) => mistake,
-    })?;
+    let content = file.and_then(|file| checkpoint::read(file, |_, _, count| fits(count)));
+    let content = content.map_err(|error| refusal(&error))??;
     let start = content.sections.iter().find(|(name, _)| name == START);
     let start = start.and_then(|(_, bytes)| FileStart::from_bytes(bytes)).map(Arc::new);
     let scene = parse_kept("its scene", &content.scene, &[], start)
@@ -98,18 +94,6 @@ pub(super) fn particles(path: &Path, fits: &Fits<'_>) -> Result<(ParticleFile, R
     let model = Model::new(&scene);
     let particles = of_state(&model, &content.state)?;
     Ok((particles, Run { seed: scene.seed, model, state: content.state }))
-}
-
-/// Why a checkpoint is refused.
-enum Refusal {
-    Content(ContentError),
-    Mistake(Mistake),
-}
-
-impl From<ContentError> for Refusal {
-    fn from(error: ContentError) -> Self {
-        Self::Content(error)
-    }
 }
 
 fn refusal(error: &ContentError) -> Mistake {
