@@ -64,11 +64,8 @@ pub fn of_scene(name: &str) -> String {
     if ["lj", "lennard-jones", "lennardjones", "wca"].iter().any(|model| lower.trim_end_matches(".json") == *model) {
         return format!("there are no hard cores here, particles repel each other softly; {usual}");
     }
-    let is_script = lower.starts_with("in.")
-        || path
-            .extension()
-            .and_then(|end| end.to_str())
-            .is_some_and(|end| ["lmp", "lammps", "in", "py"].contains(&end));
+    let end = path.extension().and_then(|end| end.to_str());
+    let is_script = lower.starts_with("in.") || end.is_some_and(|end| ["lmp", "lammps", "in", "py"].contains(&end));
     if is_script {
         return format!("scripts of other programs are not read: a scene is a JSON file; {usual}");
     }

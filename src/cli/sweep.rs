@@ -126,9 +126,7 @@ fn failures(outcome: &SweepOutcome) -> Result<(), Failure> {
         text.push_str("\nhint: `mesoscope sweep --resume` runs a variant again once its directory is removed");
     }
     // Instability says something about the scene; anything else, about the machine, and comes first.
-    let others = outcome
-        .failures
-        .iter()
-        .find(|(_, error)| !matches!(error, RunError::Unstable { .. } | RunError::GaveUp { .. }));
+    let is_of_scene = |error: &RunError| matches!(error, RunError::Unstable { .. } | RunError::GaveUp { .. });
+    let others = outcome.failures.iter().find(|(_, error)| !is_of_scene(error));
     Err(others.map_or_else(|| Failure::unstable(&text), |(_, error)| Failure::of_run(error, &text)))
 }

@@ -95,9 +95,7 @@ impl RunDirectory {
     pub fn claim(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
         let mut directory = Self::open(path)?;
         directory.lock = Some(Arc::new(DirectoryLock::claim(&directory.path)?));
-        for name in directory.names(|name| files::of_temporary(name).is_some())? {
-            directory.remove(&name)?;
-        }
+        directory.remove(|name| files::of_temporary(name).is_some())?;
         Ok(directory)
     }
 
@@ -147,15 +145,15 @@ impl RunDirectory {
     /// # Errors
     /// [`OutputError::Io`] when the directory cannot be listed or a file cannot be removed.
     pub fn remove_snapshots_after(&self, last: u64) -> Result<(), OutputError> {
-        for name in self.names(|name| files::snapshot_number(name).is_some_and(|number| number > last))? {
-            self.remove(&name)?;
-        }
-        Ok(())
+        self.remove(|name| files::snapshot_number(name).is_some_and(|number| number > last))
     }
 
-    fn remove(&self, name: &str) -> Result<(), OutputError> {
-        let path = self.file(name);
-        fs::remove_file(&path).map_err(OutputError::io("remove", &path))
+    /// Removes all files of a kind.
+    fn remove(&self, kind: impl Fn(&str) -> bool) -> Result<(), OutputError> {
+        for path in self.names(kind)?.iter().map(|name| self.file(name)) {
+            fs::remove_file(&path).map_err(OutputError::io("remove", &path))?;
+        }
+        Ok(())
     }
 
     /// The names of all files of a kind, sorted.

@@ -70,11 +70,8 @@ fn parsed(bytes: &[u8]) -> Option<(Vec<usize>, Vec<f64>)> {
     let shape = header.split_once("'shape': (")?.1.split_once(')')?.0;
     let lengths = shape.split(',').map(str::trim).filter(|length| !length.is_empty());
     let shape: Vec<usize> = lengths.map(|length| length.parse().ok()).collect::<Option<_>>()?;
-    let values: Vec<f64> = bytes
-        .get(begin..)?
-        .chunks_exact(8)
-        .filter_map(|word| Some(f64::from_le_bytes(word.try_into().ok()?)))
-        .collect();
+    let words = bytes.get(begin..)?.chunks_exact(8);
+    let values: Vec<f64> = words.filter_map(|word| Some(f64::from_le_bytes(word.try_into().ok()?))).collect();
     let held = shape.iter().try_fold(1_usize, |product, length| product.checked_mul(*length))?;
     (held == values.len()).then_some((shape, values))
 }

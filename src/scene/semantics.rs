@@ -100,15 +100,12 @@ fn check_vectors(vectors: &[Vec<f64>], dimension: usize, path: &str, problems: &
 
 fn check_number_of_particles(scene: &Scene, problems: &mut Problems) {
     // In double precision, since a density can ask for more particles than any integer holds.
-    let amounts: Vec<f64> = scene
-        .particles
-        .iter()
-        .map(|group| match (&group.placement, group.count, group.number_density) {
-            (Placement::Listed { positions }, _, _) => positions.len() as f64,
-            (_, Some(count), _) => count as f64,
-            (_, None, density) => (density.unwrap_or(0.0) * group.placement.volume(&scene.space)).round(),
-        })
-        .collect();
+    let amount = |group: &ParticleGroup| match (&group.placement, group.count, group.number_density) {
+        (Placement::Listed { positions }, _, _) => positions.len() as f64,
+        (_, Some(count), _) => count as f64,
+        (_, None, density) => (density.unwrap_or(0.0) * group.placement.volume(&scene.space)).round(),
+    };
+    let amounts: Vec<f64> = scene.particles.iter().map(amount).collect();
     let total: f64 = amounts.iter().sum();
     if total <= MOST_PARTICLES as f64 {
         return;
@@ -242,20 +239,14 @@ fn check_analyses(scene: &Scene, problems: &mut Problems) {
     let output = &scene.output;
     let mut once = |path: &str, key: &str, names: Vec<String>| {
         for (index, name) in names.iter().enumerate().filter(|(index, name)| names[..*index].contains(name)) {
-            problems.refuse(
-                format!("output.{path}[{index}]{key}"),
-                format!("{name} again"),
-                "every quantity at most once",
-            );
+            let path = format!("output.{path}[{index}]{key}");
+            problems.refuse(path, format!("{name} again"), "every quantity at most once");
         }
     };
     let quoted = |name: &str| format!("\"{name}\"");
     let fields = output.fields.iter().flat_map(|asked| &asked.quantities);
-    once(
-        "fields.quantities",
-        "",
-        fields.map(|quantity| format!("the {}", quantity.stem().replace('_', " "))).collect(),
-    );
+    let fields = fields.map(|quantity| format!("the {}", quantity.stem().replace('_', " ")));
+    once("fields.quantities", "", fields.collect());
     let correlated = output.autocorrelations.iter().map(|asked| quoted(asked.quantity.name()));
     once("autocorrelations", ".quantity", correlated.collect());
     let profiles = output.profiles.iter().flat_map(|asked| &asked.quantities);

@@ -1,6 +1,6 @@
 //! Styles of the atoms of a LAMMPS data file: which columns a line has, <https://docs.lammps.org/read_data.html>.
 
-use super::{Mistake, shortened};
+use super::{Mistake, quoted, shortened};
 use std::fmt;
 
 /// A column of a line of an atom; a place has three.
@@ -57,11 +57,6 @@ impl fmt::Display for AtomStyle {
     }
 }
 
-/// Names, each in quotes.
-fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
-    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
-}
-
 impl AtomStyle {
     /// The style of a name, which for `hybrid` are several.
     pub(crate) fn of(name: &str) -> Result<Self, Mistake> {
@@ -70,7 +65,7 @@ impl AtomStyle {
         let unread = |word: &str| {
             let accepted = format!(
                 "the styles {}, and `{HYBRID}` of these: others have more than a place, a type and a charge",
-                listed(READ.into_iter().map(|(name, _)| name))
+                quoted(READ.into_iter().map(|(name, _)| name))
             );
             Mistake::new("", format!("found atoms of the style `{}`", shortened(word)), accepted)
         };
@@ -123,7 +118,7 @@ impl AtomStyle {
         let among = match names.as_slice() {
             [] => String::new(),
             [only] => format!(", as `{only}` has, and others"),
-            names => format!(", as {} have, and others", listed(names.iter().copied())),
+            names => format!(", as {} have, and others", quoted(names.iter().copied())),
         };
         let accepted = format!(
             "`\"atom_style\": \"{example}\"` in `state`, or `Atoms # {example}` in the file, with the style that its lines are of"

@@ -99,9 +99,8 @@ impl Types {
     }
 
     fn names(&self) -> Vec<String> {
-        (0..self.count)
-            .map(|place| self.labelled.get(&place).cloned().unwrap_or_else(|| (place + 1).to_string()))
-            .collect()
+        let name = |place: u32| self.labelled.get(&place).cloned().unwrap_or_else(|| (place + 1).to_string());
+        (0..self.count).map(name).collect()
     }
 }
 

@@ -280,6 +280,11 @@ fn shortened(text: &str) -> String {
     short
 }
 
+/// Names in a row, each in quotes.
+pub(crate) fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
 /// Bytes that tell the formats apart: comments may stand before a header of LAMMPS.
 const START: u64 = 1 << 14;
 

@@ -185,13 +185,10 @@ fn wrapped(text: &mut String, label: &str, items: impl Iterator<Item = String>) 
 }
 
 fn buffers(text: &mut String, plan: &Plan) {
-    let rows: Vec<Vec<String>> = plan
-        .buffers
-        .iter()
-        .map(|buffer| (buffer.array, buffer.bytes))
-        .chain(plan.textures.iter().map(|texture| (texture.array, texture.bytes())))
-        .map(|(array, size)| vec![array.name().to_owned(), bytes(size), array.purpose().to_owned()])
-        .collect();
+    let textures = plan.textures.iter().map(|texture| (texture.array, texture.bytes()));
+    let all = plan.buffers.iter().map(|buffer| (buffer.array, buffer.bytes)).chain(textures);
+    let rows: Vec<Vec<String>> =
+        all.map(|(array, size)| vec![array.name().to_owned(), bytes(size), array.purpose().to_owned()]).collect();
     let title = if plan.textures.is_empty() { "Buffers" } else { "Buffers and textures" };
     let _ = write!(text, "\n{title}\n{}", aligned(&rows, "  "));
 }

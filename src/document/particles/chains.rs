@@ -43,12 +43,8 @@ impl BondsInteraction {
 
     /// The bonds that it asks for in a scene.
     pub(crate) fn links<'a>(&'a self, scene: &'a Scene) -> Links<'a, 2> {
-        Links {
-            listed: &self.pairs,
-            species: self.species.as_deref(),
-            types: self.types.as_deref(),
-            of_start: scene.start().map_or(&[], |start| &start.bonds),
-        }
+        let of_start = scene.start().map_or(&[][..], |start| &start.bonds);
+        Links { listed: &self.pairs, species: self.species.as_deref(), types: self.types.as_deref(), of_start }
     }
 }
 
@@ -103,11 +99,7 @@ pub struct AnglesInteraction {
 impl AnglesInteraction {
     /// The angles that it asks for in a scene.
     pub(crate) fn links<'a>(&'a self, scene: &'a Scene) -> Links<'a, 3> {
-        Links {
-            listed: &self.triples,
-            species: self.species.as_deref(),
-            types: self.types.as_deref(),
-            of_start: scene.start().map_or(&[], |start| &start.angles),
-        }
+        let of_start = scene.start().map_or(&[][..], |start| &start.angles);
+        Links { listed: &self.triples, species: self.species.as_deref(), types: self.types.as_deref(), of_start }
     }
 }

@@ -16,7 +16,7 @@ use crate::families::{self, Model};
 use crate::host_memory;
 use crate::numbers::counted;
 use crate::state::MOST_PARTICLES;
-use crate::state_file::{self, AtomStyle, Links, Mistake, ParticleFile, ROUNDING, StateFileError};
+use crate::state_file::{self, AtomStyle, Links, Mistake, ParticleFile, ROUNDING, StateFileError, quoted};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use weight::Weighing;
@@ -106,11 +106,6 @@ fn adopted(
     reader.adopt(scene, masses);
     notices.extend(reader.notices.into_iter().map(|message| Warning { path: path.to_owned(), message }));
     reader.problems
-}
-
-/// Names in a row, each as it is written in a scene.
-fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
-    names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// Where the file of a scene of that name is.
@@ -271,19 +266,13 @@ impl<'a> Reader<'a> {
         let total = copies.saturating_mul(self.file.len() as u64);
         if total > MOST_PARTICLES {
             let found = format!("{} in {copies} copies of {}", counted(total, "particle"), self.file.len());
-            self.problems.refuse(
-                "state.replicate",
-                found,
-                format!("at most {MOST_PARTICLES} particles, since they are numbered by 32-bit words"),
-            );
+            let accepted = format!("at most {MOST_PARTICLES} particles, since they are numbered by 32-bit words");
+            self.problems.refuse("state.replicate", found, accepted);
         }
         if self.state.velocities == StateVelocities::File && self.file.velocities.is_empty() && !self.file.is_empty() {
             let found = format!("\"file\", and no velocities in `{}`", self.state.file);
-            self.problems.refuse(
-                "state.velocities",
-                found,
-                "\"thermal\" or \"rest\", or a file with velocities; GSD leaves out those that are all zero",
-            );
+            let accepted = "\"thermal\" or \"rest\", or a file with velocities; GSD leaves out those that are all zero";
+            self.problems.refuse("state.velocities", found, accepted);
         }
         let Some(species) = self.species(scene) else { return };
         self.adopt_types(scene, &species);
@@ -353,11 +342,8 @@ impl<'a> Reader<'a> {
         let replicate = self.state.replicate.len();
         if replicate > 0 && replicate != dimension {
             let found = format!("a list of {replicate}");
-            self.problems.refuse(
-                "state.replicate",
-                found,
-                format!("a number of copies for each of the {dimension} axes"),
-            );
+            let accepted = format!("a number of copies for each of the {dimension} axes");
+            self.problems.refuse("state.replicate", found, accepted);
             return None;
         }
         let copies = self.state.copies().map(f64::from);
@@ -553,11 +539,8 @@ impl<'a> Reader<'a> {
             if groups.len() > 1 && !groups.iter().all(given) {
                 let accepted =
                     format!("a `count` in each of the groups of `{name}`, {} in all", counted(count, "particle"));
-                self.problems.refuse(
-                    format!("particles[{first}]"),
-                    format!("`{name}` in {} groups", groups.len()),
-                    accepted,
-                );
+                let found = format!("`{name}` in {} groups", groups.len());
+                self.problems.refuse(format!("particles[{first}]"), found, accepted);
             } else if given(&first) && sum != count {
                 let key = if scene.particles[first].count.is_some() { "count" } else { "number_density" };
                 let accepted =

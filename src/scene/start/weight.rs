@@ -56,14 +56,13 @@ impl<'a> Weighing<'a> {
             own.saturating_mul(molecule.resolved_count(volume))
         };
         let groups = &self.scene.particles;
-        let counts: Vec<u64> = (0..groups.len())
-            .map(|index| {
-                let name = groups[index].species.as_str();
-                let is_first = groups[..index].iter().all(|earlier| earlier.species != name);
-                let counts = self.scene.molecules.iter().map(|molecule| beads(molecule, name));
-                if is_first { counts.fold(0, u64::saturating_add) } else { 0 }
-            })
-            .collect();
+        let count = |index: usize| {
+            let name = groups[index].species.as_str();
+            let is_first = groups[..index].iter().all(|earlier| earlier.species != name);
+            let counts = self.scene.molecules.iter().map(|molecule| beads(molecule, name));
+            if is_first { counts.fold(0, u64::saturating_add) } else { 0 }
+        };
+        let counts: Vec<u64> = (0..groups.len()).map(count).collect();
         let all = counts.iter().copied().fold(0, u64::saturating_add);
         let Err(mistake) = state_file::fits_in_memory(all, free) else { return self.decide(&counts) };
         problems.add(super::MOLECULES, mistake.found, mistake.accepted);
