@@ -87,11 +87,8 @@ pub fn chain_profile_chart(title: &str, subtitle: &str, table: &Table) -> Chart 
 /// ```
 #[must_use]
 pub fn chain_pulse_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
-    let panel = |quantity: &str, label: &str| {
-        let mut panel = Panel::new(REDUCED_TIME, label);
-        panel.series = compared(table, quantity);
-        panel
-    };
+    let panel =
+        |quantity: &str, label: &str| Panel { series: compared(table, quantity), ..Panel::new(REDUCED_TIME, label) };
     let mut panels = vec![
         panel("peak", "Peak of a half"),
         panel("variance", "Variance of a half (clusters²)"),
@@ -177,11 +174,9 @@ pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &Table) -> Ch
             |(chain, name): &(&str, &str)| Series::line(name, points(table, "tau", &format!("{chain}_{quantity}")));
         CHAINS.iter().map(line).collect::<Vec<_>>()
     };
-    let mut momenta = Panel::new(REDUCED_TIME, "⟨P²⟩ / nmkT");
-    momenta.series = lines("momentum_variance");
-    let momenta = momenta.with_reference("exact", 1.0);
-    let mut separations = Panel::new(REDUCED_TIME, "var(X_{μ+1} − X_{μ}) κ/nkT");
-    separations.series = lines("separation_variance");
+    let panel = |quantity: &str, label: &str| Panel { series: lines(quantity), ..Panel::new(REDUCED_TIME, label) };
+    let momenta = panel("momentum_variance", "⟨P²⟩ / nmkT").with_reference("exact", 1.0);
+    let mut separations = panel("separation_variance", "var(X_{μ+1} − X_{μ}) κ/nkT");
     for (chain, name) in [("micro", "exact, beads"), ("dpd", "exact, clusters")] {
         let exact = table.values(&format!("{chain}_exact_separation_variance"));
         if let Some(value) = exact.first() {

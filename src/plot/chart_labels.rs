@@ -22,13 +22,8 @@ impl Layout {
             return;
         }
         let radius = 1.5 * self.marker_radius();
-        let points: Vec<[f64; 2]> = panel
-            .series
-            .iter()
-            .flat_map(|series| &series.points)
-            .filter_map(|point| place.pixel(*point))
-            .filter(|point| place.area.contains(*point))
-            .collect();
+        let points = panel.series.iter().flat_map(|series| &series.points).filter_map(|point| place.pixel(*point));
+        let points: Vec<[f64; 2]> = points.filter(|point| place.area.contains(*point)).collect();
         let square = |point: &[f64; 2]| Area::around(*point, [2.0 * radius; 2]);
         let mut taken: Vec<Area> = points.iter().map(square).chain(legend).collect();
         let mut lines = obstacles(place);

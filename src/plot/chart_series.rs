@@ -121,10 +121,8 @@ impl Layout {
             Some(fraction) if fraction < 0.0 => -1,
             _ => 0,
         };
-        let outside = place.prepared.panel.series[number]
-            .points
-            .chunk_by(|a, b| side(a) == side(b))
-            .filter(|stretch| side(&stretch[0]) != 0);
+        let points = &place.prepared.panel.series[number].points;
+        let outside = points.chunk_by(|a, b| side(a) == side(b)).filter(|stretch| side(&stretch[0]) != 0);
         for stretch in outside.take(MOST_EXITS) {
             let Some(x) = place.x_pixel(stretch[0][0]) else { continue };
             // Side by side where several series leave at once.

@@ -95,12 +95,9 @@ pub fn mesh_energies_chart(title: &str, table: &Table, temperature: Option<f64>,
 /// ```
 #[must_use]
 pub fn circulation_chart(title: &str, table: &Table) -> Chart {
-    let loops: Vec<(&String, Vec<[f64; 2]>)> = table
-        .columns
-        .iter()
-        .filter(|column| *column != "time")
-        .map(|column| (column, table.over_time(column, 1.0).unwrap_or_default()))
-        .collect();
+    let columns = table.columns.iter().filter(|column| *column != "time");
+    let loops: Vec<(&String, Vec<[f64; 2]>)> =
+        columns.map(|column| (column, table.over_time(column, 1.0).unwrap_or_default())).collect();
     let first = |points: &[[f64; 2]]| points.first().map_or(f64::NAN, |point| point[1]);
     let relative = loops.iter().all(|(_, points)| first(points) != 0.0);
     let label = if relative {

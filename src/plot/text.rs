@@ -74,13 +74,11 @@ impl Typesetter {
 
     /// Width of a line of text in pixels.
     pub(super) fn width(&self, text: &str, weight: Weight, size: f64) -> f64 {
-        runs(text)
-            .iter()
-            .map(|run| {
-                let font = self.font(weight).as_scaled(self.scale(weight, size * run.size));
-                run.text.chars().map(|c| f64::from(font.h_advance(glyph_of(font.font, c)))).sum::<f64>()
-            })
-            .sum()
+        let width = |run: &Run<'_>| {
+            let font = self.font(weight).as_scaled(self.scale(weight, size * run.size));
+            run.text.chars().map(|c| f64::from(font.h_advance(glyph_of(font.font, c)))).sum::<f64>()
+        };
+        runs(text).iter().map(width).sum()
     }
 
     /// Rasterises what is missing and returns the glyphs of a line of text.
