@@ -68,9 +68,7 @@ impl StudyRun<StabilitySummary> {
                 observer(StudyEvent::Phase { phase: &Bisecting(waiting.len()), runs: waiting.len() });
             }
         }
-        observer(StudyEvent::Finishing);
-        let files = self.finish(&place, &gpu)?;
-        Ok(StudyOutcome { summary: self.summary, files })
+        self.finish(&place, &gpu, observer)
     }
 
     /// Scenes to be run next: those of the grid, or else those that locate edges.

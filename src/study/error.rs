@@ -75,11 +75,7 @@ pub enum StudyError {
         expected: String,
     },
     /// It was asked to stop before its end.
-    #[error(
-        "interrupted{progress}; {} {}",
-        kind.resuming(directory),
-        kind.resumed
-    )]
+    #[error("interrupted{progress}; {} {}", kind.resuming(directory), kind.resumed)]
     Interrupted {
         /// What was interrupted.
         kind: &'static Kind,

@@ -76,7 +76,7 @@ impl Sweep {
         vary: &[String],
         also: &[String],
     ) -> Result<Self, StudyError> {
-        let (name, text) = scene::read(source).map_err(StudyError::Scene)?;
+        let (name, text) = scene::read(source)?;
         let files = StateFiles::of(&name);
         let scene = WrittenScene { name, text, set: set.to_vec(), steps };
         Self::from_arguments(scene, vary, also, files, StepCheck::Refuse)
@@ -132,9 +132,8 @@ impl Sweep {
     ) -> Result<Self, StudyError> {
         let Ok(base) = serde_json::from_str(scene.text.trim_start_matches('\u{feff}')) else {
             // The reader of scenes says what is wrong in better words.
-            return Err(scene::parse(&scene.name, &scene.text, &scene.set)
-                .err()
-                .map_or_else(|| StudyError::mistake("the scene is not JSON"), StudyError::Scene));
+            scene::parse(&scene.name, &scene.text, &scene.set)?;
+            return Err(StudyError::mistake("the scene is not JSON"));
         };
         Self { scene, base, vary, also, files, variants: Vec::new() }.expand(step)
     }
@@ -176,8 +175,8 @@ impl Sweep {
         for ((settings, places), variant) in all.into_iter().zip(names) {
             let overrides = self.scene.overrides(settings.iter().map(Setting::argument));
             let sets_steps = settings.iter().any(|setting| ["time", "time.steps"].contains(&setting.key.as_str()));
-            let WrittenScene { name, text, .. } = &self.scene;
-            let steps = self.scene.steps.filter(|_| !sets_steps);
+            let WrittenScene { name, text, steps, .. } = &self.scene;
+            let steps = steps.filter(|_| !sets_steps);
             let read = |step| scene::parse_with(&self.files, name, text, &overrides, steps, step);
             let (found, refusal) = match (read(StepCheck::Refuse), step) {
                 (Err(SceneError::Invalid { problems, .. }), StepCheck::Allow) => {
@@ -198,9 +197,7 @@ impl Sweep {
                     let label = short.label(&settings);
                     variants.push(Variant { name: variant, label, settings, scene, notices, refusal, places });
                 }
-                Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => {
-                    return Err(StudyError::Scene(error));
-                }
+                Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => return Err(error.into()),
                 Err(error) => {
                     let message = error.to_string();
                     match mistakes.iter_mut().find(|known| known.message == message) {
@@ -217,12 +214,9 @@ impl Sweep {
 
 /// Every combination of places, the last varying fastest.
 fn combinations(counts: &[usize]) -> Vec<Vec<usize>> {
-    counts.iter().fold(vec![Vec::new()], |combinations, count| {
-        let longer = |places: &Vec<usize>| {
-            let places = places.clone();
-            (0..*count).map(move |place| [places.as_slice(), &[place]].concat())
-        };
-        combinations.iter().flat_map(longer).collect()
+    counts.iter().fold(vec![Vec::new()], |shorter, count| {
+        let longer = shorter.iter().flat_map(|places| (0..*count).map(move |place| [&places[..], &[place]].concat()));
+        longer.collect()
     })
 }
 

@@ -38,6 +38,6 @@ pub use run::{LONG, Observer, StudyEvent, StudyOutcome, StudyRun, redraw};
 pub(crate) use run::{in_hours, largest};
 pub use shard::Shard;
 pub(crate) use shard_places::{RECORD as SHARD_RECORD, claim as claim_shard, claim_study, name_in_study};
-pub(crate) use variation::settings;
 pub use variation::{Setting, Variation};
+pub(crate) use variation::{numbers, settings};
 pub(crate) use written_scene::WrittenScene;

@@ -69,13 +69,9 @@ pub(super) fn directory(settings: &[Setting], short: &ShortKeys) -> String {
 pub(super) fn distinct(names: Vec<String>) -> Vec<String> {
     let mut taken = std::collections::HashSet::new();
     let mut number_of = |name: String| {
-        let mut found = name.clone();
-        let mut number = 2;
-        while !taken.insert(found.to_lowercase()) {
-            found = format!("{name}~{number}");
-            number += 1;
-        }
-        found
+        let numbered = (2..).map(|number| format!("{name}~{number}"));
+        let mut candidates = std::iter::once(name.clone()).chain(numbered);
+        candidates.find(|candidate| taken.insert(candidate.to_lowercase())).unwrap_or_default()
     };
     names.into_iter().map(&mut number_of).collect()
 }
@@ -99,12 +95,9 @@ pub(crate) fn readable(value: &Value) -> String {
 /// A text with nothing but characters that every file system and shell takes as they are.
 fn portable(text: &str) -> String {
     let text = text.replace(" × ", "x");
-    let mut name: String =
+    let name: String =
         text.chars().map(|c| if c.is_ascii_alphanumeric() || "+-._".contains(c) { c } else { '-' }).collect();
-    if name.is_empty() {
-        name.push('-');
-    }
-    name
+    if name.is_empty() { "-".to_owned() } else { name }
 }
 
 #[cfg(test)]

@@ -95,23 +95,13 @@ pub trait Record: Debug + Clone + Serialize + DeserializeOwned {
     }
 }
 
-/// A summary as it is in its file.
-#[derive(Serialize)]
-struct Stored<'r, R> {
-    #[serde(flatten)]
-    record: &'r R,
-    request_checksum: String,
-}
-
 /// Writes a summary into the directory of its study.
 pub(crate) fn save<R: Record>(record: &R, directory: &Path) -> Result<(), OutputError> {
     let path = directory.join(R::KIND.summary);
-    let text = || {
-        let request_checksum = checksum_of(R::KIND, &serde_json::to_value(record)?);
-        serde_json::to_string_pretty(&Stored { record, request_checksum })
-    };
-    let text = text().map_err(|source| OutputError::Json { path: path.clone(), source })?;
-    write_atomically(&path, |writer| writeln!(writer, "{text}"))
+    let summary = serde_json::to_value(record);
+    let mut summary = summary.map_err(|source| OutputError::Json { path: path.clone(), source })?;
+    summary[CHECKSUM] = checksum_of(R::KIND, &summary).into();
+    write_atomically(&path, |writer| writeln!(writer, "{summary:#}"))
 }
 
 /// The checksum of what a summary says that was asked for: of the text, so that it holds for every version of the program, whatever
@@ -119,12 +109,6 @@ pub(crate) fn save<R: Record>(record: &R, directory: &Path) -> Result<(), Output
 fn checksum_of(kind: &Kind, summary: &Value) -> String {
     let asked = kind.asked.iter().map(|key| summary.get(key).cloned().unwrap_or_default());
     own_file::checksum_of([&asked.collect()])
-}
-
-/// Whether what a summary asks for is what it asked for when it was written; those of early versions do not say.
-fn is_as_asked(kind: &Kind, path: &Path) -> Result<bool, OutputError> {
-    let summary: Value = own_file::json(path)?;
-    Ok(summary.get(CHECKSUM).is_none_or(|noted| *noted == checksum_of(kind, &summary)))
 }
 
 /// Reads the summary in the directory of a study.
@@ -170,7 +154,9 @@ pub(super) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunD
     shard_places::check_idle(directory, |_| true)?;
     check_version(&record, directory)?;
     let (kind, path) = (R::KIND, directory.join(R::KIND.summary));
-    let is_as_asked = is_as_asked(kind, &path)?;
+    let stored: Value = own_file::json(&path)?;
+    // Summaries of early versions do not say what they asked for when they were written.
+    let is_as_asked = stored.get(CHECKSUM).is_none_or(|noted| *noted == checksum_of(kind, &stored));
     let request = match record.request() {
         Err(_) if !is_as_asked => return Err(StudyError::Changed { kind, path, reasons: vec![ASKS_ELSE] }),
         request => request?,

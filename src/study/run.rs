@@ -23,16 +23,13 @@ pub struct StudyRun<R: Record> {
     pub(crate) request: R::Request,
     pub(crate) summary: R,
     path: PathBuf,
-    beginning: Beginning,
+    /// True if a new one may replace what an earlier one left.
+    force: bool,
+    /// The directory of one that goes on.
+    claimed: Option<RunDirectory>,
     interrupt: Interrupt,
     jobs: Option<usize>,
     longest: Option<Duration>,
-}
-
-#[derive(Debug, Clone)]
-enum Beginning {
-    New { force: bool },
-    Interrupted { directory: RunDirectory },
 }
 
 /// What an observer of a study receives; `E` is what becomes of a run, `P` what follows after the first runs.
@@ -100,7 +97,7 @@ impl<R: Record> StudyRun<R> {
     #[must_use]
     pub fn start(request: R::Request, directory: impl Into<PathBuf>, force: bool) -> Self {
         let summary = R::before(&request);
-        Self::of(request, summary, directory.into(), Beginning::New { force })
+        Self { force, ..Self::of(request, summary, directory.into()) }
     }
 
     /// What is missing of the study in a directory: runs under way continue from their last checkpoints, those that failed are
@@ -113,12 +110,12 @@ impl<R: Record> StudyRun<R> {
         let path = directory.into();
         let (record, request, directory) = record::reopen::<R>(&path)?;
         let summary = record.resumed(&request, &directory);
-        Ok(Self::of(request, summary, path, Beginning::Interrupted { directory }))
+        Ok(Self { claimed: Some(directory), ..Self::of(request, summary, path) })
     }
 
-    fn of(request: R::Request, summary: R, path: PathBuf, beginning: Beginning) -> Self {
+    fn of(request: R::Request, summary: R, path: PathBuf) -> Self {
         let interrupt = Interrupt::default();
-        Self { request, summary, path, beginning, interrupt, jobs: None, longest: None }
+        Self { request, summary, path, force: false, claimed: None, interrupt, jobs: None, longest: None }
     }
 
     /// The same study, which stops when it is asked to: what is known by then is kept, and runs save checkpoints.
@@ -152,23 +149,21 @@ impl<R: Record> StudyRun<R> {
     }
 
     pub(crate) fn is_new(&self) -> bool {
-        matches!(self.beginning, Beginning::New { .. })
+        self.claimed.is_none()
     }
 
     /// Refuses a directory in which the study would replace something it may not; nothing is written.
     pub(crate) fn check_place(&self) -> Result<(), OutputError> {
-        match self.beginning {
-            Beginning::New { force } => directory::check(&self.path, &self.summary, force).map(drop),
-            Beginning::Interrupted { .. } => Ok(()),
+        if self.is_new() {
+            directory::check(&self.path, &self.summary, self.force)?;
         }
+        Ok(())
     }
 
     /// The directory, made where the study is new: that of this process until the end.
     pub(crate) fn open_place(&self) -> Result<RunDirectory, OutputError> {
-        match &self.beginning {
-            Beginning::New { force } => directory::create(&self.path, &self.summary, *force),
-            Beginning::Interrupted { directory } => Ok(directory.clone()),
-        }
+        let create = || directory::create(&self.path, &self.summary, self.force);
+        self.claimed.clone().map_or_else(create, Ok)
     }
 
     /// Writes the summary.
@@ -187,12 +182,18 @@ impl<R: Record> StudyRun<R> {
         Ok(tables.chain([R::KIND.summary]).chain(page).map(str::to_owned).collect())
     }
 
-    /// Writes and draws all that a study leaves at its end, and names the files.
-    pub(crate) fn finish(&self, place: &RunDirectory, gpu: &Gpu) -> Result<Vec<String>, StudyError> {
+    /// Writes and draws all that a study leaves at its end.
+    pub(crate) fn finish(
+        self,
+        place: &RunDirectory,
+        gpu: &Gpu,
+        observer: &mut Observer<'_, R>,
+    ) -> Result<StudyOutcome<R>, StudyError> {
+        observer(StudyEvent::Finishing);
         let mut files = self.write()?;
         let style = self.summary.style(&self.request, &[])?;
         files.extend(draw(place, &self.summary, &self.request, &style, gpu, &|| self.proceed())?);
-        Ok(files)
+        Ok(StudyOutcome { summary: self.summary, files })
     }
 
     pub(crate) fn interrupt(&self) -> &Interrupt {
@@ -267,8 +268,7 @@ fn draw<R: Record>(
     proceed: &dyn Fn() -> Result<(), StudyError>,
 ) -> Result<Vec<String>, StudyError> {
     let charts = record.charts(request, place)?;
-    let plotter = Plotter::new(gpu);
-    let plotter = plotter.map_err(|source| RunError::Plot { name: "*.png".to_owned(), source })?;
+    let plotter = Plotter::new(gpu).map_err(|source| RunError::Plot { name: "*.png".to_owned(), source })?;
     let mut written = Vec::new();
     for (name, chart) in charts {
         proceed()?;

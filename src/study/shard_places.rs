@@ -94,11 +94,8 @@ fn all(study: &Path) -> Result<Vec<(Shard, PathBuf)>, OutputError> {
     let mut found = Vec::new();
     for entry in entries {
         let entry = entry.map_err(OutputError::io("list the directory", &place))?;
-        if let Some(shard) = entry.file_name().to_str().and_then(of_name)
-            && entry.path().is_dir()
-        {
-            found.push((shard, entry.path()));
-        }
+        let shard = entry.file_name().to_str().and_then(of_name).filter(|_| entry.path().is_dir());
+        found.extend(shard.map(|shard| (shard, entry.path())));
     }
     found.sort_by(|one, other| one.1.cmp(&other.1));
     Ok(found)

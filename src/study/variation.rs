@@ -22,6 +22,8 @@ pub struct Setting {
     pub value: Value,
 }
 
+const ACCEPTED: &str = "accepted: key=value,value,…, as in time.step=0.02,0.04";
+
 impl Setting {
     /// The setting as an override of a scene.
     pub(crate) fn argument(&self) -> String {
@@ -43,13 +45,11 @@ impl Variation {
     /// # Ok::<(), String>(())
     /// ```
     pub fn parse(argument: &str) -> Result<Self, String> {
-        let (key, text) = split_key(argument).ok_or("accepted: key=value,value,…, as in time.step=0.02,0.04")?;
+        let (key, text) = split_key(argument).ok_or(ACCEPTED)?;
         let mut values = Vec::new();
         for piece in pieces(text) {
             if piece.is_empty() {
-                return Err(
-                    "there is an empty value; accepted: key=value,value,…, as in time.step=0.02,0.04".to_owned()
-                );
+                return Err(format!("there is an empty value; {ACCEPTED}"));
             }
             let value = read(piece)?;
             if values.iter().any(|known| same(known, &value)) {
@@ -59,6 +59,11 @@ impl Variation {
         }
         Ok(Self { key, values })
     }
+}
+
+/// Values as numbers, if all of them are.
+pub(crate) fn numbers(values: &[Value]) -> Option<Vec<f64>> {
+    values.iter().map(Value::as_f64).collect()
 }
 
 /// Reads the settings of one variant, `key=value,key=value,…`.
@@ -79,10 +84,9 @@ pub(crate) fn settings(argument: &str) -> Result<Vec<Setting>, String> {
 /// Takes the number of steps out of overrides that set it: what no longer fits is then shortened, as if it were asked for by itself.
 pub(crate) fn steps_of(set: &mut Vec<String>) -> Option<u64> {
     let steps = |argument: &String| {
-        let (key, text) = split_key(argument).filter(|(key, _)| key == "time.steps")?;
+        let (_, text) = split_key(argument).filter(|(key, _)| key == "time.steps")?;
         let number = value(text).ok()?;
         let written = number.as_f64().filter(|steps| steps.fract() == 0.0 && (0.0..9e15).contains(steps));
-        drop(key);
         number.as_u64().or(written.map(|steps| steps as u64))
     };
     let found = set.iter().rev().find_map(steps);

@@ -3,7 +3,7 @@
 use super::observables::{Observable, observables};
 use super::variant::{VariantState, VariantSummary};
 use crate::measure::statistics::{Estimate, independent};
-use crate::study::{Setting, ShortKeys};
+use crate::study::{Setting, ShortKeys, by_key};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -29,27 +29,24 @@ pub struct SeedAverage {
 /// Variants that belong together, in order of the first of each.
 pub(super) struct Group<'a> {
     /// What they have in common.
-    pub settings: Vec<&'a Setting>,
+    pub settings: Vec<Setting>,
     /// The variants of it that are finished.
     pub finished: Vec<&'a VariantSummary>,
-    /// Whether variants differ in their seeds.
-    pub over_seeds: bool,
 }
 
 /// The groups of variants: those with the same settings but for the seed, or else each by itself.
 pub(super) fn groups(variants: &[VariantSummary]) -> Vec<Group<'_>> {
-    let mut groups: Vec<Group<'_>> = Vec::new();
-    for variant in variants {
-        let settings: Vec<&Setting> = variant.settings.iter().filter(|setting| setting.key != SEED).collect();
-        let over_seeds = settings.len() < variant.settings.len();
-        let known = groups.iter_mut().find(|group| over_seeds && group.over_seeds && group.settings == settings);
-        let finished = (variant.state == VariantState::Finished).then_some(variant);
-        match known {
-            Some(group) => group.finished.extend(finished),
-            None => groups.push(Group { settings, finished: finished.into_iter().collect(), over_seeds }),
-        }
-    }
-    groups
+    let keyed = variants.iter().enumerate().map(|(number, variant)| {
+        let mut settings = variant.settings.clone();
+        settings.retain(|setting| setting.key != SEED);
+        let alone = (settings.len() == variant.settings.len()).then_some(number);
+        ((alone, settings), variant)
+    });
+    let groups = by_key(keyed).into_iter().map(|((_, settings), mut variants)| {
+        variants.retain(|variant| variant.state == VariantState::Finished);
+        Group { settings, finished: variants }
+    });
+    groups.collect()
 }
 
 impl Group<'_> {
@@ -80,18 +77,13 @@ pub(super) fn averages(variants: &[VariantSummary]) -> Vec<SeedAverage> {
     several
         .map(|group| {
             let seeds = group.finished.len();
-            let settings: Vec<Setting> = group.settings.iter().map(|setting| (*setting).clone()).collect();
             let observables = group.observables();
+            let settings = group.settings;
             let spoilt = observables.iter().filter(|observable| observable.unequilibrated);
             let unequilibrated = spoilt.map(|observable| observable.name.clone()).collect();
-            let means = observables.into_iter().map(|Observable { name, value, error, .. }| {
-                let estimate = Estimate {
-                    mean: value,
-                    standard_error: error,
-                    samples: seeds,
-                    correlation_samples: None,
-                    converged: true,
-                };
+            let means = observables.into_iter().map(|Observable { name, value: mean, error, .. }| {
+                let (standard_error, samples, correlation_samples) = (error, seeds, None);
+                let estimate = Estimate { mean, standard_error, samples, correlation_samples, converged: true };
                 // Plain numbers and nothing else: this conversion cannot fail.
                 (name, serde_json::to_value(estimate).unwrap_or_default())
             });

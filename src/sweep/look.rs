@@ -22,12 +22,8 @@ impl Look {
     pub(super) fn check(&self, sweep: &Sweep) -> Result<(), StudyError> {
         let measured = |variant: &Variant| run::quantities(&Model::new(&variant.scene));
         let accepted: Vec<&str> = each_once(sweep.variants().iter().flat_map(measured));
-        match self.quantities.iter().find(|wanted| !accepted.contains(&wanted.as_str())) {
-            Some(wanted) => Err(StudyError::mistake(format!(
-                "there is no quantity `{wanted}` to plot; accepted: {}",
-                accepted.join(", ")
-            ))),
-            None => Ok(()),
-        }
+        let unknown = self.quantities.iter().find(|wanted| !accepted.contains(&wanted.as_str()));
+        let mistake = |wanted| format!("there is no quantity `{wanted}` to plot; accepted: {}", accepted.join(", "));
+        StudyError::refuse(unknown.map(mistake).into_iter().collect())
     }
 }

@@ -5,7 +5,7 @@ use super::look::Look;
 use super::observables::Observable;
 use super::summary::SweepSummary;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesStyle, UNEQUILIBRATED, quantity_label};
-use crate::study::{Setting, ShortKeys, Sweep, Variation, by_key, each_once, readable};
+use crate::study::{Setting, ShortKeys, Sweep, Variation, by_key, each_once, numbers, readable};
 use serde_json::Value;
 
 /// Panels of one picture.
@@ -80,28 +80,21 @@ impl<'a> MeansAxis<'a> {
     /// The axis of a sweep; none where nothing but the seed has two values.
     fn of(sweep: &'a Sweep) -> Option<Self> {
         let varied = || sweep.variations().iter().filter(|varied| varied.key != SEED && varied.values.len() > 1);
-        let numbers = |values: &[Value]| values.iter().all(Value::is_number);
-        let most = |varied: &&Variation| (numbers(&varied.values), varied.values.len());
+        let most = |varied: &&Variation| (numbers(&varied.values).is_some(), varied.values.len());
         // Of equals the first.
         let chosen = varied().rev().max_by_key(most)?;
         let short = ShortKeys::of(&[&chosen.key]);
         let label = short.short(&chosen.key);
-        let places: Vec<f64> = if numbers(&chosen.values) {
-            chosen.values.iter().filter_map(Value::as_f64).collect()
+        let (axis, places) = if let Some(places) = numbers(&chosen.values) {
+            (if is_geometric(&places) { Axis::log(label) } else { Axis::linear(label) }, places)
         } else {
-            (0..chosen.values.len()).map(|place| place as f64).collect()
-        };
-        let axis = if !numbers(&chosen.values) {
-            Axis::categories(label, chosen.values.iter().map(readable).collect())
-        } else if is_geometric(&places) {
-            Axis::log(label)
-        } else {
-            Axis::linear(label)
+            let places = (0..chosen.values.len()).map(|place| place as f64).collect();
+            (Axis::categories(label, chosen.values.iter().map(readable).collect()), places)
         };
         Some(Self { key: &chosen.key, axis, values: &chosen.values, places })
     }
 
-    fn place(&self, settings: &[&Setting]) -> Option<f64> {
+    fn place(&self, settings: &[Setting]) -> Option<f64> {
         let setting = settings.iter().find(|setting| setting.key == self.key)?;
         let place = self.values.iter().position(|value| *value == setting.value)?;
         self.places.get(place).copied()
@@ -117,12 +110,8 @@ impl<'a> MeansAxis<'a> {
         let mut points = Vec::new();
         for (group, observables) in found {
             let Some(observable) = value_of(observables, quantity) else { continue };
-            let others: Vec<Setting> = group
-                .settings
-                .iter()
-                .filter(|setting| setting.key != self.key)
-                .map(|setting| (*setting).clone())
-                .collect();
+            let mut others = group.settings.clone();
+            others.retain(|setting| setting.key != self.key);
             let name = if others.is_empty() { String::new() } else { ShortKeys::of_settings(&others).label(&others) };
             let Some(place) = self.place(&group.settings) else {
                 panel = panel.with_reference(&name, observable.value);

@@ -7,9 +7,8 @@ use super::variant::VariantState;
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::plot::{Chart, Series, SeriesInk, overlay_chart};
 use crate::run;
-use crate::study::{Charts, StudyError, Sweep, Variant, each_once};
+use crate::study::{Charts, StudyError, Sweep, Variant, each_once, numbers};
 use crate::table::Table;
-use serde_json::Value;
 
 /// A scale of colours says more than colours apart from more than this many values on.
 const FEW: usize = 5;
@@ -20,14 +19,14 @@ pub(super) fn charts<'c>(
     summary: &'c SweepSummary,
     place: &RunDirectory,
 ) -> Result<Charts<'c>, StudyError> {
-    let mut finished: Vec<(&Variant, Table)> = Vec::new();
-    for (variant, ended) in sweep.variants().iter().zip(&summary.variants) {
+    let mut finished: Vec<(&Variant, SeriesInk, Table)> = Vec::new();
+    for ((variant, ink), ended) in sweep.variants().iter().zip(inks(sweep)).zip(&summary.variants) {
         if ended.state == VariantState::Finished {
             let run = RunDirectory::open(place.file(&variant.name))?;
             run.check_run(ended.run_id, files::SUMMARY)?;
             Summary::load(&run.file(run_files::SUMMARY))?.check_table(&run, run_files::ENERGIES)?;
             let table = run::read_energies(&run.file(run_files::ENERGIES), &variant.scene, ended.steps)?;
-            finished.push((variant, table));
+            finished.push((variant, ink, table));
         }
     }
     let look = &summary.plots;
@@ -35,23 +34,21 @@ pub(super) fn charts<'c>(
         let is_asked = look.quantities.is_empty() || look.quantities.contains(column);
         is_asked && !["step", "time"].contains(&column.as_str())
     };
-    let quantities = each_once(finished.iter().flat_map(|(_, table)| &table.columns).filter(is_shown).cloned());
-    let inks = inks(sweep);
+    let quantities = each_once(finished.iter().flat_map(|(_, _, table)| &table.columns).filter(is_shown).cloned());
     let of_quantity = move |quantity: String| -> Option<(String, Chart)> {
         let mut curves: Vec<Series> = Vec::new();
         let mut without: Vec<&str> = Vec::new();
-        for (variant, table) in &finished {
+        for (variant, ink, table) in &finished {
             let Some(points) = points(table, &quantity, look.relative) else {
                 without.push(&variant.label);
                 continue;
             };
-            let index = sweep.variants().iter().position(|known| known.name == variant.name).unwrap_or(0);
-            curves.push(Series::line(&variant.label, points).with_ink(inks[index]));
+            curves.push(Series::line(&variant.label, points).with_ink(*ink));
         }
         if curves.is_empty() || look.quantities.is_empty() && !changes(&curves) {
             return None;
         }
-        let title = finished.first().map_or("", |(variant, _)| variant.scene.title.as_str());
+        let title = finished.first().map_or("", |(variant, _, _)| variant.scene.title.as_str());
         let mut subtitle = subtitle(sweep, summary);
         if !without.is_empty() {
             subtitle = format!("{subtitle}; without {}", without.join(", "));
@@ -97,14 +94,10 @@ fn changes(curves: &[Series]) -> bool {
 /// What each variant is drawn with: where one key has more than a few numbers as values, and no other has, colours on
 /// a scale in the order of these numbers, and dashes for the other keys; variants that are none of their combinations in the ink of the axes.
 fn inks(sweep: &Sweep) -> Vec<SeriesInk> {
-    let numeric = |place: usize| sweep.variations()[place].values.iter().all(Value::is_number);
-    let many: Vec<usize> =
-        (0..sweep.variations().len()).filter(|place| sweep.variations()[*place].values.len() > FEW).collect();
-    let scaled = match many.as_slice() {
-        [only] if numeric(*only) => *only,
-        _ => return vec![SeriesInk::Own; sweep.variants().len()],
-    };
-    let values: Vec<f64> = sweep.variations()[scaled].values.iter().filter_map(Value::as_f64).collect();
+    let varied = sweep.variations();
+    let many: Vec<usize> = (0..varied.len()).filter(|place| varied[*place].values.len() > FEW).collect();
+    let only = if let [only] = many[..] { numbers(&varied[only].values).map(|values| (only, values)) } else { None };
+    let Some((scaled, values)) = only else { return vec![SeriesInk::Own; sweep.variants().len()] };
     let last = (values.len() - 1) as f64;
     let place_on_scale = |index: usize| values.iter().filter(|value| **value < values[index]).count() as f64 / last;
     let mut further = 0;
@@ -115,8 +108,7 @@ fn inks(sweep: &Sweep) -> Vec<SeriesInk> {
         };
         // Dashes count through the combinations of the other keys.
         let others = (0..variant.places.len()).filter(|place| *place != scaled);
-        let pattern =
-            others.fold(0, |pattern, place| pattern * sweep.variations()[place].values.len() + variant.places[place]);
+        let pattern = others.fold(0, |pattern, place| pattern * varied[place].values.len() + variant.places[place]);
         SeriesInk::Scale { place: place_on_scale(*index), pattern }
     };
     sweep.variants().iter().map(ink).collect()

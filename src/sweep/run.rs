@@ -1,12 +1,13 @@
 //! A sweep from its first variant to its last plot.
 
+use super::averages::averages;
 use super::look::Look;
 use super::summary::SweepSummary;
 use crate::families::Model;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::run::{self, RunError};
 use crate::scene::Scene;
-use crate::study::{Member, Observer, StudyError, StudyEvent, StudyRun, Variant};
+use crate::study::{Member, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun, Variant};
 
 /// Particles times steps that no adapter takes more than some minutes for.
 const WORTH_TIMING: f64 = 1e8;
@@ -49,7 +50,8 @@ impl StudyRun<SweepSummary> {
         self.check_place()?;
         let waiting = self.summary.waiting();
         // Before the directory: an adapter that is not there should not cost an earlier sweep its files.
-        let (gpu, jobs) = self.open_adapter(adapter, &waiting)?;
+        let gpu = self.open_adapter(adapter, &waiting)?;
+        let jobs = self.jobs_of(&waiting, &gpu);
         let seconds = self.expected(&waiting, &gpu);
         self.refuse_long(seconds.unwrap_or_default())?;
         let place = self.open_place()?;
@@ -59,27 +61,29 @@ impl StudyRun<SweepSummary> {
         self.summarise()?;
         observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds });
         let failures = self.run_all(&waiting, jobs, adapter, observer, &Self::summarise)?;
-        observer(StudyEvent::Finishing);
-        let files = self.finish(&place, &gpu)?;
-        Ok(SweepOutcome { summary: self.summary, failures, files })
+        let StudyOutcome { summary, files } = self.finish(&place, &gpu, observer)?;
+        Ok(SweepOutcome { summary, failures, files })
     }
 
-    /// Opens an adapter with the capacity for the largest of these variants, and says how many are to run at once.
-    pub(super) fn open_adapter(&self, adapter: &AdapterChoice, waiting: &[usize]) -> Result<(Gpu, usize), StudyError> {
-        let Some(Variant { name, scene, .. }) = self.largest(waiting) else {
+    /// Opens an adapter with the capacity for the largest of these variants.
+    pub(super) fn open_adapter(&self, adapter: &AdapterChoice, numbers: &[usize]) -> Result<Gpu, StudyError> {
+        let Some(Variant { name, scene, .. }) = self.largest(numbers) else {
             // Nothing to run: plots take little room.
-            return Ok((Gpu::open(adapter, Requirements::default())?, 1));
+            return Ok(Gpu::open(adapter, Requirements::default())?);
         };
-        let gpu = run::adapter_for(scene, adapter).map_err(|error| match error {
+        run::adapter_for(scene, adapter).map_err(|error| match error {
             error if error.exceeds_adapter() => StudyError::of_run(name, error),
             error => error.into(),
-        })?;
-        let jobs = self.jobs_for(scene, waiting.len(), &gpu);
-        Ok((gpu, jobs))
+        })
+    }
+
+    /// How many of these variants are to run at once.
+    pub(super) fn jobs_of(&self, waiting: &[usize], gpu: &Gpu) -> usize {
+        self.largest(waiting).map_or(1, |variant| self.jobs_for(&variant.scene, waiting.len(), gpu))
     }
 
     /// The variant of the most particles of some.
-    pub(super) fn largest(&self, numbers: &[usize]) -> Option<&Variant> {
+    fn largest(&self, numbers: &[usize]) -> Option<&Variant> {
         let variants = numbers.iter().map(|number| &self.request.variants()[*number]);
         variants.max_by_key(|variant| Model::new(&variant.scene).particle_count())
     }
@@ -130,7 +134,7 @@ impl StudyRun<SweepSummary> {
 
     /// Writes table and summary.
     fn summarise(&mut self) -> Result<(), StudyError> {
-        self.summary.average();
+        self.summary.averages = averages(&self.summary.variants);
         self.write()?;
         Ok(())
     }

@@ -50,7 +50,7 @@ impl StudyRun<SweepSummary> {
         self.summary.plots.check(&self.request)?;
         let own: Vec<usize> = (0..self.request.variants().len()).filter(|place| shard.has(*place)).collect();
         // Before the directory, as a sweep does.
-        let (gpu, _) = self.open_adapter(adapter, &own)?;
+        let gpu = self.open_adapter(adapter, &own)?;
         let place = self.enter(shard)?;
         let place_of_sweep = self.directory().to_path_buf();
         for number in &own {
@@ -60,7 +60,7 @@ impl StudyRun<SweepSummary> {
         }
         let is_waiting = |number: &&usize| self.summary.variants[**number].state != VariantState::Finished;
         let waiting: Vec<usize> = own.iter().filter(is_waiting).copied().collect();
-        let jobs = self.largest(&waiting).map_or(1, |variant| self.jobs_for(&variant.scene, waiting.len(), &gpu));
+        let jobs = self.jobs_of(&waiting, &gpu);
         self.summary.adapter = Some(gpu.description().into());
         self.note(&place, shard, &own)?;
         observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds: None });
@@ -76,11 +76,8 @@ impl StudyRun<SweepSummary> {
         for (number, _) in &mut failures {
             *number = own.iter().position(|own| own == number).unwrap_or_default();
         }
-        let mut number = 0;
-        self.summary.variants.retain(|_| {
-            number += 1;
-            shard.has(number - 1)
-        });
+        let mut places = 0..;
+        self.summary.variants.retain(|_| places.next().is_some_and(|place| shard.has(place)));
         let files = vec![study::name_in_study(shard, SHARD_RECORD)];
         Ok(SweepOutcome { summary: self.summary, failures, files })
     }

@@ -1,6 +1,6 @@
 //! The summary of a sweep, `sweep.json`.
 
-use super::averages::{SeedAverage, averages};
+use super::averages::SeedAverage;
 use super::look::Look;
 use super::variant::{VariantState, VariantSummary};
 use super::{files, plots, table};
@@ -49,11 +49,6 @@ pub struct SweepSummary {
 }
 
 impl SweepSummary {
-    /// Takes the means over the seed of all variants that are finished.
-    pub(super) fn average(&mut self) {
-        self.averages = averages(&self.variants);
-    }
-
     /// Reads the summary in the directory of a sweep.
     ///
     /// # Errors
@@ -70,14 +65,12 @@ impl SweepSummary {
 
     /// Whether it was asked for in the same way as another one, which this version of the program made, and has its runs.
     pub(super) fn is_of(&self, other: &Self) -> bool {
-        let asked = |summary: &Self| {
-            let Self { vary, also, set, steps, base, .. } = summary;
-            (vary.clone(), also.clone(), set.clone(), *steps, base.clone())
-        };
+        let same_keys = self.vary == other.vary && self.also == other.also && self.set == other.set;
+        let same_scene = self.steps == other.steps && self.base == other.base;
         // Where no scene has a file, only one that was not read from its own summary knows where files would be.
         let have_none = self.state_files.is_empty() && other.state_files.is_empty();
         let same_files = have_none || self.state_files == other.state_files;
-        asked(self) == asked(other) && same_files && self.has_runs_of(other)
+        same_keys && same_scene && same_files && self.has_runs_of(other)
     }
 
     /// True if it has the runs of another one, which this version of the program made.

@@ -137,9 +137,7 @@ impl StudyRun<TradeoffSummary> {
         self.time(&runs, adapter)?;
         self.summary.assess(&self.request)?;
         self.summary.choose();
-        observer(StudyEvent::Finishing);
-        let files = self.finish(&place, &gpu)?;
-        Ok(StudyOutcome { summary: self.summary, files })
+        self.finish(&place, &gpu, observer)
     }
 
     /// All runs: the choices, then those that references are taken from where some measure needs them.
