@@ -27,7 +27,7 @@ pub(super) fn duration(seconds: f64) -> String {
 /// What a measure is compared with.
 pub(super) fn reference_in_words(summary: &TradeoffSummary, measure: &str) -> String {
     let Some(reference) = summary.reference(measure) else { return "there is nothing to compare it with".to_owned() };
-    let value = with_error(reference.value, reference.uncertainty.filter(|error| *error > 0.0));
+    let value = with_error(reference.value, reference.uncertainty);
     match &reference.source {
         Source::Given => format!("compared with {value}, which was given"),
         Source::Predicted(law) => format!("compared with {value}: {law}"),
@@ -51,8 +51,7 @@ fn finer_in_words(summary: &TradeoffSummary) -> String {
 #[must_use]
 pub fn error_in_words(error: &Deviation) -> String {
     let (scale, unit) = if error.is_part() { (100.0, " %") } else { (1.0, "") };
-    let text =
-        with_error(scale * error.error, error.uncertainty.filter(|found| *found > 0.0).map(|found| scale * found));
+    let text = with_error(scale * error.error, error.uncertainty.map(|found| scale * found));
     let mark = if error.from_few_samples { format!(" {FEW_SAMPLES}") } else { String::new() };
     format!("{text}{unit}{mark}")
 }
@@ -227,18 +226,15 @@ fn what_to_vary(summary: &TradeoffSummary, nearest: &Choice, target: &Target) ->
 
 /// The choice whose worst error, as a multiple of its target, is least; with that target and the multiple.
 fn nearest(summary: &TradeoffSummary) -> Option<(&Choice, &Target, f64)> {
-    let worst = |choice| {
-        let choice: &Choice = choice;
-        let factor = |target| {
-            let target: &Target = target;
+    let worst = summary.choices.iter().filter_map(|choice| {
+        let factors = summary.arguments.targets.iter().map(|target| {
             let (error, reference) = (choice.error(&target.measure)?, summary.reference(&target.measure)?);
             Some((choice, target, error.largest() / target.most(reference.value, error.relative)))
-        };
+        });
         // A choice that lacks a measure is not near.
-        let factors: Option<Vec<_>> = summary.arguments.targets.iter().map(factor).collect();
-        factors?.into_iter().max_by(|a, b| a.2.total_cmp(&b.2))
-    };
-    summary.choices.iter().filter_map(worst).min_by(|a, b| a.2.total_cmp(&b.2))
+        factors.collect::<Option<Vec<_>>>()?.into_iter().max_by(|a, b| a.2.total_cmp(&b.2))
+    });
+    worst.min_by(|a, b| a.2.total_cmp(&b.2))
 }
 
 /// The errors of all choices in one table.

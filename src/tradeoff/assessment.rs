@@ -15,48 +15,47 @@ impl TradeoffSummary {
     /// # Errors
     /// [`StudyError::Arguments`] if a measure was asked for that no run has.
     pub(super) fn assess(&mut self, request: &Request) -> Result<(), StudyError> {
-        let summary = self;
         let arguments = &request.arguments;
-        if summary.measures.is_empty() {
-            let finished = summary.finished().next();
+        if self.measures.is_empty() {
+            let finished = self.finished().next();
             let usual = finished.map(|choice| measures::usual(&choice.measured)).unwrap_or_default();
             let measures = if arguments.measures.is_empty() { usual } else { arguments.measures.clone() };
             let further = arguments.targets.iter().map(|target| target.measure.clone());
             let further = further.chain(arguments.references.measures().map(str::to_owned));
-            summary.measures = each_once(measures.into_iter().chain(further));
+            self.measures = each_once(measures.into_iter().chain(further));
         }
-        if summary.finished().next().is_some() {
-            let lacks = |measure: &&String| summary.finished().all(|choice| choice.value(measure).is_none());
+        if self.finished().next().is_some() {
+            let lacks = |measure: &&String| self.finished().all(|choice| choice.value(measure).is_none());
             let mistake = |measure| format!("no run measured `{measure}`");
-            StudyError::refuse(summary.measures.iter().filter(lacks).map(mistake).collect())?;
+            StudyError::refuse(self.measures.iter().filter(lacks).map(mistake).collect())?;
         }
-        let finer: Vec<&[Measured]> = summary.finer.iter().map(|run| run.measured.as_slice()).collect();
+        let finer: Vec<&[Measured]> = self.finer.iter().map(|run| run.measured.as_slice()).collect();
         let reference = |measure: &String| request.known(measure).or_else(|| reference::finer(measure, FINER, &finer));
-        summary.references = summary.measures.iter().filter_map(reference).collect();
-        for (choice, variant) in summary.choices.iter_mut().zip(request.sweep.variants()) {
+        self.references = self.measures.iter().filter_map(reference).collect();
+        for (choice, variant) in self.choices.iter_mut().zip(request.sweep.variants()) {
             let error = |reference: &Reference| {
                 let measured = choice.measured.iter().find(|found| found.measure == reference.measure)?;
                 let of_scheme = reference::of_scheme(&reference.measure, &variant.scene);
                 Some(Deviation::new(measured, reference).with_scheme(of_scheme, reference))
             };
-            choice.errors = summary.references.iter().filter_map(error).collect();
+            choice.errors = self.references.iter().filter_map(error).collect();
         }
-        for measure in &summary.measures {
+        for measure in &self.measures {
             let pair = |choice: &Choice| {
                 let error = choice.error(measure).map_or(f64::NAN, Deviation::size);
                 [choice.cost.map_or(f64::NAN, |cost| cost.seconds_per_time), error]
             };
-            let front = pareto::front(&summary.choices.iter().map(pair).collect::<Vec<_>>());
-            for (choice, on_front) in summary.choices.iter_mut().zip(front) {
+            let front = pareto::front(&self.choices.iter().map(pair).collect::<Vec<_>>());
+            for (choice, on_front) in self.choices.iter_mut().zip(front) {
                 if let Some(error) = choice.errors.iter_mut().find(|error| error.measure == *measure) {
                     error.on_front = on_front;
                 }
             }
         }
         let targets = &arguments.targets;
-        for choice in &mut summary.choices {
+        for choice in &mut self.choices {
             let verdict = |target: &Target| {
-                let reference = summary.references.iter().find(|known| known.measure == target.measure)?;
+                let reference = self.references.iter().find(|known| known.measure == target.measure)?;
                 Some(target.verdict(choice.error(&target.measure)?, reference.value))
             };
             choice.verdict = match choice.state {

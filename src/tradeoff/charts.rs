@@ -4,8 +4,7 @@ use super::deviation::Deviation;
 use super::request::Request;
 use super::summary::{Choice, TradeoffSummary};
 use crate::plot::{Axis, Chart, Panel, Series, SeriesInk};
-use crate::study::{Setting, ShortKeys, each_once, readable};
-use serde_json::Value;
+use crate::study::{Setting, ShortKeys, each_once, numbers, readable};
 
 /// A choice in the picture.
 struct Point<'a> {
@@ -21,13 +20,12 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     let relative = !reference.is_zero();
     let is_part = summary.choices.iter().find_map(|choice| choice.error(measure)).is_some_and(Deviation::is_part);
     let scale = if is_part { 100.0 } else { 1.0 };
-    let point = |choice| {
-        let choice: &Choice = choice;
+    let points = summary.choices.iter().filter_map(|choice| {
         let (error, cost) = (choice.error(measure)?, choice.cost?);
         let place = [cost.seconds_per_time, scale * error.on_log_axis()?];
         Some(Point { choice, error, place, bar: scale * error.uncertainty.unwrap_or(0.0) })
-    };
-    let points: Vec<Point<'_>> = summary.choices.iter().filter_map(point).collect();
+    });
+    let points: Vec<Point<'_>> = points.collect();
     if points.is_empty() {
         return None;
     }
@@ -39,17 +37,16 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
         y: Axis::log(&format!("error of {what}{unit}")),
         ..Panel::default()
     };
-    let mut front: Vec<[f64; 2]> =
-        points.iter().filter(|point| point.error.on_front).map(|point| point.place).collect();
+    let (on_front, dominated): (Vec<_>, Vec<_>) = points.iter().partition(|point| point.error.on_front);
+    let mut front: Vec<[f64; 2]> = on_front.iter().map(|point| point.place).collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
     for name in each_once(points.iter().map(|point| groups.name(point.choice))) {
-        let own: Vec<&Point<'_>> =
-            points.iter().filter(|point| point.error.on_front && groups.name(point.choice) == name).collect();
+        let own = on_front.iter().copied().filter(|point| groups.name(point.choice) == name);
+        let own: Vec<&Point<'_>> = own.collect();
         if !own.is_empty() {
             panel.series.push(series(&name, &own, &groups));
         }
     }
-    let dominated: Vec<&Point<'_>> = points.iter().filter(|point| !point.error.on_front).collect();
     if !dominated.is_empty() {
         let whole = |point: &Point<'_>| {
             let (group, label) = (groups.name(point.choice), groups.label(point.choice));
@@ -91,7 +88,7 @@ impl<'a> Groups<'a> {
     fn of(request: &'a Request) -> Self {
         let sweep = request.sweep();
         let short = ShortKeys::of(&sweep.keys());
-        let varied = sweep.variations().iter().filter(|varied| varied.values.iter().all(Value::is_number));
+        let varied = sweep.variations().iter().filter(|varied| numbers(&varied.values).is_some());
         let labelled = varied.max_by_key(|varied| varied.values.len()).map(|varied| varied.key.as_str());
         Self { short, labelled }
     }

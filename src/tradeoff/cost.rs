@@ -57,17 +57,15 @@ struct Runner<'a> {
 impl<'a> Runner<'a> {
     /// Times steps, with more room where that is wanted, as a run does.
     fn take_turn(&mut self, gpu: &'a Gpu) -> Result<(), EngineError> {
-        loop {
-            match self.advance(gpu) {
-                Err(error) if is_a_result(&error) => self.has_ended = true,
-                Err(EngineError::Crowded { .. }) if self.options.has_room_left() => {
-                    self.options = self.options.with_room(self.choice.state.len() as u64);
-                    continue;
-                }
-                ended => ended?,
+        match self.advance(gpu) {
+            Err(error) if is_a_result(&error) => self.has_ended = true,
+            Err(EngineError::Crowded { .. }) if self.options.has_room_left() => {
+                self.options = self.options.with_room(self.choice.state.len() as u64);
+                return self.take_turn(gpu);
             }
-            return Ok(());
+            ended => ended?,
         }
+        Ok(())
     }
 
     fn advance(&mut self, gpu: &'a Gpu) -> Result<(), EngineError> {
@@ -80,10 +78,7 @@ impl<'a> Runner<'a> {
             seconds_of(&mut engine, 4)?;
             engine
         };
-        let steps = match self.steps {
-            Some(steps) => steps,
-            None => steps_of_a_turn(&mut engine)?,
-        };
+        let steps = self.steps.map_or_else(|| steps_of_a_turn(&mut engine), Ok)?;
         self.steps = Some(steps);
         let seconds = seconds_of(&mut engine, steps)?;
         self.times.push(seconds / (steps as f64 * self.choice.scene.time.step));

@@ -88,9 +88,8 @@ pub(super) fn compared(scene: &Scene, model: &Model) -> Vec<FieldQuantity> {
 }
 
 /// The scene, which leaves all fields that are compared.
-pub(super) fn leaving_compared(scene: Scene) -> Scene {
+pub(super) fn leaving_compared(mut scene: Scene) -> Scene {
     let quantities = compared(&scene, &Model::new(&scene));
-    let mut scene = scene;
     if !quantities.is_empty() {
         scene.output.fields.get_or_insert_default().quantities = quantities;
     }

@@ -45,17 +45,12 @@ impl Extension {
 }
 
 /// The largest relative standard errors among what is assessed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Worst {
     /// As they count: larger where they are from few samples.
     pub counted: f64,
     /// As the samples say.
     pub measured: f64,
-}
-
-impl Worst {
-    /// Where nothing has a relative error.
-    pub(super) const NONE: Self = Self { counted: 0.0, measured: 0.0 };
 }
 
 /// By what to lengthen all runs so that the worst relative standard error falls from `worst` to what is asked for, within the
@@ -89,20 +84,16 @@ pub(super) fn extension(length: &Length, worst: Option<Worst>, spent: f64, avera
 /// The largest relative standard errors among what is assessed of all choices; none where no mean has one yet. What an analysis gives
 /// without an error never has one.
 pub(super) fn worst_error(choices: &[Choice], measures: &[String]) -> Option<Worst> {
-    let mut worst: Option<Worst> = None;
-    for measured in choices.iter().flat_map(|choice| &choice.measured) {
-        if !measures.contains(&measured.measure) || !measured.fluctuates {
-            continue;
-        }
-        let Some((counted, own)) = measured.uncertainty().zip(measured.standard_error) else { continue };
-        let relative = |error: f64| if measured.value == 0.0 { error } else { (error / measured.value).abs() };
-        let (counted, own) = (relative(counted), relative(own));
-        worst = Some(worst.map_or(Worst { counted, measured: own }, |worst| Worst {
-            counted: worst.counted.max(counted),
-            measured: worst.measured.max(own),
-        }));
-    }
-    worst
+    let measured = choices.iter().flat_map(|choice| &choice.measured);
+    let assessed = measured.filter(|found| found.fluctuates && measures.contains(&found.measure));
+    let errors = assessed.filter_map(|found| {
+        let relative = |error: f64| if found.value == 0.0 { error } else { (error / found.value).abs() };
+        Some(Worst { counted: relative(found.uncertainty()?), measured: relative(found.standard_error?) })
+    });
+    errors.reduce(|one, other| Worst {
+        counted: one.counted.max(other.counted),
+        measured: one.measured.max(other.measured),
+    })
 }
 
 #[cfg(test)]

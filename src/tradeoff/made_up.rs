@@ -34,8 +34,7 @@ pub(super) fn summary(vary: &[&str], target: &str, choices: &[Option<(f64, f64, 
             particle_steps_per_second: 1.0 / cost,
             bytes_per_particle: 100.0,
         });
-        let (measure, standard_error) = (MEASURE.to_owned(), Some(error));
-        choice.measured.push(Measured { measure, value, standard_error, fluctuates: true, from_few_samples: false });
+        choice.measured.push(Measured::mean(MEASURE.to_owned(), value, Some(error), false));
     }
     summary.assess(&request).unwrap();
     summary.choose();

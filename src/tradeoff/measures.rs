@@ -52,6 +52,11 @@ impl Measured {
         Self { measure: measure.into(), value, standard_error, fluctuates: false, from_few_samples: false }
     }
 
+    /// A mean that more samples make more certain.
+    pub(crate) fn mean(measure: String, value: f64, standard_error: Option<f64>, from_few_samples: bool) -> Self {
+        Self { measure, value, standard_error, fluctuates: true, from_few_samples }
+    }
+
     /// The standard error that counts: of what is from few samples it is taken to be larger than what they say.
     #[must_use]
     pub fn uncertainty(&self) -> Option<f64> {
@@ -62,22 +67,13 @@ impl Measured {
 
 /// Everything that a finished run says by itself.
 pub(super) fn of_run(summary: &Summary, scene: &Scene, directory: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
-    let mut measured: Vec<Measured> = numbers_of(&summary.means, &summary.results)
-        .into_iter()
-        .filter(|found| found.value.is_finite())
-        .map(|found| Measured {
-            measure: found.name,
-            value: found.value,
-            standard_error: found.error,
-            fluctuates: true,
-            from_few_samples: found.from_few_samples,
-        })
-        .collect();
+    let numbers = numbers_of(&summary.means, &summary.results).into_iter().filter(|found| found.value.is_finite());
+    let mut measured: Vec<Measured> =
+        numbers.map(|found| Measured::mean(found.name, found.value, found.error, found.from_few_samples)).collect();
     let table = run::read_energies(&directory.file(run_files::ENERGIES), scene, summary.steps)?;
     measured.extend(of_table(&table, scene));
-    measured.extend(
-        run::circulation_change(summary).map(|change| Measured::from_one_sample(CIRCULATION_DRIFT, change, Some(0.0))),
-    );
+    let drift = run::circulation_change(summary);
+    measured.extend(drift.map(|drift| Measured::from_one_sample(CIRCULATION_DRIFT, drift, Some(0.0))));
     measured.extend(fields::from_exact(scene, directory)?);
     Ok(measured)
 }

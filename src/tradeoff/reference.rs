@@ -59,27 +59,34 @@ impl References {
     /// # Errors
     /// All mistakes, in words.
     pub fn parse(arguments: &[String]) -> Result<Self, Vec<String>> {
+        let accepted = "accepted: measure=value or measure=value+-error, as in pressure=23.635+-0.005";
         let mut mistakes = Vec::new();
         let mut found: Vec<Reference> = Vec::new();
         for argument in arguments {
-            let accepted = "accepted: measure=value or measure=value+-error, as in pressure=23.635+-0.005";
-            let parts = argument.split_once('=').map(|(measure, text)| (measure.trim(), text.replace('±', "+-")));
-            let Some((measure, text)) = parts.filter(|(measure, _)| !measure.is_empty()) else {
-                mistakes.push(format!("`--reference {argument}`: {accepted}"));
-                continue;
-            };
-            let (value, error) = text.split_once("+-").unwrap_or((text.as_str(), "0"));
-            let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-            match (number(value), number(error).filter(|error| *error >= 0.0)) {
-                (Some(value), Some(error)) if found.iter().all(|known| known.measure != measure) => {
-                    let (measure, uncertainty) = (measure.to_owned(), Some(error));
-                    found.push(Reference { measure, value, uncertainty, source: Source::Given });
+            let mistake = match Self::read(argument) {
+                None => accepted.to_owned(),
+                Some(given) if found.iter().any(|known| known.measure == given.measure) => {
+                    format!("`{}` has one already", given.measure)
                 }
-                (Some(_), Some(_)) => mistakes.push(format!("`--reference {argument}`: `{measure}` has one already")),
-                _ => mistakes.push(format!("`--reference {argument}`: {accepted}")),
-            }
+                Some(given) => {
+                    found.push(given);
+                    continue;
+                }
+            };
+            mistakes.push(format!("`--reference {argument}`: {mistake}"));
         }
         if mistakes.is_empty() { Ok(Self(found)) } else { Err(mistakes) }
+    }
+
+    /// Reads one of them.
+    fn read(argument: &str) -> Option<Reference> {
+        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        let (measure, text) = argument.split_once('=').filter(|(measure, _)| !measure.trim().is_empty())?;
+        let text = text.replace('±', "+-");
+        let (value, error) = text.split_once("+-").unwrap_or((text.as_str(), "0"));
+        let uncertainty = Some(number(error).filter(|error| *error >= 0.0)?);
+        let (measure, value) = (measure.trim().to_owned(), number(value)?);
+        Some(Reference { measure, value, uncertainty, source: Source::Given })
     }
 
     /// The one of a measure.
@@ -101,49 +108,45 @@ impl References {
 
 /// The value that a measure has if equations of motion are solved exactly, where that is known.
 pub(crate) fn predicted(measure: &str, scene: &Scene) -> Option<Reference> {
-    let (value, law) = match measure {
-        ENERGY_DRIFT => (0.0, "the energy of the exact motion is constant".to_owned()),
-        CIRCULATION_DRIFT => (0.0, "a loop that moves with the flow keeps its circulation".to_owned()),
-        LIMITED_EXCHANGES => (0.0, "a limit that never acts changes nothing".to_owned()),
-        "temperature" | "configurational_temperature" if has_thermostat(scene) => {
-            (scene.temperature, "the temperature of the bath".to_owned())
-        }
-        _ if measure.ends_with(DISTANCE) => (0.0, "no distance from the finer run".to_owned()),
-        _ if measure.ends_with(FROM_EXACT) => (0.0, "no distance from the exact flow, which is steady".to_owned()),
-        _ if column::axis_of_momentum(measure).is_some() => {
-            (kept_momentum(measure, scene)?, "the total momentum at the start, which is constant".to_owned())
-        }
-        _ => (exact_mean(measure, scene)?.continuous, "the mean of the exact motion in equilibrium".to_owned()),
-    };
-    Some(Reference { measure: measure.to_owned(), value, uncertainty: Some(0.0), source: Source::Predicted(law) })
-}
-
-fn has_thermostat(scene: &Scene) -> bool {
     let model = Model::new(scene);
-    model.physics().has_thermostat(&model)
+    let (value, law) = match measure {
+        ENERGY_DRIFT => (0.0, "the energy of the exact motion is constant"),
+        CIRCULATION_DRIFT => (0.0, "a loop that moves with the flow keeps its circulation"),
+        LIMITED_EXCHANGES => (0.0, "a limit that never acts changes nothing"),
+        "temperature" | "configurational_temperature" if model.physics().has_thermostat(&model) => {
+            (scene.temperature, "the temperature of the bath")
+        }
+        _ if measure.ends_with(DISTANCE) => (0.0, "no distance from the finer run"),
+        _ if measure.ends_with(FROM_EXACT) => (0.0, "no distance from the exact flow, which is steady"),
+        _ if column::axis_of_momentum(measure).is_some() => {
+            (kept_momentum(measure, scene, &model)?, "the total momentum at the start, which is constant")
+        }
+        _ => (exact_mean(measure, &model)?.continuous, "the mean of the exact motion in equilibrium"),
+    };
+    let source = Source::Predicted(law.to_owned());
+    Some(Reference { measure: measure.to_owned(), value, uncertainty: Some(0.0), source })
 }
 
 /// A component of the total momentum that a scene starts with, if it keeps it.
-fn kept_momentum(measure: &str, scene: &Scene) -> Option<f64> {
-    let (model, axis) = (Model::new(scene), column::axis_of_momentum(measure)?);
+fn kept_momentum(measure: &str, scene: &Scene, model: &Model) -> Option<f64> {
+    let axis = column::axis_of_momentum(measure)?;
     // What is kept does not depend on the state; its sums do.
     let is_kept = |state: &State| {
-        let kept = model.physics().kept(&model, state).into_iter();
+        let kept = model.physics().kept(model, state).into_iter();
         kept.filter(|sum| sum.quantity == KeptQuantity::MOMENTUM).nth(axis).map(|sum| sum.total as f64 * sum.unit)
     };
     is_kept(&State::default())?;
-    is_kept(&families::initial_state(scene, &model))
+    is_kept(&families::initial_state(scene, model))
 }
 
 /// The exact mean of a column in equilibrium, where it is known.
-fn exact_mean(measure: &str, scene: &Scene) -> Option<ExactMean> {
-    let model = Model::new(scene);
-    model.physics().exact_means(&model).into_iter().find(|mean| mean.column == measure)
+fn exact_mean(measure: &str, model: &Model) -> Option<ExactMean> {
+    model.physics().exact_means(model).into_iter().find(|mean| mean.column == measure)
 }
 
 /// The value that the scheme of a scene gives a measure with its time step, noise apart, where that is known exactly.
 pub(super) fn of_scheme(measure: &str, scene: &Scene) -> Option<f64> {
-    exact_mean(measure, scene)?.discrete
+    exact_mean(measure, &Model::new(scene))?.discrete
 }
 
 /// The reference that the first of these runs gives. Its own bias is taken to be what its time step, halved once, has changed, noise included:

@@ -4,10 +4,9 @@ use super::length::Length;
 use super::reference::{Reference, References};
 use super::target::Target;
 use super::{fields, measures};
-use crate::families::Model;
-use crate::families::StepCheck;
+use crate::families::{Model, StepCheck};
 use crate::run;
-use crate::scene::{AnalysisId, PlotStyle, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
+use crate::scene::{AnalysisId, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
 use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, WrittenScene, each_once, settings};
 use serde::{Deserialize, Serialize};
 
@@ -88,19 +87,15 @@ impl Request {
         let varied = vary.iter().filter_map(|argument| Some(Variation::parse(argument).ok()?.key));
         let further = also.iter().filter_map(|argument| settings(argument).ok()).flatten().map(|setting| setting.key);
         let keys: Vec<String> = varied.chain(further).collect();
-        let mistake = |key: &str| {
-            format!(
-                "`{key}` cannot be varied: all choices cover the same simulated time; --steps, --error and --budget say how much"
-            )
-        };
+        let why = "all choices cover the same simulated time; --steps, --error and --budget say how much";
+        let mistake = |key: &str| format!("`{key}` cannot be varied: {why}");
         let lengths = LENGTHS.into_iter().filter(|key| keys.iter().any(|known| known == key));
         StudyError::refuse(lengths.map(mistake).collect())?;
         let files = arguments.state_files.clone();
         let sweep = Sweep::from_arguments(scene.clone(), vary, also, files, StepCheck::Allow)?;
         if sweep.variants().iter().any(|variant| [FINER, COARSER, STILL_FINER].contains(&variant.name.as_str())) {
-            return Err(StudyError::mistake(format!(
-                "`{FINER}` and `{STILL_FINER}` are names of runs that references are taken from"
-            )));
+            let mistake = format!("`{FINER}` and `{STILL_FINER}` are names of runs that references are taken from");
+            return Err(StudyError::mistake(mistake));
         }
         arguments.state_files = sweep.files.clone();
         let (base, notices) = arguments.scene.with([], &arguments.state_files, StepCheck::Allow)?;
@@ -209,12 +204,6 @@ impl Request {
         !self.arguments.targets.is_empty()
     }
 
-    /// The look of pictures with changes to it, given as overrides of the scene.
-    pub(super) fn style(&self, overrides: &[String]) -> Result<PlotStyle, SceneError> {
-        let Arguments { scene, state_files, .. } = &self.arguments;
-        scene.style(&self.base, [], overrides, state_files, StepCheck::Allow)
-    }
-
     /// What was shortened in the scene to suit the number of steps.
     #[must_use]
     pub fn notices(&self) -> &[Warning] {
@@ -250,17 +239,16 @@ impl Request {
 
     /// Looks for names of measures that no run has.
     fn check_names<'a>(&self, option: &str, wanted: impl Iterator<Item = &'a str>) -> Result<(), StudyError> {
-        let columns = measures::names(&self.base);
-        let fields = fields::compared(&self.base, &Model::new(&self.base)).into_iter();
-        let asked = run::asked_analyses(&self.base, &Model::new(&self.base));
+        let model = Model::new(&self.base);
+        let asked = run::asked_analyses(&self.base, &model);
+        let found = asked.iter().flat_map(|asked| asked.found.iter().map(|number| (asked.id.name(), number)));
+        let found = found.map(|(analysis, number)| format!("{analysis}.{number}"));
+        let fields = fields::names(fields::compared(&self.base, &model).into_iter(), fields::DISTANCE);
         let curve = AnalysisId::RadialDistribution.name();
-        let curve = asked.iter().any(|asked| asked.id.name() == curve).then_some(curve);
-        let curve = curve.map(|curve| format!("{curve}{}", fields::DISTANCE));
-        let distances = fields::names(fields, fields::DISTANCE).into_iter().chain(curve);
-        let found = asked
-            .iter()
-            .flat_map(|asked| asked.found.iter().map(move |number| format!("{}.{number}", asked.id.name())));
-        let accepted: Vec<String> = columns.into_iter().chain(found).chain(distances).collect();
+        let has_curve = asked.iter().any(|asked| asked.id.name() == curve);
+        let curve = has_curve.then(|| format!("{curve}{}", fields::DISTANCE));
+        let accepted: Vec<String> =
+            measures::names(&self.base).into_iter().chain(found).chain(fields).chain(curve).collect();
         let mistake = |name| {
             let near = nearest(name, accepted.iter().map(String::as_str));
             let (near, accepted) = (did_you_mean(near.as_deref()), accepted.join(", "));

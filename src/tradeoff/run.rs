@@ -1,7 +1,7 @@
 //! A tradeoff from its first run to its page.
 
 use super::cost::{self, Timed};
-use super::length::{self, Extension, Worst};
+use super::length::{self, Extension, Length, Worst};
 use super::measures::{self, Measured};
 use super::stretch::Stretch;
 use super::summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary, Wanted};
@@ -102,33 +102,25 @@ impl StudyRun<TradeoffSummary> {
             self.advance(&runs, jobs, adapter, observer)?;
             self.save()?;
             self.summary.assess(&self.request)?;
-            let spent = self.summary.spent;
-            let extension = if self.summary.is_long_enough {
-                Extension::none(self.summary.is_short)
-            } else {
-                self.extension(spent)
-            };
+            let Extension { factor, is_short, rounds, total } = self.extension();
             self.summary.wanted = None;
-            if extension.factor <= 1.0 {
-                self.summary.is_short = extension.is_short;
+            self.summary.is_short = is_short;
+            if factor <= 1.0 {
                 break;
             }
             let length = self.request.arguments.length;
-            let total = spent * extension.total;
+            let [seconds, total] = [factor, total].map(|factor| self.summary.spent * factor);
             if length.budget.is_none() && self.refuse_long(total).is_err() {
                 // What is known by now is worth its tables, and it can go on from here.
                 self.summary.is_short = true;
-                self.summary.wanted = Some(Wanted { rounds: extension.rounds, seconds: total });
+                self.summary.wanted = Some(Wanted { rounds, seconds: total });
                 break;
             }
-            let worst = length.error.and_then(|_| self.worst_error());
-            let worst = worst.map(|worst| worst.counted);
-            self.summary.stretch.averaged *= extension.factor;
+            let worst = length.error.and_then(|_| Some(self.worst_error()?.counted));
+            self.summary.stretch.averaged *= factor;
             self.summary.extensions += 1;
-            self.summary.is_short = extension.is_short;
             self.save()?;
-            let Extension { factor, rounds, .. } = extension;
-            let phase = Phase::Extended { factor, worst, seconds: spent * factor, rounds, total };
+            let phase = Phase::Extended { factor, worst, seconds, rounds, total };
             observer(StudyEvent::Phase { phase: &phase, runs: self.waiting(&runs).len() });
         }
         self.summary.is_long_enough = self.summary.wanted.is_none();
@@ -142,13 +134,11 @@ impl StudyRun<TradeoffSummary> {
 
     /// All runs: the choices, then those that references are taken from where some measure needs them.
     fn runs(&self, stretch: &Stretch) -> Result<Vec<(String, Scene)>, StudyError> {
-        let mut runs = Vec::new();
         let finer = self.request.finer_scenes()?;
         let choices = self.request.sweep.variants().iter().map(|variant| (variant.name.as_str(), &variant.scene));
-        for (name, scene) in choices.chain(finer.iter().map(|(name, scene)| (*name, scene))) {
-            runs.push((name.to_owned(), fields::leaving_compared(stretch.applied(name, scene)?)));
-        }
-        Ok(runs)
+        let run =
+            |(name, scene): (&str, _)| Ok((name.to_owned(), fields::leaving_compared(stretch.applied(name, scene)?)));
+        choices.chain(finer.iter().map(|(name, scene)| (*name, scene))).map(run).collect()
     }
 
     /// The choice whose run an entry shares: one that references are taken from may be a choice, too.
@@ -212,9 +202,8 @@ impl StudyRun<TradeoffSummary> {
         let before = seconds * stretch.equilibration / all;
         if before > budget {
             let expected = advice::duration(before);
-            return Err(StudyError::mistake(format!(
-                "equilibration alone takes about {expected}: give a larger --budget, or shorten it"
-            )));
+            let mistake = format!("equilibration alone takes about {expected}: give a larger --budget, or shorten it");
+            return Err(StudyError::mistake(mistake));
         }
         let allowed = (PILOT_SHARE * budget - before) / (seconds - before).max(1e-9);
         if allowed < 1.0 {
@@ -335,15 +324,20 @@ impl StudyRun<TradeoffSummary> {
     /// The largest relative standard errors of what may have any.
     fn worst_error(&self) -> Option<Worst> {
         let measures = self.request.with_parts(&self.summary.measures);
-        if measures.is_empty() { Some(Worst::NONE) } else { length::worst_error(&self.summary.choices, &measures) }
+        if measures.is_empty() { Some(Worst::default()) } else { length::worst_error(&self.summary.choices, &measures) }
     }
 
     /// Whether and by what to make all runs longer.
-    fn extension(&self, spent: f64) -> Extension {
+    fn extension(&self) -> Extension {
         let summary = &self.summary;
+        if summary.is_long_enough {
+            return Extension::none(summary.is_short);
+        }
         let asked = self.request.arguments.length;
-        let worst = self.worst_error();
-        let found = length::extension(&asked, worst, spent, summary.stretch.averaged, summary.extensions);
+        let of = |length: &Length, worst: Option<Worst>| {
+            length::extension(length, worst, summary.spent, summary.stretch.averaged, summary.extensions)
+        };
+        let found = of(&asked, self.worst_error());
         if found.factor > 1.0 || asked.budget.is_some() && asked.error.is_none() {
             return found;
         }
@@ -362,9 +356,8 @@ impl StudyRun<TradeoffSummary> {
             return found;
         }
         // Whatever the errors are, so many more samples make them smaller.
-        let wanted = length::Length { error: Some(1.0 / FOR_A_VERDICT.sqrt()), ..asked };
-        let own = Some(Worst { counted: 1.0, measured: 1.0 });
-        let more = length::extension(&wanted, own, spent, summary.stretch.averaged, summary.extensions);
+        let wanted = Length { error: Some(1.0 / FOR_A_VERDICT.sqrt()), ..asked };
+        let more = of(&wanted, Some(Worst { counted: 1.0, measured: 1.0 }));
         Extension { is_short: found.is_short || more.is_short, ..more }
     }
 

@@ -64,10 +64,9 @@ impl Stretch {
         let ratio = self.step / variant.time.step;
         if let Some(output) = document.get_mut("output").and_then(Value::as_object_mut) {
             for (key, section) in output.iter_mut().filter(|(key, _)| !WRITTEN.contains(&key.as_str())) {
-                if key == STRESS && keep_every_step(section, ratio) {
-                    continue;
+                if key != STRESS || !keep_every_step(section, ratio) {
+                    resample(section, ratio);
                 }
-                resample(section, ratio);
             }
         }
         let mut scene: Scene = serde_json::from_value(document).map_err(mismatch)?;
@@ -90,16 +89,12 @@ fn keep_every_step(stress: &mut Value, ratio: f64) -> bool {
 
 /// Multiplies every number of steps between two samples.
 fn resample(section: &mut Value, ratio: f64) {
-    match section {
-        Value::Array(list) => list.iter_mut().for_each(|entry| resample(entry, ratio)),
-        Value::Object(object) => {
-            if let Some(every) = object.get_mut("every")
-                && let Some(steps) = every.as_u64().filter(|steps| *steps > 0)
-            {
-                *every = ((steps as f64 * ratio).round() as u64).max(1).into();
-            }
+    if let Some(list) = section.as_array_mut() {
+        for entry in list {
+            resample(entry, ratio);
         }
-        _ => {}
+    } else if let Some(steps) = section["every"].as_u64().filter(|steps| *steps > 0) {
+        section["every"] = ((steps as f64 * ratio).round() as u64).max(1).into();
     }
 }
 

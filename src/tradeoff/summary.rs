@@ -9,6 +9,7 @@ use super::run::Phase;
 use super::stretch::Stretch;
 use super::target::Verdict;
 use super::{advice, charts, files, table};
+use crate::families::StepCheck;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, RunDirectory};
 use crate::scene::{self, PlotStyle, SceneError};
@@ -70,11 +71,8 @@ impl fmt::Display for Wanted {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounds =
             if self.rounds == 1 { "one more round".to_owned() } else { format!("{} more rounds", self.rounds) };
-        write!(
-            formatter,
-            "what is asked for takes {rounds} of longer runs, about {} of runs in all",
-            advice::duration(self.seconds)
-        )
+        let duration = advice::duration(self.seconds);
+        write!(formatter, "what is asked for takes {rounds} of longer runs, about {duration} of runs in all")
     }
 }
 
@@ -200,9 +198,8 @@ impl TradeoffSummary {
 
     /// The scene of a choice: its name in messages, its text, and the overrides that make the choice.
     pub(crate) fn scene_of(&self, choice: &Choice) -> (&str, &str, Vec<String>) {
-        let settings = choice.settings.iter().map(Setting::argument);
         let scene = &self.arguments.scene;
-        (&scene.name, &scene.text, scene.overrides(settings))
+        (&scene.name, &scene.text, scene.overrides(choice.settings.iter().map(Setting::argument)))
     }
 
     /// Choices that came to their end.
@@ -216,9 +213,8 @@ impl TradeoffSummary {
         let parsed = |settings: &[Setting]| self.arguments.scene(settings.iter().map(Setting::argument)).ok();
         let Some((base, chosen)) = parsed(&[]).zip(parsed(&settings)) else { return settings };
         if base.time.step != chosen.time.step {
-            let stretch = Stretch::of(&base);
             let setting = |key: &str, value: u64| Setting { key: key.to_owned(), value: value.into() };
-            let (equilibration, steps) = stretch.numbers(&chosen);
+            let (equilibration, steps) = Stretch::of(&base).numbers(&chosen);
             settings.push(setting("time.steps", steps));
             if equilibration > 0 || chosen.time.equilibration > 0 {
                 settings.push(setting("time.equilibration", equilibration));
@@ -233,9 +229,8 @@ impl TradeoffSummary {
     /// [`StudyError::Scene`] if the scene cannot be read again.
     pub fn chosen_scene(&self) -> Result<Option<String>, StudyError> {
         let Some(choice) = self.choice() else { return Ok(None) };
-        let settings = self.lines_of(choice);
         let Arguments { scene, state_files, .. } = &self.arguments;
-        let overrides = scene.overrides(settings.iter().map(Setting::argument));
+        let overrides = scene.overrides(self.lines_of(choice).iter().map(Setting::argument));
         Ok(Some(scene::with_overrides(state_files, &scene.name, &scene.text, &overrides)?))
     }
 
@@ -290,14 +285,11 @@ impl Record for TradeoffSummary {
 
     fn checks(&self, request: &Request) -> Vec<(bool, &'static str)> {
         let Arguments { measures, references, targets, .. } = &request.arguments;
-        let mut asked = measures
-            .iter()
-            .map(String::as_str)
-            .chain(references.measures())
-            .chain(targets.iter().map(|target| target.measure.as_str()));
+        let targets = targets.iter().map(|target| target.measure.as_str());
+        let mut asked = measures.iter().map(String::as_str).chain(references.measures()).chain(targets);
         let same_id = !self.is_of_this_version() || self.tradeoff_id == Self::id_of(request);
-        let names = self.choices.iter().map(|choice| choice.name.as_str());
-        let same_runs = names.eq(request.sweep.variants().iter().map(|variant| variant.name.as_str()))
+        let names = self.choices.iter().map(|choice| &choice.name);
+        let same_runs = names.eq(request.sweep.variants().iter().map(|variant| &variant.name))
             && self.finer.len() == request.finer_names().len();
         let same_measures = self.measures.is_empty() || asked.all(|name| self.measures.iter().any(|own| own == name));
         vec![
@@ -333,6 +325,7 @@ impl Record for TradeoffSummary {
     }
 
     fn style(&self, request: &Request, overrides: &[String]) -> Result<PlotStyle, SceneError> {
-        request.style(overrides)
+        let Arguments { scene, state_files, .. } = &request.arguments;
+        scene.style(&request.base, [], overrides, state_files, StepCheck::Allow)
     }
 }

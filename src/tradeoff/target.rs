@@ -3,6 +3,7 @@
 use super::deviation::Deviation;
 use super::measures;
 use super::reference::Reference;
+use crate::numbers::short;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -60,15 +61,12 @@ impl Target {
     /// What is wrong, in words.
     pub fn parse(argument: &str) -> Result<Self, String> {
         let accepted = "accepted: measure=1% of the reference, or measure=0.2 in its own units";
-        let (measure, text) = argument.split_once('=').ok_or(accepted)?;
-        let (measure, text) = (measure.trim(), text.trim());
+        let parts = argument.split_once('=').map(|(measure, text)| (measure.trim(), text.trim()));
+        let (measure, text) = parts.filter(|(measure, _)| !measure.is_empty()).ok_or(accepted)?;
         let number = |text: &str| match text.trim().parse::<f64>() {
             Ok(number) if number.is_finite() && number > 0.0 => Ok(number),
             _ => Err(format!("found {text}; {accepted}, and more than zero")),
         };
-        if measure.is_empty() {
-            return Err(accepted.to_owned());
-        }
         let amount = match text.strip_suffix('%') {
             Some(percent) => Amount::Relative(number(percent)? / 100.0),
             None => Amount::Absolute(number(text)?),
@@ -95,12 +93,12 @@ impl Target {
 
     /// The largest error allowed, for a reference of this value; as a part of it if `relative`.
     pub(super) fn most(&self, reference: f64, relative: bool) -> f64 {
-        let (own, other) = match self.amount {
+        match self.amount {
             // What is no part of the reference is one of something else, as drifts and distances are.
-            Amount::Relative(part) => (part, part),
-            Amount::Absolute(amount) => (amount / reference.abs(), amount),
-        };
-        if relative { own } else { other }
+            Amount::Relative(part) => part,
+            Amount::Absolute(amount) if relative => amount / reference.abs(),
+            Amount::Absolute(amount) => amount,
+        }
     }
 
     /// The verdict on an error, for a reference of this value. An error that nothing is known about stays open, and so does a part of nothing.
@@ -116,9 +114,7 @@ impl Target {
 impl fmt::Display for Target {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.amount {
-            Amount::Relative(part) => {
-                write!(formatter, "{} within {} %", self.measure, crate::numbers::short(100.0 * part))
-            }
+            Amount::Relative(part) => write!(formatter, "{} within {} %", self.measure, short(100.0 * part)),
             Amount::Absolute(amount) => write!(formatter, "{} within {amount}", self.measure),
         }
     }
