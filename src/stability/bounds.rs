@@ -25,27 +25,18 @@ pub struct Bound {
     pub at: f64,
 }
 
-/// What laws say of a row.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Bounds {
-    /// Bounds between its ends, by their value.
-    pub within: Vec<Bound>,
-    /// Bounds below or above them that are not far.
-    pub outside: Vec<Bound>,
-}
-
-/// The bounds of a row.
+/// The bounds of a row: those between its ends, and those below or above them that are not far, each by their value.
 ///
 /// # Errors
 /// [`SceneError`] when a file that scenes start from cannot be read, or is not what it was.
-pub(super) fn bounds(request: &Request, row: usize) -> Result<Bounds, SceneError> {
+pub(super) fn bounds(request: &Request, row: usize) -> Result<[Vec<Bound>; 2], SceneError> {
     let along = &request.along;
     let of_value = |value: &f64| Ok(limits(request, row, *value)?.unwrap_or_default());
     let shares: Vec<Vec<families::Limit>> = along.values.iter().map(of_value).collect::<Result<_, SceneError>>()?;
     let share = |limits: &[families::Limit], law: &str| {
         limits.iter().find(|limit| limit.law == law).map_or(0.0, |limit| limit.share)
     };
-    let mut found = Bounds::default();
+    let [mut within, mut outside] = [Vec::new(), Vec::new()];
     for law in each_once(shares.iter().flatten().map(|limit| limit.law)) {
         let beyond = shares.iter().flatten().find(|limit| limit.law == law).map(|limit| limit.beyond);
         let is_within = |value: f64| Ok(limits(request, row, value)?.map(|limits| share(&limits, law) < 1.0));
@@ -55,7 +46,7 @@ pub(super) fn bounds(request: &Request, row: usize) -> Result<Bounds, SceneError
             Some(ends) => Some(ends),
             // What is never strained has no bound.
             None if shares.iter().all(|limits| share(limits, law) == 0.0) => None,
-            None => outside(&along.values, along.spacing, &is_within)?,
+            None => ends_outside(&along.values, along.spacing, &is_within)?,
         };
         let Some([mut low, mut high]) = ends else { continue };
         let at_low = is_within(low)?.unwrap_or(true);
@@ -65,17 +56,17 @@ pub(super) fn bounds(request: &Request, row: usize) -> Result<Bounds, SceneError
         }
         let at = along.spacing.middle(low, high);
         let bound = Bound { law: law.to_owned(), is_of_stability: beyond == Some(Beyond::Unstable), at };
-        if inside.is_some() { found.within.push(bound) } else { found.outside.push(bound) }
+        if inside.is_some() { within.push(bound) } else { outside.push(bound) }
     }
-    for bounds in [&mut found.within, &mut found.outside] {
-        bounds.sort_by(|a, b| a.at.total_cmp(&b.at));
+    for bounds in [&mut within, &mut outside] {
+        bounds.sort_by(|a: &Bound, b| a.at.total_cmp(&b.at));
     }
-    Ok(found)
+    Ok([within, outside])
 }
 
 /// Two values outside of a row, one beyond the other, between which a law changes its mind, on whichever side that is nearer. None where it
 /// does not.
-fn outside(
+fn ends_outside(
     values: &[f64],
     spacing: Spacing,
     is_within: &dyn Fn(f64) -> Result<Option<bool>, SceneError>,
@@ -131,15 +122,15 @@ mod tests {
         let path = directory.path().join("oscillators.json");
         std::fs::write(&path, scene).unwrap();
         let request = Request::load(path.to_str().unwrap(), &[], None, &["time.step=0.01..2/6".to_owned()]).unwrap();
-        let found = bounds(&request, 0).unwrap();
-        assert_eq!((found.within.len(), found.outside.len()), (1, 0), "{found:?}");
-        assert!((found.within[0].at - 0.5).abs() < 1e-3 && found.within[0].is_of_stability, "{found:?}");
+        let [within, outside] = bounds(&request, 0).unwrap();
+        assert_eq!((within.len(), outside.len()), (1, 0), "{within:?} {outside:?}");
+        assert!((within[0].at - 0.5).abs() < 1e-3 && within[0].is_of_stability, "{within:?}");
         // It does not vanish where it lies beyond the values, or below them.
         for range in ["0.01..0.1/3", "0.8..2/3", "0.1..0.2/2:linear", "0.3,0.4"] {
             let request = Request::load(path.to_str().unwrap(), &[], None, &[format!("time.step={range}")]).unwrap();
-            let found = bounds(&request, 0).unwrap();
-            assert_eq!((found.within.len(), found.outside.len()), (0, 1), "{range}: {found:?}");
-            assert!((found.outside[0].at - 0.5).abs() < 1e-3, "{range}: {found:?}");
+            let [within, outside] = bounds(&request, 0).unwrap();
+            assert_eq!((within.len(), outside.len()), (0, 1), "{range}: {within:?} {outside:?}");
+            assert!((outside[0].at - 0.5).abs() < 1e-3, "{range}: {outside:?}");
         }
     }
 }

@@ -163,14 +163,8 @@ fn compare(trial: &Trial<'_>, scene: &Scene, measures: &[String], given: &Refere
     for measure in measures {
         let Some(reference) = given.known(measure, scene) else { continue };
         let mean = || {
-            let estimate = means.iter().find(|(name, _)| name == measure).and_then(|(_, estimate)| *estimate);
-            estimate.map(|found| Measured {
-                measure: measure.clone(),
-                value: found.mean,
-                standard_error: found.standard_error,
-                fluctuates: true,
-                from_few_samples: !found.converged,
-            })
+            let found = means.iter().find(|(name, _)| name == measure)?.1?;
+            Some(Measured::mean(measure.clone(), found.mean, found.standard_error, !found.converged))
         };
         let measured = further.iter().find(|found| found.measure == *measure).cloned().or_else(mean);
         match measured.map(|measured| Deviation::new(&measured, &reference)).filter(|found| found.error.is_finite()) {

@@ -72,11 +72,9 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
         }
     }
     for verdict in Verdict::ALL {
-        let of_row = |(row, found): (usize, &Row)| -> Vec<[f64; 2]> {
-            let own = found.cells.iter().filter(|cell| cell.verdict == verdict);
-            own.map(|cell| [cell.value, height(row)]).collect()
-        };
-        let points: Vec<[f64; 2]> = rows().flat_map(of_row).collect();
+        let cells = rows().flat_map(|(row, found)| found.cells.iter().map(move |cell| (row, cell)));
+        let own = cells.filter(|(_, cell)| cell.verdict == verdict);
+        let points: Vec<[f64; 2]> = own.map(|(row, cell)| [cell.value, height(row)]).collect();
         if points.is_empty() {
             continue;
         }

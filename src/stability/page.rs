@@ -3,7 +3,7 @@
 use super::bounds::Bound;
 use super::cell::{Cell, listed};
 use super::request::Request;
-use super::summary::{Row, StabilitySummary};
+use super::summary::{Edge, Row, StabilitySummary};
 use super::verdict::Verdict;
 use crate::numbers::{short, three_digits};
 use crate::study::by_key;
@@ -15,20 +15,16 @@ use std::collections::BTreeSet;
 const APART: f64 = 1.25;
 
 /// Up to where a row is right, in words.
-pub(super) fn right_in_words(row: &Row) -> String {
-    match row.right() {
-        None => "nowhere".to_owned(),
-        Some((first, last, is_bounded)) => {
-            let from = row.cells.first().is_some_and(|cell| cell.value < first);
-            let from = if from { format!("{} to ", three_digits(first)) } else { String::new() };
-            let largest = if is_bounded { "" } else { ", the largest tried" };
-            format!("{from}{}{largest}", three_digits(last))
-        }
-    }
+fn right_in_words(row: &Row) -> String {
+    let Some((first, last, is_bounded)) = row.right() else { return "nowhere".to_owned() };
+    let from = row.cells.first().is_some_and(|cell| cell.value < first);
+    let from = if from { format!("{} to ", three_digits(first)) } else { String::new() };
+    let largest = if is_bounded { "" } else { ", the largest tried" };
+    format!("{from}{}{largest}", three_digits(last))
 }
 
 /// From where on a row is unstable, in words.
-pub(super) fn unstable_in_words(row: &Row) -> String {
+fn unstable_in_words(row: &Row) -> String {
     match row.unstable_from() {
         None => "not seen".to_owned(),
         Some((None, high)) => format!("{} or less", three_digits(high)),
@@ -38,12 +34,9 @@ pub(super) fn unstable_in_words(row: &Row) -> String {
 
 /// What laws say of a row, in words.
 fn bounds_in_words(row: &Row) -> String {
-    let within = row.bounds.iter().map(|bound| format!("{} at {}", bound.law, three_digits(bound.at)));
-    let outside = row
-        .outside
-        .iter()
-        .map(|bound| format!("{} at {}, {} the range", bound.law, three_digits(bound.at), side(row, bound)));
-    let words: Vec<String> = within.chain(outside).collect();
+    let at = |bound: &Bound| format!("{} at {}", bound.law, three_digits(bound.at));
+    let outside = row.outside.iter().map(|bound| format!("{}, {} the range", at(bound), side(row, bound)));
+    let words: Vec<String> = row.bounds.iter().map(at).chain(outside).collect();
     if words.is_empty() { "none".to_owned() } else { words.join("; ") }
 }
 
@@ -55,12 +48,9 @@ fn side(row: &Row, bound: &Bound) -> &'static str {
 /// The laws that bound no row within its range, and where they do.
 pub(super) fn laws_outside(summary: &StabilitySummary) -> Vec<String> {
     let inside = |law: &str| summary.rows.iter().flat_map(|row| &row.bounds).any(|bound| bound.law == law);
-    let of_row = |row| {
-        let row: &Row = row;
-        let outside = row.outside.iter().filter(|bound| !inside(&bound.law));
-        outside.map(|bound| ((bound.law.as_str(), side(row, bound)), bound.at))
-    };
-    let found = by_key(summary.rows.iter().flat_map(of_row));
+    let outside = summary.rows.iter().flat_map(|row| row.outside.iter().map(move |bound| (row, bound)));
+    let outside = outside.filter(|(_, bound)| !inside(&bound.law));
+    let found = by_key(outside.map(|(row, bound)| ((bound.law.as_str(), side(row, bound)), bound.at)));
     let words = |((law, side), places): ((&str, &str), Vec<f64>)| {
         let [least, most] =
             [f64::min, f64::max].map(|of| three_digits(places.iter().copied().reduce(of).unwrap_or(f64::NAN)));
@@ -75,24 +65,20 @@ pub(super) fn laws_outside(summary: &StabilitySummary) -> Vec<String> {
 fn differences(summary: &StabilitySummary) -> Vec<String> {
     let mut found = Vec::new();
     for row in &summary.rows {
-        let mut parts = |bound, kind, edge: Option<f64>| {
-            let bound: &Bound = bound;
-            let ratio = edge.map(|edge| edge / bound.at).filter(|ratio| !(1.0 / APART..=APART).contains(ratio));
-            found.extend(ratio.map(|ratio| ((bound.law.as_str(), bound.is_of_stability, kind), ratio)));
-        };
+        let laws = || row.bounds.iter().chain(&row.outside);
+        let by_place = |a: &&Bound, b: &&Bound| a.at.total_cmp(&b.at);
+        let of_stability = laws().filter(|bound| bound.is_of_stability).min_by(by_place);
         let middle = |low: f64, high: f64| summary.spacing.middle(low, high);
-        let first = |counts: &dyn Fn(&Bound) -> bool| {
-            let all = row.bounds.iter().chain(&row.outside);
-            all.filter(|bound| counts(bound)).min_by(|a, b| a.at.total_cmp(&b.at))
-        };
-        if let Some(bound) = first(&|bound| bound.is_of_stability) {
-            parts(bound, "unstable", row.unstable_from().and_then(|(low, high)| Some(middle(low?, high))));
-        }
+        let unstable = row.unstable_from().and_then(|(low, high)| Some(middle(low?, high)));
         // What is biased beyond a law, and right before.
-        if let Some(bound) = first(&|_| true) {
-            let edges = row.edges();
-            let bias = edges.iter().find(|edge| (edge.below, edge.above) == (Verdict::Right, Verdict::Biased));
-            parts(bound, "biased", bias.map(|edge| middle(edge.low, edge.high)));
+        let bias = |edge: &Edge| (edge.below, edge.above) == (Verdict::Right, Verdict::Biased);
+        let biased = row.edges().into_iter().find(bias).map(|edge| middle(edge.low, edge.high));
+        for (bound, kind, edge) in [(of_stability, "unstable", unstable), (laws().min_by(by_place), "biased", biased)] {
+            let Some((bound, edge)) = bound.zip(edge) else { continue };
+            let ratio = edge / bound.at;
+            if !(1.0 / APART..=APART).contains(&ratio) {
+                found.push(((bound.law.as_str(), bound.is_of_stability, kind), ratio));
+            }
         }
     }
     let words = |((law, is_of_stability, kind), mut ratios): ((&str, bool, &str), Vec<f64>)| {
@@ -112,10 +98,8 @@ fn differences(summary: &StabilitySummary) -> Vec<String> {
 /// Rows whose runs are the same, digit by digit: what tells these rows apart makes no difference.
 fn same_rows(summary: &StabilitySummary) -> Vec<String> {
     let is_same = |one: &Row, other: &Row| {
-        let mut both = one
-            .cells
-            .iter()
-            .filter_map(|cell| Some((cell, other.cells.iter().find(|found| found.value == cell.value)?)));
+        let twin = |cell: &Cell| other.cells.iter().find(|found| found.value == cell.value);
+        let mut both = one.cells.iter().filter_map(|cell| Some((cell, twin(cell)?)));
         let has_numbers = both.clone().any(|(cell, _)| cell.errors.iter().any(|error| error.uncertainty != Some(0.0)));
         has_numbers && both.all(|(one, other)| one == other)
     };
@@ -128,10 +112,8 @@ fn same_rows(summary: &StabilitySummary) -> Vec<String> {
     }
     let in_words = |group: Vec<&Row>| {
         let labels: Vec<&str> = group.iter().map(|row| row.label.as_str()).collect();
-        format!(
-            "{} are the same runs, digit by digit: what tells these rows apart makes no difference",
-            labels.join(" and ")
-        )
+        let labels = labels.join(" and ");
+        format!("{labels} are the same runs, digit by digit: what tells these rows apart makes no difference")
     };
     groups.into_iter().filter(|group| group.len() > 1).map(in_words).collect()
 }
@@ -190,34 +172,29 @@ impl StabilitySummary {
         let cells = || self.rows.iter().flat_map(|row| &row.cells);
         let count = |counts: &dyn Fn(&Cell) -> bool| cells().filter(|cell| counts(cell)).count();
         let (runs, is_compared) = (cells().count(), |cell: &Cell| cell.is_compared(&self.measures));
+        let said = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what}"));
         let mut lines = differences(self);
         let lawless = count(&|cell| cell.undefined.is_empty() && cell.verdict == Verdict::Right && !is_compared(cell));
-        if lawless > 0 {
-            lines.push(format!(
-                "{lawless} runs count as right though no law says what some of their measures should be, as that of a temperature without friction"
-            ));
-        }
+        let what = "runs count as right though no law says what some of their measures should be, as that of a temperature without friction";
+        lines.extend(said(lawless, what));
         let few = count(&|cell| !cell.undefined.is_empty());
-        if few > 0 {
-            let undefined: BTreeSet<&String> = cells().flat_map(|cell| &cell.undefined).collect();
-            let undefined = listed(undefined);
-            lines.push(format!(
-                "{few} of {runs} runs have so few particles that they have no {undefined}, which cannot be compared: of these it is known where runs end, and no more"
-            ));
-        }
+        let undefined = listed(cells().flat_map(|cell| &cell.undefined).collect::<BTreeSet<_>>());
+        let what = format!(
+            "of {runs} runs have so few particles that they have no {undefined}, which cannot be compared: of these it is known where runs end, and no more"
+        );
+        lines.extend(said(few, &what));
         lines.extend(same_rows(self));
-        let open = count(&|cell| is_compared(cell) && cell.unequilibrated.is_empty() && !cell.is_certain);
-        if open > 0 && !self.measures.is_empty() {
-            lines.push(format!(
-                "{open} of {runs} verdicts are within two standard errors of the tolerance: longer runs (--set time.steps=N) decide them"
-            ));
-        }
+        let is_open = |cell: &Cell| is_compared(cell) && cell.unequilibrated.is_empty() && !cell.is_certain;
+        let open = count(&|cell| !self.measures.is_empty() && is_open(cell));
+        let what = format!(
+            "of {runs} verdicts are within two standard errors of the tolerance: longer runs (--set time.steps=N) decide them"
+        );
+        lines.extend(said(open, &what));
         let moving = count(&|cell| !cell.unequilibrated.is_empty());
-        if moving > 0 {
-            lines.push(format!(
-                "{moving} of {runs} runs are still on their way to equilibrium, which their errors include: give them time with --set time.equilibration=N"
-            ));
-        }
+        let what = format!(
+            "of {runs} runs are still on their way to equilibrium, which their errors include: give them time with --set time.equilibration=N"
+        );
+        lines.extend(said(moving, &what));
         let refused = cells().filter(|cell| cell.verdict == Verdict::Refused);
         let reasons = by_key(refused.filter_map(|cell| Some((cell.reason_in_a_line()?, cell))));
         lines.extend(reasons.into_iter().map(|(reason, cells)| format!("{} refused: {reason}", cells.len())));

@@ -1,6 +1,6 @@
 //! What a user wants varied: a range of numbers, or a list of values.
 
-use crate::study::Variation;
+use crate::study::{Variation, numbers};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -87,8 +87,7 @@ impl Range {
             if values.len() > MOST_POINTS {
                 return Err(format!("{} values; accepted: at most {MOST_POINTS}", values.len()));
             }
-            let numbers: Option<Vec<f64>> = values.iter().map(Value::as_f64).collect();
-            let spacing = numbers.map_or(Spacing::Linear, |numbers| spacing_of(&numbers));
+            let spacing = numbers(&values).map_or(Spacing::Linear, |numbers| spacing_of(&numbers));
             return Ok(Self { key, values, spacing });
         };
         let key = key.trim().replace('[', ".").replace(']', "");
@@ -121,8 +120,7 @@ impl Range {
 
     /// The values as numbers that increase, if that is what they are.
     pub(super) fn numbers(&self) -> Option<Vec<f64>> {
-        let numbers: Option<Vec<f64>> = self.values.iter().map(Value::as_f64).collect();
-        numbers.filter(|numbers| numbers.is_sorted_by(|a, b| a < b))
+        numbers(&self.values).filter(|numbers| numbers.is_sorted_by(|a, b| a < b))
     }
 }
 

@@ -1,13 +1,12 @@
 //! What a map of stability is asked for.
 
 use super::range::{Range, Spacing, number_of};
-use crate::families::Model;
-use crate::families::StepCheck;
+use crate::families::{Model, StepCheck};
 use crate::output::Id;
 use crate::run;
-use crate::scene::{self, PlotStyle, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
+use crate::scene::{self, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
 use crate::study::{LENGTHS, Setting, ShortKeys, StudyError, WrittenScene};
-use crate::tradeoff::{References, Stretch};
+use crate::tradeoff::{References, Stretch, names_of_table, predicted};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -40,7 +39,7 @@ pub struct Request {
 }
 
 /// A request as it is written into the summary, and read from there.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Arguments {
     /// The scene.
     #[serde(flatten)]
@@ -58,23 +57,6 @@ pub(super) struct Arguments {
     /// The files that runs start from.
     #[serde(default, skip_serializing_if = "StateFiles::is_empty")]
     pub state_files: StateFiles,
-}
-
-impl Arguments {
-    /// Refuses single values that make no scene whatever the others are, such as a time step of zero; a key that takes none of its
-    /// values is refused with the scene.
-    fn check_values(&self, ranges: &[Range]) -> Result<(), StudyError> {
-        let mistake = |key: &str, value: &Value| {
-            let setting = Setting { key: key.to_owned(), value: value.clone() }.argument();
-            let problem = scene::misshapen(&self.scene.name, &self.scene.text, &self.scene.overrides([setting]))?;
-            Some(format!("`--vary {key}=…`: {problem}"))
-        };
-        let of_range = |range: &Range| {
-            let wrong: Vec<String> = range.values.iter().filter_map(|value| mistake(&range.key, value)).collect();
-            if wrong.len() < range.values.len() { wrong } else { Vec::new() }
-        };
-        StudyError::refuse(ranges.iter().flat_map(of_range).collect())
-    }
 }
 
 /// A key whose numbers increase along rows.
@@ -98,15 +80,8 @@ impl Request {
     /// [`StudyError::Arguments`] with all mistakes at once, [`StudyError::Scene`] where no scene of the map is accepted.
     pub fn load(source: &str, set: &[String], steps: Option<u64>, vary: &[String]) -> Result<Self, StudyError> {
         let scene = WrittenScene::read(source, set, steps)?;
-        Self::new(Arguments {
-            state_files: StateFiles::of(&scene.name),
-            scene,
-            vary: vary.to_vec(),
-            tolerance: 0.05,
-            references: References::default(),
-            measures: Vec::new(),
-            bisections: 3,
-        })
+        let (state_files, vary) = (StateFiles::of(&scene.name), vary.to_vec());
+        Self::new(Arguments { scene, vary, state_files, tolerance: 0.05, bisections: 3, ..Arguments::default() })
     }
 
     pub(super) fn new(mut arguments: Arguments) -> Result<Self, StudyError> {
@@ -114,12 +89,12 @@ impl Request {
         let mut ranges = Vec::new();
         for argument in &arguments.vary {
             match Range::parse(argument) {
-                Ok(range) if LENGTHS.contains(&range.key.as_str()) => mistakes.push(format!(
-                    "`{}` cannot be varied: all runs cover the same simulated time; --steps N says how much",
-                    range.key
-                )),
-                Ok(range) if ranges.iter().any(|known: &Range| known.key == range.key) => {
-                    mistakes.push(format!("`{}` is varied twice", range.key));
+                Ok(Range { key, .. }) if LENGTHS.contains(&key.as_str()) => {
+                    let why = "all runs cover the same simulated time; --steps N says how much";
+                    mistakes.push(format!("`{key}` cannot be varied: {why}"));
+                }
+                Ok(Range { key, .. }) if ranges.iter().any(|known: &Range| known.key == key) => {
+                    mistakes.push(format!("`{key}` is varied twice"));
                 }
                 Ok(range) => ranges.push(range),
                 Err(message) => mistakes.push(format!("`--vary {argument}`: {message}")),
@@ -136,19 +111,17 @@ impl Request {
             ranges.extend(Range::parse(&format!("{STEP}={}..{}/{points}", low * step, high * step)));
         }
         StudyError::refuse(mistakes)?;
-        arguments.check_values(&ranges)?;
+        check_values(&arguments.scene, &ranges)?;
         let place = ranges.iter().position(|range| range.key == STEP).unwrap_or(ranges.len().saturating_sub(1));
-        let along = ranges.remove(place);
-        let Some(values) = along.numbers() else {
-            let mistake = format!(
-                "`{}` is varied along rows, which takes numbers that increase; accepted: key=low..high/points",
-                along.key
-            );
-            return Err(StudyError::mistake(mistake));
+        let range = ranges.remove(place);
+        let Some(values) = range.numbers() else {
+            let why = "which takes numbers that increase; accepted: key=low..high/points";
+            return Err(StudyError::mistake(format!("`{}` is varied along rows, {why}", range.key)));
         };
-        let along = Along { key: along.key, values, spacing: along.spacing };
+        let along = Along { key: range.key, values, spacing: range.spacing };
         let mut request = Self { arguments, base, notices, along, rows: ranges.pop() };
-        let starts_vary = request.row_key().into_iter().chain([request.along.key.as_str()]).any(is_of_state);
+        // Keys that say what file particles start from, or how.
+        let starts_vary = request.keys().iter().any(|key| *key == "state" || key.starts_with("state."));
         // A key that is misspelt, say: no scene at all is a mistake, some that are none are a result.
         let (mut first, mut is_one) = (None, false);
         for (row, value) in request.places() {
@@ -164,10 +137,10 @@ impl Request {
                 break;
             }
         }
-        if is_one {
-            return Ok(request);
+        match first {
+            Some(error) if !is_one => Err(error.into()),
+            _ => Ok(request),
         }
-        Err(first.map_or_else(|| StudyError::Arguments { mistakes: Vec::new() }, StudyError::Scene))
     }
 
     /// The same, in which errors up to this part are right.
@@ -194,14 +167,14 @@ impl Request {
     /// # Errors
     /// [`StudyError::Arguments`] names those that no run has, and those that there is nothing to compare with.
     pub fn with_measures(mut self, measures: &[String], references: References) -> Result<Self, StudyError> {
-        let known = self.known_measures();
+        let columns = run::quantities(&Model::new(&self.base));
+        let known: Vec<&str> = columns.into_iter().chain(names_of_table(&self.base)).collect();
         let mut mistakes = Vec::new();
         for measure in measures.iter().map(String::as_str).chain(references.measures()) {
-            if !known.iter().any(|known| known == measure) {
-                let near = nearest(measure, known.iter().map(String::as_str));
-                let near = did_you_mean(near.as_deref());
-                mistakes
-                    .push(format!("no run of this scene measures `{measure}`{near}; accepted: {}", known.join(", ")));
+            if !known.contains(&measure) {
+                let near = did_you_mean(nearest(measure, known.iter().copied()).as_deref());
+                let known = known.join(", ");
+                mistakes.push(format!("no run of this scene measures `{measure}`{near}; accepted: {known}"));
             } else if references.known(measure, &self.base).is_none() {
                 mistakes.push(format!("no law says what `{measure}` should be; add `--reference {measure}=VALUE`"));
             }
@@ -212,34 +185,19 @@ impl Request {
         Ok(self)
     }
 
-    fn known_measures(&self) -> Vec<String> {
-        let columns = run::quantities(&Model::new(&self.base)).into_iter().map(str::to_owned);
-        columns.chain(crate::tradeoff::names_of_table(&self.base).into_iter().map(str::to_owned)).collect()
-    }
-
     /// The measures that are compared.
     pub(super) fn measures(&self) -> Vec<String> {
         let Arguments { measures, references, .. } = &self.arguments;
-        let known = self.known_measures();
-        let usual = || {
-            let usual = COMPARED.into_iter().filter(|name| known.iter().any(|known| known == name));
-            usual
-                .chain(crate::tradeoff::names_of_table(&self.base))
-                .map(str::to_owned)
-                .filter(|name| crate::tradeoff::predicted(name, &self.base).is_some())
-                .collect()
-        };
-        let mut all: Vec<String> = if measures.is_empty() { usual() } else { measures.clone() };
-        let given = references.measures().map(str::to_owned).collect::<Vec<_>>();
-        all.extend(given.into_iter().filter(|name| !measures.contains(name)));
+        let mut all = measures.clone();
+        if all.is_empty() {
+            let columns = run::quantities(&Model::new(&self.base));
+            let compared = COMPARED.into_iter().filter(|name| columns.contains(name));
+            let usual = compared.chain(names_of_table(&self.base));
+            all.extend(usual.filter(|name| predicted(name, &self.base).is_some()).map(str::to_owned));
+        }
+        all.extend(references.measures().map(str::to_owned).filter(|name| !measures.contains(name)));
         all.dedup();
         all
-    }
-
-    /// The look of pictures with changes to it, given as overrides of the scene.
-    pub(super) fn style(&self, overrides: &[String]) -> Result<PlotStyle, SceneError> {
-        let Arguments { scene, state_files, .. } = &self.arguments;
-        scene.style(&self.base, [], overrides, state_files, StepCheck::Allow)
     }
 
     /// What was shortened in the scene to suit the number of steps.
@@ -261,7 +219,7 @@ impl Request {
     }
 
     /// The rows and values of the grid.
-    fn places(&self) -> Vec<(usize, f64)> {
+    pub(super) fn places(&self) -> Vec<(usize, f64)> {
         (0..self.row_count()).flat_map(|row| self.along.values.iter().map(move |value| (row, *value))).collect()
     }
 
@@ -291,9 +249,14 @@ impl Request {
         self.setting(row).map_or_else(String::new, |setting| self.short_keys().label(&[setting]))
     }
 
-    /// The short names of the keys that are varied.
+    /// The keys that are varied.
+    fn keys(&self) -> Vec<&str> {
+        self.row_key().into_iter().chain([self.along.key.as_str()]).collect()
+    }
+
+    /// Their short names.
     pub(super) fn short_keys(&self) -> ShortKeys {
-        ShortKeys::of(&self.row_key().into_iter().chain([self.along.key.as_str()]).collect::<Vec<_>>())
+        ShortKeys::of(&self.keys())
     }
 
     /// A scene of the map, with the length that the base has.
@@ -326,9 +289,19 @@ impl Request {
     }
 }
 
-/// Whether a key says what file particles start from, or how.
-fn is_of_state(key: &str) -> bool {
-    key == "state" || key.starts_with("state.")
+/// Refuses single values that make no scene whatever the others are, such as a time step of zero; a key that takes none of its
+/// values is refused with the scene.
+fn check_values(scene: &WrittenScene, ranges: &[Range]) -> Result<(), StudyError> {
+    let mistake = |key: &str, value: &Value| {
+        let setting = Setting { key: key.to_owned(), value: value.clone() }.argument();
+        let problem = scene::misshapen(&scene.name, &scene.text, &scene.overrides([setting]))?;
+        Some(format!("`--vary {key}=…`: {problem}"))
+    };
+    let of_range = |range: &Range| {
+        let wrong: Vec<String> = range.values.iter().filter_map(|value| mistake(&range.key, value)).collect();
+        if wrong.len() < range.values.len() { wrong } else { Vec::new() }
+    };
+    StudyError::refuse(ranges.iter().flat_map(of_range).collect())
 }
 
 #[cfg(test)]

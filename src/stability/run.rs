@@ -38,10 +38,9 @@ impl StudyRun<StabilitySummary> {
         observer: &mut Observer<'_, StabilitySummary>,
     ) -> Result<StudyOutcome<StabilitySummary>, StudyError> {
         self.check_place()?;
-        for row in 0..self.summary.rows.len() {
+        for (number, row) in self.summary.rows.iter_mut().enumerate() {
             // Also of a map that goes on: this version may know of other laws.
-            let found = bounds(&self.request, row)?;
-            (self.summary.rows[row].bounds, self.summary.rows[row].outside) = (found.within, found.outside);
+            [row.bounds, row.outside] = bounds(&self.request, number)?;
         }
         let mut waiting = self.waiting();
         let gpu = run::adapter_for(&self.request.base, adapter).map_err(|source| match source {
@@ -51,13 +50,13 @@ impl StudyRun<StabilitySummary> {
         // Beside those of the grid there may be so many that locate edges, in every row.
         let (bisections, points) = (self.request.arguments.bisections as usize, self.request.along.values.len());
         let more = (MOST_EDGES * bisections) as f64 / points.max(1) as f64;
-        let seconds = self.expected(&waiting, &gpu).map(|seconds| (1.0 + more) * seconds);
+        let scenes = waiting.iter().filter_map(|(row, value)| self.request.scene(*row, *value).ok());
+        let scenes: Vec<Scene> = scenes.collect();
+        let seconds = self.expected(&scenes, &gpu).map(|seconds| (1.0 + more) * seconds);
         self.refuse_long(seconds.unwrap_or_default())?;
         let place = self.open_place()?;
         self.summary.adapter = Some(gpu.description().into());
         self.save()?;
-        let scenes: Vec<Scene> =
-            waiting.iter().filter_map(|(row, value)| self.request.scene(*row, *value).ok()).collect();
         let largest = study::largest(scenes.iter()).unwrap_or(&self.request.base);
         let jobs = self.jobs_for(largest, self.request.cell_count(), &gpu);
         observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds });
@@ -74,13 +73,8 @@ impl StudyRun<StabilitySummary> {
     /// Scenes to be run next: those of the grid, or else those that locate edges.
     fn waiting(&self) -> Vec<Place> {
         let along = &self.request.along;
-        let known = |row: usize, value: f64| self.summary.rows[row].cells.iter().any(|cell| cell.value == value);
-        let rows = 0..self.summary.rows.len();
-        let grid: Vec<Place> = rows
-            .clone()
-            .flat_map(|row| along.values.iter().map(move |value| (row, *value)))
-            .filter(|(row, value)| !known(*row, *value))
-            .collect();
+        let mut grid = self.request.places();
+        grid.retain(|(row, value)| self.summary.rows[*row].cells.iter().all(|cell| cell.value != *value));
         if !grid.is_empty() {
             return grid;
         }
@@ -88,20 +82,17 @@ impl StudyRun<StabilitySummary> {
         let spacing = neighbours.fold(f64::INFINITY, f64::min);
         // A little more, as values are rounded to four digits.
         let nearest = 1.01 * spacing / 2.0_f64.powi(self.summary.arguments.bisections as i32);
-        rows.flat_map(|row| {
-            self.summary.rows[row].next(along.spacing, nearest).into_iter().map(move |value| (row, value))
-        })
-        .collect()
+        let next = self.summary.rows.iter().map(|row| row.next(along.spacing, nearest));
+        next.enumerate().flat_map(|(row, values)| values.into_iter().map(move |value| (row, value))).collect()
     }
 
     /// Seconds that scenes take at the speed of the scene as it is; none where its first steps fail.
-    fn expected(&self, places: &[Place], gpu: &Gpu) -> Option<f64> {
-        let base = &self.request.base;
-        let steps = base.time.steps.max(1) as f64;
-        let seconds =
-            run::expected_time(&Scene { output: energies_of(base), ..base.clone() }, gpu).ok()?.seconds / steps;
-        let scene = |(row, value): &Place| self.request.scene(*row, *value).ok();
-        Some(seconds * places.iter().filter_map(scene).map(|scene| scene.time.steps as f64).sum::<f64>())
+    fn expected(&self, scenes: &[Scene], gpu: &Gpu) -> Option<f64> {
+        let mut base = self.request.base.clone();
+        // Scenes of a map are measured in memory.
+        base.output = Output { energies: base.output.energies, ..Output::default() };
+        let seconds = run::expected_time(&base, gpu).ok()?.seconds / base.time.steps.max(1) as f64;
+        Some(seconds * scenes.iter().map(|scene| scene.time.steps as f64).sum::<f64>())
     }
 
     fn run_all(
@@ -142,9 +133,4 @@ impl StudyRun<StabilitySummary> {
         })?;
         self.proceed()
     }
-}
-
-/// The output of a scene that is measured in memory.
-fn energies_of(scene: &Scene) -> Output {
-    Output { energies: scene.output.energies.clone(), ..Default::default() }
 }

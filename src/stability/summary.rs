@@ -7,6 +7,7 @@ use super::request::{Arguments, Request};
 use super::run::Bisecting;
 use super::verdict::Verdict;
 use super::{chart, files, page, table};
+use crate::families::StepCheck;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, RunDirectory};
 use crate::scene::{PlotStyle, SceneError};
@@ -74,14 +75,10 @@ impl Row {
     /// Its edges, by their value.
     #[must_use]
     pub fn edges(&self) -> Vec<Edge> {
-        let differ = self.cells.windows(2).filter(|pair| pair[0].verdict != pair[1].verdict);
+        let pairs = self.cells.iter().zip(self.cells.iter().skip(1));
+        let differ = pairs.filter(|(low, high)| low.verdict != high.verdict);
         differ
-            .map(|pair| Edge {
-                below: pair[0].verdict,
-                above: pair[1].verdict,
-                low: pair[0].value,
-                high: pair[1].value,
-            })
+            .map(|(low, high)| Edge { below: low.verdict, above: high.verdict, low: low.value, high: high.value })
             .collect()
     }
 
@@ -197,7 +194,8 @@ impl Record for StabilitySummary {
     }
 
     fn style(&self, request: &Request, overrides: &[String]) -> Result<PlotStyle, SceneError> {
-        request.style(overrides)
+        let Arguments { scene, state_files, .. } = &request.arguments;
+        scene.style(&request.base, [], overrides, state_files, StepCheck::Allow)
     }
 }
 
