@@ -5,10 +5,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, from the bottom up.
-const LAYERS: [&str; 27] = [
+const LAYERS: [&str; 28] = [
     "printable",
     "host_memory",
     "numbers",
+    "quantity",
     "table",
     "prediction",
     "noise",

@@ -53,6 +53,7 @@ pub mod plan;
 pub mod plot;
 mod prediction;
 pub mod printable;
+pub mod quantity;
 pub mod ranks;
 pub mod run;
 pub mod scene;

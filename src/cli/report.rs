@@ -7,8 +7,10 @@ use std::time::{Duration, Instant};
 use indicatif::ProgressBar;
 use mesoscope::families::{Model, PictureKind};
 use mesoscope::numbers::{counted, grouped, prefixed};
+use mesoscope::output::files;
 use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
+use mesoscope::quantity::{Quantity, Unit};
 use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
 
@@ -182,20 +184,20 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     let model = Model::new(&summary.scene);
     let flows = model.picture() == PictureKind::Fields;
     // What flows has no temperature to speak of.
-    let columns: &[&str] = if flows {
-        &["kinetic_energy", "potential_energy", "total_energy"]
+    let columns: Vec<&str> = if flows {
+        Quantity::columns_shown_in(Unit::Energy).collect()
     } else {
-        let temperatures = ["temperature", "internal_temperature", "configurational_temperature"];
-        &[&temperatures[..], &[CONSERVATIVE_PRESSURE, "pressure"]].concat()
+        let pressures = Quantity::columns_shown_in(Unit::Pressure).rev();
+        Quantity::columns_shown_in(Unit::Temperature).chain(pressures).collect()
     };
     for column in columns {
-        let is_conservative_part = *column == CONSERVATIVE_PRESSURE;
+        let is_conservative_part = column == CONSERVATIVE_PRESSURE;
         // Friction and noise have no part in the pressure where nothing flows, and widen its error.
         if is_conservative_part && model.is_driven() {
             continue;
         }
         let label = if is_conservative_part { "pressure, conservative part" } else { &column.replace('_', " ") };
-        if let Some(value) = summary.means.get(*column).and_then(run::printed_mean) {
+        if let Some(value) = summary.means.get(column).and_then(run::printed_mean) {
             let spoilt = summary.unequilibrated.as_ref().is_some_and(|found| found.includes(column));
             rows.push(vec![label.to_owned(), marked(value, spoilt)]);
         }
@@ -208,7 +210,12 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     let note = marks(&rows, summary.unequilibrated.as_ref());
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
     if outcome.snapshots > 0 {
-        let noun = if flows { "pictures and arrays of each field" } else { "snapshots" };
+        let drawn = outcome.files.contains(&files::ENERGIES_PLOT);
+        let noun = match (flows, drawn) {
+            (false, _) => "snapshots",
+            (true, true) => "pictures and arrays of each field",
+            (true, false) => "arrays of each field",
+        };
         files.push(format!("{} numbered {noun}", outcome.snapshots));
     }
     // Particles that exchange momentum in pairs lead one to expect that it is conserved.

@@ -31,6 +31,10 @@ pub struct Arguments {
     #[command(flatten)]
     ranks: RanksArgument,
 
+    /// Write numbers only; `mesoscope plot DIR` draws the pictures
+    #[arg(long, help_heading = heading::OUTPUT)]
+    no_pictures: bool,
+
     /// Report errors only
     #[arg(long, help_heading = heading::OUTPUT)]
     quiet: bool,
@@ -67,5 +71,6 @@ fn resume(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<()
             format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` continues to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
+    let simulation = if arguments.no_pictures { simulation.without_pictures() } else { simulation };
     report::execute(simulation, processes, &arguments.ranks, &shown, arguments.quiet)
 }

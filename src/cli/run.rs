@@ -31,6 +31,10 @@ pub struct Arguments {
     #[command(flatten)]
     ranks: RanksArgument,
 
+    /// Write numbers only; `mesoscope plot DIR` draws the pictures
+    #[arg(long, help_heading = heading::OUTPUT)]
+    no_pictures: bool,
+
     #[command(flatten)]
     how: RunArguments,
 }
@@ -45,5 +49,6 @@ fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<
     let directory = arguments.out.clone().unwrap_or_else(|| report::stem(&arguments.scene.scene).into());
     let shown = printable::path(&directory);
     let simulation = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
+    let simulation = if arguments.no_pictures { simulation.without_pictures() } else { simulation };
     report::execute(simulation, processes, &arguments.ranks, &shown, arguments.how.quiet)
 }

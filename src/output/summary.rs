@@ -1,9 +1,10 @@
 //! The summary of a run, `run.json`.
 
 use super::{Extent, Found, Id, OutputError, RunDirectory, files, of_one_run, own_file, write_atomically};
-use crate::families::{Model, start_in_words};
+use crate::families::{Column, Model, start_in_words};
 use crate::gpu::AdapterDescription;
 use crate::measure::statistics::Estimate;
+use crate::quantity::Quantity;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -57,6 +58,9 @@ pub struct Summary {
     pub wall_seconds: f64,
     /// Particles times steps over wall-clock time.
     pub particle_steps_per_second: f64,
+    /// The columns of the table of energies, after the step.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub columns: Vec<ColumnSummary>,
     /// Mean of each column of the table of energies after equilibration, in the order of the table; null where a
     /// column has no values.
     pub means: serde_json::Map<String, serde_json::Value>,
@@ -78,6 +82,36 @@ pub struct Summary {
     pub files: Option<Vec<String>>,
     /// The scene with every default filled in.
     pub scene: Scene,
+}
+
+/// A column of the table of energies, in words.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct ColumnSummary {
+    /// Its name.
+    pub name: String,
+    /// The symbol of its quantity; a component has the axis behind.
+    pub symbol: String,
+    /// Its unit.
+    pub unit: String,
+    /// The definition of its quantity.
+    pub meaning: String,
+}
+
+impl ColumnSummary {
+    /// The columns of the table of a model.
+    #[must_use]
+    pub fn of(model: &Model) -> Vec<Self> {
+        let summary = |column: Column| {
+            let Quantity { symbol, unit, meaning, .. } = Quantity::of_column(column.name)?;
+            let symbol = Quantity::axis_of(column.name).map_or_else(
+                || (*symbol).to_owned(),
+                |axis| format!("{symbol}{}{axis}", if symbol.contains('_') { "," } else { "_" }),
+            );
+            let unit = unit.in_words(Some(model.units.dimension)).to_owned();
+            Some(Self { name: column.name.to_owned(), symbol, unit, meaning: (*meaning).to_owned() })
+        };
+        model.physics().columns(model).into_iter().filter_map(summary).collect()
+    }
 }
 
 /// What a run has from the file that its particles are from.
@@ -245,6 +279,7 @@ impl Summary {
             steps: 0,
             wall_seconds: 0.0,
             particle_steps_per_second: 0.0,
+            columns: Vec::new(),
             means: serde_json::Map::new(),
             unequilibrated: None,
             results: serde_json::Map::new(),

@@ -3,6 +3,7 @@
 use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
 use super::points::{highest, pairs, since_first, steps};
 use super::quantities::{Averages, TEMPERATURE, TIME, panel, series};
+use crate::quantity::{Quantity, Unit};
 use crate::table::Table;
 
 /// Temperatures and energies of cells that keep account of their internal energy, over time: both temperatures with their
@@ -23,12 +24,11 @@ use crate::table::Table;
 /// ```
 #[must_use]
 pub fn energetic_cells_chart(title: &str, table: &Table, particle_count: u64, averages: &Averages) -> Chart {
-    let columns = ["temperature", "internal_temperature"];
-    let temperatures = panel(TEMPERATURE, table, &columns, 1.0, averages);
+    let temperatures = panel(TEMPERATURE, table, Unit::Temperature, 1.0, averages);
     let mut changes = Panel::new(TIME, "Change of energy per cell (energy units)");
-    for column in ["kinetic_energy", "internal_energy", "total_energy"] {
-        let points = table.over_time(column, particle_count.max(1) as f64).unwrap_or_default();
-        changes.series.push(series(column, since_first(&points)));
+    for column in Quantity::columns_shown_in(Unit::Energy) {
+        let points = table.over_time(column, particle_count.max(1) as f64);
+        changes.series.extend(points.map(|points| series(column, since_first(&points))));
     }
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![temperatures, changes] }
 }

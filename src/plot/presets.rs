@@ -6,13 +6,13 @@ use super::quantities::{
     Averages, TEMPERATURE, TIME, capitalised, panel, pressure_label, series, with_set_temperature,
 };
 use crate::numbers::grouped;
+use crate::quantity::Unit;
 use crate::table::Table;
 
 /// Energies per particle, temperatures and pressures over time, with their means; a panel none of whose columns exist is left
 /// out.
 ///
-/// The columns are `time`, `kinetic_energy`, `potential_energy`, `total_energy`, `bath_energy`, `extended_energy`,
-/// `temperature`, `configurational_temperature`, `pressure` and `pressure_conservative`. `temperature` is the set kT, drawn as a
+/// The columns are `time` and those of [`QUANTITIES`](crate::quantity::QUANTITIES) with a look. `temperature` is the set kT, drawn as a
 /// reference; a value that is not finite leaves it out.
 ///
 /// ```
@@ -30,13 +30,10 @@ use crate::table::Table;
 #[must_use]
 pub fn energies_chart(title: &str, table: &Table, particle_count: u64, temperature: f64, averages: &Averages) -> Chart {
     let per_particle = particle_count.max(1) as f64;
-    let energies = ["kinetic_energy", "potential_energy", "total_energy", "bath_energy", "extended_energy"];
-    let temperatures = ["temperature", "configurational_temperature"];
-    let pressures = ["pressure", "pressure_conservative"];
     let panels = [
-        panel("Energy per particle (energy units)", table, &energies, per_particle, averages),
-        with_set_temperature(panel(TEMPERATURE, table, &temperatures, 1.0, averages), temperature),
-        panel(&pressure_label(dimension(table)), table, &pressures, 1.0, averages),
+        panel("Energy per particle (energy units)", table, Unit::Energy, per_particle, averages),
+        with_set_temperature(panel(TEMPERATURE, table, Unit::Temperature, 1.0, averages), temperature),
+        panel(&pressure_label(dimension(table)), table, Unit::Pressure, 1.0, averages),
     ];
     let plural = if particle_count == 1 { "particle" } else { "particles" };
     Chart::of_found(title, &format!("{} {plural}", grouped(particle_count)), panels)
@@ -67,11 +64,10 @@ fn dimension(table: &Table) -> usize {
 /// ```
 #[must_use]
 pub fn mesh_energies_chart(title: &str, table: &Table, temperature: Option<f64>, averages: &Averages) -> Chart {
-    let columns = ["kinetic_energy", "potential_energy", "total_energy", "bath_energy", "extended_energy"];
     let unit = "(mass of a node × (length units/time unit)²)";
-    let energies = panel(&format!("Energy {unit}"), table, &columns, 1.0, averages);
+    let energies = panel(&format!("Energy {unit}"), table, Unit::Energy, 1.0, averages);
     let second = if let Some(set) = temperature {
-        with_set_temperature(panel(&format!("Temperature {unit}"), table, &["temperature"], 1.0, averages), set)
+        with_set_temperature(panel(&format!("Temperature {unit}"), table, Unit::Temperature, 1.0, averages), set)
     } else {
         let points = table.over_time("total_energy", 1.0).unwrap_or_default();
         let first = points.first().map_or(f64::NAN, |point| point[1]);

@@ -2,28 +2,13 @@
 
 use super::chart::{Mean, Panel, Series, SeriesInk};
 use crate::numbers::short;
+use crate::quantity::{Look, Quantity, Unit};
 use crate::table::Table;
 
 /// The label of an axis of time.
 pub(super) const TIME: &str = "Time (time units)";
 /// The label of an axis of temperatures.
 pub(super) const TEMPERATURE: &str = "Temperature (energy units)";
-
-/// Columns of the table of energies, their names in legends, and the numbers of their inks: what moves has the first,
-/// what the configuration holds the second, and so on, in every panel.
-const COLUMNS: [(&str, &str, usize); 11] = [
-    ("kinetic_energy", "kinetic", 0),
-    ("potential_energy", "potential", 1),
-    ("total_energy", "total", 2),
-    ("bath_energy", "bath", 3),
-    ("extended_energy", "total with bath", 4),
-    ("internal_energy", "internal", 5),
-    ("temperature", "kinetic", 0),
-    ("configurational_temperature", "configurational", 1),
-    ("internal_temperature", "internal", 5),
-    ("pressure", "total", 2),
-    ("pressure_conservative", "conservative part", 1),
-];
 
 /// The name of a mean from few samples, whose error may be larger, ends in this in a legend.
 pub(super) const FEW_SAMPLES: &str = "*";
@@ -49,17 +34,17 @@ impl Averages {
 
 /// A series of a column in its own ink.
 pub(super) fn series(column: &str, points: Vec<[f64; 2]>) -> Series {
-    match COLUMNS.iter().find(|(known, _, _)| *known == column) {
-        Some((_, name, number)) => Series::line(name, points).with_ink(SeriesInk::Numbered(*number)),
+    match Quantity::of_column(column).and_then(|quantity| quantity.look) {
+        Some(Look { legend, ink }) => Series::line(legend, points).with_ink(SeriesInk::Numbered(ink)),
         None => Series::line(column, points),
     }
 }
 
-/// A panel over time of those columns that a table has, over a divisor, with their means; one without any is empty.
-pub(super) fn panel(label: &str, table: &Table, columns: &[&str], divisor: f64, averages: &Averages) -> Panel {
+/// A panel over time of the quantities of a unit that a table has, over a divisor, with their means; one without any is empty.
+pub(super) fn panel(label: &str, table: &Table, unit: Unit, divisor: f64, averages: &Averages) -> Panel {
     let mut panel = Panel::new(TIME, label).settled();
     panel.averaged_from = averages.from;
-    for column in columns {
+    for column in Quantity::columns_shown_in(unit) {
         if let Some(points) = table.over_time(column, divisor) {
             panel.series.push(Series { mean: averages.of(column, divisor), ..series(column, points) });
         }
@@ -96,8 +81,7 @@ pub(super) fn capitalised(word: &str) -> String {
 
 /// The label of an axis of pressures in a number of dimensions.
 pub(super) fn pressure_label(dimension: usize) -> String {
-    let power = ["", "²", "³"][dimension.clamp(1, 3) - 1];
-    format!("Pressure (energy units/length unit{power})")
+    format!("Pressure ({})", Unit::Pressure.in_words(Some(dimension)))
 }
 
 /// The label of an axis for a column of the table of energies, with its unit.
@@ -113,21 +97,7 @@ pub fn quantity_label(quantity: &str, relative: bool) -> String {
     if relative {
         return format!("{name} relative to its first value");
     }
-    let unit = match quantity {
-        "volume_error" => "part of the volume",
-        "mean_neighbours" | "limited_exchanges" | "solver_iterations" => "number",
-        "solver_residual" => "part of the right side",
-        "mass" => "mass units",
-        "bath_square" => "square of its unit",
-        "bath_times_momentum" => "force units × momentum units",
-        "bath_times_displacement" => "energy units",
-        "momentum_times_displacement" => "momentum units × length units",
-        _ if quantity.contains("energy") || quantity.contains("temperature") => "energy units",
-        _ if quantity.contains("velocity") => "length units/time unit",
-        _ if quantity.contains("momentum") => "mass units × length units/time unit",
-        _ if quantity.contains("pressure") => "energy units/volume",
-        _ => "reduced units",
-    };
+    let unit = Quantity::of_column(quantity).map_or("reduced units", |known| known.unit.in_words(None));
     format!("{name} ({unit})")
 }
 
@@ -151,18 +121,12 @@ mod tests {
     fn a_quantity_looks_the_same_beside_all_others_and_alone() {
         let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"];
         let table = Table::new(columns, vec![vec![0.0, 1.0, 2.0, 3.0]]);
-        let all =
-            panel("E", &table, &["kinetic_energy", "potential_energy", "total_energy"], 1.0, &Averages::default());
-        let ideal = panel("E", &table, &["kinetic_energy", "total_energy"], 1.0, &Averages::default());
+        let all = panel("E", &table, Unit::Energy, 1.0, &Averages::default());
+        let columns = ["time", "kinetic_energy", "total_energy"];
+        let table = Table::new(columns, vec![vec![0.0, 1.0, 1.0]]);
+        let ideal = panel("E", &table, Unit::Energy, 1.0, &Averages::default());
         assert_eq!(ideal.series[1].ink, all.series[2].ink);
         assert_ne!(ideal.series[1].ink, all.series[1].ink);
-        for (index, (column, name, number)) in COLUMNS.iter().enumerate() {
-            let family = |column: &str| column.rsplit('_').next().unwrap_or_default().to_owned();
-            for (other, other_name, other_number) in &COLUMNS[..index] {
-                let alike = number == other_number || name == other_name;
-                assert!(!alike || family(column) != family(other), "{column} and {other}");
-            }
-        }
     }
 
     #[test]
@@ -171,7 +135,7 @@ mod tests {
         let table = Table::new(columns, vec![vec![0.0, 30.0]]);
         let mean = Mean { value: 30.0, standard_error: Some(2.0), from_few_samples: true, unequilibrated: true };
         let averages = Averages { from: Some(4.0), means: vec![("kinetic_energy".to_owned(), mean)] };
-        let panel = panel("E", &table, &["kinetic_energy"], 20.0, &averages);
+        let panel = panel("E", &table, Unit::Energy, 20.0, &averages);
         assert_eq!(panel.series[0].mean, Some(Mean { value: 1.5, standard_error: Some(0.1), ..mean }));
         assert_eq!(panel.averaged_from, Some(4.0));
         assert!(averages_note(&averages).ends_with("(shaded), * from few samples, † with the way to equilibrium"));

@@ -15,7 +15,7 @@ use crate::engine::{EngineError, Sample, Shown, Stepper};
 use crate::families::{KeptQuantity, Model, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
-use crate::output::summary::{AdapterSummary, RanksSummary, StartSummary};
+use crate::output::summary::{AdapterSummary, ColumnSummary, RanksSummary, StartSummary};
 use crate::output::{
     Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files, own_file,
 };
@@ -106,7 +106,7 @@ impl<'a> Run<'a> {
                 })
             }
         };
-        let pictures = Pictures::new(gpu, directory, scene, start)?;
+        let pictures = Pictures::new(gpu, directory, scene, start, task.draws)?;
         directory.remove_snapshots_after(schedule.snapshots_before(step))?;
         Ok(Self {
             task,
@@ -201,19 +201,21 @@ impl<'a> Run<'a> {
         }
         let number = self.schedule.snapshot(step);
         let taken = self.analyses.take_state(step);
-        if number.is_some() || taken || last {
+        let fields = self.model.picture() == PictureKind::Fields;
+        let is_shown = (number.is_some() || last) && (fields || self.task.draws);
+        if is_shown || taken {
             let most = most_shown(self.scene, self.model);
             let all = if taken { Shown::all(engine.reported()?) } else { engine.shown(most)? };
             let state = &all.state;
             let setting = Setting { scene: self.scene, model: self.model, plan: engine.plan() };
             self.analyses.add_state(state, &setting);
-            if self.model.picture() == PictureKind::Fields {
+            if fields && is_shown {
                 let depth = mesh_depth(engine, self.model)?;
                 for number in number.map(Some).into_iter().chain(last.then_some(None)) {
                     self.pictures.fields(number, state, &depth, self.model)?;
                     engine.keep_alive();
                 }
-            } else if number.is_some() || last {
+            } else if is_shown {
                 let shown = if all.numbers.is_some() { all } else { Shown::of(all.state, most) };
                 if let Some(number) = number {
                     self.pictures.snapshot(&files::snapshot(number), &shown, self.model)?;
@@ -313,6 +315,7 @@ impl<'a> Run<'a> {
         let adapter = AdapterSummary::from(self.gpu.description());
         let mut summary = Summary::new(self.task.id, self.scene.clone(), adapter, self.model.particle_count());
         summary.start = StartSummary::new(self.scene, self.model);
+        summary.columns = ColumnSummary::of(self.model);
         let last_step = self.scene.time.steps;
         summary.set_duration(last_step, steps, spent.as_secs_f64());
         if let Some(earlier) = self.task.earlier.as_deref().filter(|earlier| steps == 0 && earlier.steps == last_step) {
@@ -341,8 +344,10 @@ impl<'a> Run<'a> {
         let path = self.directory.file(files::SUMMARY);
         summary.save(&path)?;
         go_on()?;
-        self.pictures.energies(&self.energies.rows.table(), self.model, &summary)?;
-        self.pictures.analyses(&summary, &go_on)?;
+        if self.task.draws {
+            self.pictures.energies(&self.energies.rows.table(), self.model, &summary)?;
+            self.pictures.analyses(&summary, &go_on)?;
+        }
         engine.keep_alive();
         // What was moved away or replaced under way is not what `run.json` speaks of.
         self.energies.file.check()?;
@@ -354,7 +359,9 @@ impl<'a> Run<'a> {
         let written: Vec<&str> = files::all().filter(written).collect();
         summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
         summary.save(&path)?;
-        Ok(Outcome { summary, files: written, snapshots: self.schedule.snapshots_before(last_step + 1) })
+        let numbered = task.draws || self.model.picture() == PictureKind::Fields;
+        let snapshots = if numbered { self.schedule.snapshots_before(last_step + 1) } else { 0 };
+        Ok(Outcome { summary, files: written, snapshots })
     }
 }
 

@@ -101,13 +101,15 @@ pub(super) struct Pictures<'a> {
     written: Vec<String>,
     /// Arrays of the run so far; none where pictures alone are drawn again.
     arrays: Option<Vec<(String, Extent)>>,
+    /// False if arrays are written and nothing is drawn.
+    draws: bool,
 }
 
 impl<'a> Pictures<'a> {
     /// The pictures of a finished run, without its arrays.
     fn again(gpu: &'a Gpu, directory: &'a RunDirectory, scene: &'a Scene, end: &Checkpoint) -> Self {
         let (run, ranges) = (end.run_id, ColourRanges::restored(&end.sections));
-        Self { gpu, directory, scene, run, ranges, plotter: None, written: Vec::new(), arrays: None }
+        Self { gpu, directory, scene, run, ranges, plotter: None, written: Vec::new(), arrays: None, draws: true }
     }
 
     /// The pictures and arrays of a run from its beginning, or continued from a checkpoint.
@@ -119,6 +121,7 @@ impl<'a> Pictures<'a> {
         directory: &'a RunDirectory,
         scene: &'a Scene,
         start: &Checkpoint,
+        draws: bool,
     ) -> Result<Self, OutputError> {
         let is_array = |(name, _): &&(String, Extent)| files::snapshot_number(name).is_some();
         let arrays: Vec<_> = start.files.iter().filter(is_array).cloned().collect();
@@ -129,7 +132,7 @@ impl<'a> Pictures<'a> {
                 return Err(OutputError::Altered { path });
             }
         }
-        Ok(Self { arrays: Some(arrays), ..Self::again(gpu, directory, scene, start) })
+        Ok(Self { arrays: Some(arrays), draws, ..Self::again(gpu, directory, scene, start) })
     }
 
     /// Arrays of the run so far, which have no place for its id.
@@ -341,8 +344,10 @@ impl<'a> Pictures<'a> {
             };
             let name = files::field(shown.stem, number, "png");
             let style = &self.scene.output.plot;
-            self.draw(&name, |plotter| plotter.draw_field(&picture, style))?;
-            written.push(name);
+            if self.draws {
+                self.draw(&name, |plotter| plotter.draw_field(&picture, style))?;
+                written.push(name);
+            }
             let name = files::field(shown.stem, number, "npy");
             let path = self.directory.file(&name);
             // Those that are there are the run's.

@@ -3,24 +3,9 @@
 use crate::families::Model;
 use crate::measure::equilibration::transient;
 use crate::output::summary::{Unequilibrated, UnsettledMean};
+use crate::quantity::{QUANTITIES, Quantity};
 use crate::scene::Scene;
 use crate::table::Table;
-
-/// Columns of the table of energies that fluctuate about a constant in equilibrium, those most asked for first. Not among
-/// them are what is conserved, what wanders (the centre of mass in noise), and what is counted.
-const QUANTITIES: [&str; 11] = [
-    "temperature",
-    "internal_temperature",
-    "configurational_temperature",
-    "pressure",
-    "pressure_conservative",
-    "kinetic_energy",
-    "potential_energy",
-    "bath_square",
-    "bath_times_momentum",
-    "bath_times_displacement",
-    "momentum_times_displacement",
-];
 
 /// Whether the means of a scene are meant to be those of equilibrium: where it says how long to wait for that, and for
 /// thermal particles anyway. Flows of water, cells that warm up or slow down and chains with a pulse are about the way.
@@ -35,13 +20,13 @@ pub(super) fn unequilibrated(table: &Table, equilibration: u64) -> Option<Unequi
     let rows = &table.rows[first..];
     let last_step = rows.last()?[0] as u64;
     let mut means = Vec::new();
-    for quantity in QUANTITIES {
-        let Some(column) = table.columns.iter().position(|column| column == quantity) else { continue };
+    for Quantity { name, .. } in QUANTITIES.iter().filter(|quantity| quantity.settles) {
+        let Some(column) = table.columns.iter().position(|column| column == name) else { continue };
         let known: Vec<&Vec<f64>> = rows.iter().filter(|row| row[column].is_finite()).collect();
         let series: Vec<f64> = known.iter().map(|row| row[column]).collect();
         if let Some(found) = transient(&series) {
             let settled_from = known.get(found.samples).filter(|_| found.settles).map(|row| row[0] as u64);
-            means.push(UnsettledMean { quantity: quantity.to_owned(), settled_from, mean_from_there: found.mean });
+            means.push(UnsettledMean { quantity: (*name).to_owned(), settled_from, mean_from_there: found.mean });
         }
     }
     // Where one does not settle, a run as long as this one has to be over before averages begin.

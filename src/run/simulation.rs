@@ -35,6 +35,8 @@ pub struct Simulation {
     division: Option<Division>,
     /// Whether ranks may compute differently.
     mixed: bool,
+    /// Whether pictures are drawn.
+    draws: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -58,8 +60,7 @@ impl Simulation {
     pub fn start(scene: Scene, directory: impl Into<PathBuf>, force: bool) -> Self {
         let beginning = Beginning::New { directory: directory.into(), force };
         let (id, model) = (Id::of_run(&scene), Model::new(&scene));
-        let (interrupt, notices) = (Interrupt::default(), Vec::new());
-        Self { scene, model, beginning, interrupt, notices, id, division: None, mixed: false }
+        Self::of(scene, model, beginning, Vec::new(), id)
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory
@@ -110,7 +111,18 @@ impl Simulation {
         directory.check_run(checkpoint.run_id, files::CHECKPOINT)?;
         let id = checkpoint.run_id;
         let beginning = Beginning::Checkpoint { directory, checkpoint: Box::new(checkpoint), earlier };
-        Ok(Self { scene, model, beginning, interrupt: Interrupt::default(), notices, id, division: None, mixed: false })
+        Ok(Self::of(scene, model, beginning, notices, id))
+    }
+
+    fn of(scene: Scene, model: Model, beginning: Beginning, notices: Vec<String>, id: Id) -> Self {
+        let interrupt = Interrupt::default();
+        Self { scene, model, beginning, interrupt, notices, id, division: None, mixed: false, draws: true }
+    }
+
+    /// The same run without pictures, which [`redraw`](super::redraw) makes of its files; arrays of fields are written.
+    #[must_use]
+    pub fn without_pictures(self) -> Self {
+        Self { draws: false, ..self }
     }
 
     /// The same run, whose summary also says what was done to the scene, as [`scene::load_for`] does.
@@ -205,7 +217,7 @@ impl Simulation {
         choice: &AdapterChoice,
         observer: &mut dyn FnMut(Event<'_>),
     ) -> Result<Outcome, RunError> {
-        let Self { scene, model, beginning, interrupt, notices, id, division, mixed } = self;
+        let Self { scene, model, beginning, interrupt, notices, id, division, mixed, draws } = self;
         let part = division.map(|division| Part { division, rank: 0 });
         let mut options = Options { part, ..Options::default() };
         // Whatever takes long before the first step can be left; until then nothing is written, or there is a checkpoint already.
@@ -233,7 +245,7 @@ impl Simulation {
         keep_alive();
         let (first_step, last_step) = (start.state.step, scene.time.steps);
         let mut pace = Pace::new(model.particle_count(), plan.operations_per_particle);
-        let task = Task { id, scene, model, directory, interrupt, notices, mixed, earlier };
+        let task = Task { id, scene, model, directory, interrupt, notices, mixed, draws, earlier };
         let mut begun = false;
         loop {
             let opened = open(&task, &gpu, plan, (choice, processes), options, &start);

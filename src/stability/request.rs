@@ -3,6 +3,7 @@
 use super::range::{Range, Spacing, number_of};
 use crate::families::{Model, StepCheck};
 use crate::output::Id;
+use crate::quantity::{Quantity, Unit};
 use crate::run;
 use crate::scene::{self, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
 use crate::study::{LENGTHS, Setting, ShortKeys, StudyError, WrittenScene};
@@ -15,9 +16,6 @@ const STEP: &str = "time.step";
 
 /// From a quarter of the time step of the scene to sixteen times.
 const USUAL: ([f64; 2], usize) = ([0.25, 16.0], 7);
-
-/// Measures that are compared where nobody says which, if a law says what they should be.
-const COMPARED: [&str; 2] = ["temperature", "configurational_temperature"];
 
 /// Steps that means are taken over, at least.
 const FEWEST_STEPS: f64 = 256.0;
@@ -191,7 +189,7 @@ impl Request {
         let mut all = measures.clone();
         if all.is_empty() {
             let columns = run::quantities(&Model::new(&self.base));
-            let compared = COMPARED.into_iter().filter(|name| columns.contains(name));
+            let compared = Quantity::columns_shown_in(Unit::Temperature).filter(|name| columns.contains(name));
             let usual = compared.chain(names_of_table(&self.base));
             all.extend(usual.filter(|name| predicted(name, &self.base).is_some()).map(str::to_owned));
         }

@@ -5,6 +5,7 @@ use super::look::Look;
 use super::observables::Observable;
 use super::summary::SweepSummary;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesStyle, UNEQUILIBRATED, quantity_label};
+use crate::quantity::QUANTITIES;
 use crate::study::{Setting, ShortKeys, Sweep, Variation, by_key, each_once, numbers, readable};
 use serde_json::Value;
 
@@ -13,9 +14,6 @@ const PANELS: usize = 4;
 
 /// Columns of the table of energies that say something about the run rather than about the matter.
 const LEFT_OUT: [&str; 3] = ["momentum_", "center_of_mass_velocity_", "particle"];
-
-/// What comes first, where it is measured.
-const FIRST: [&str; 3] = ["temperature", "configurational_temperature", "pressure"];
 
 /// The charts of the means of all variants that are finished against the values of one varied key: the one with most
 /// numbers, or else most values; every combination of the others is a curve, and further variants are lines to compare
@@ -58,8 +56,8 @@ fn quantities<'f>(found: &'f [(&Group<'_>, Vec<Observable>)], look: &Look) -> Ve
         let first = values.next();
         !look.quantities.is_empty() || values.any(|value| Some(value) != first)
     });
-    // A sort that keeps the order of all others.
-    names.sort_by_key(|name| FIRST.iter().position(|first| first == name).unwrap_or(FIRST.len()));
+    // A sort that keeps the order of results, which follow.
+    names.sort_by_key(|name| QUANTITIES.iter().position(|known| known.name == *name).unwrap_or(QUANTITIES.len()));
     names
 }
 

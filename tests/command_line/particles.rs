@@ -546,6 +546,30 @@ fn plots_can_be_drawn_again() {
     fails(&["plot", &out], 5, &["radial_distribution.csv` is not what the run wrote", "--force"]);
 }
 
+/// Numbers are the same without pictures, also where the run was interrupted, and `plot` draws those of the end.
+#[test]
+fn a_run_without_pictures_can_be_drawn_later() {
+    let place = place()
+        .with("/output/snapshot/every", json!(25))
+        .with("/output/radial_distribution", json!({"every": 5, "range": 2, "bins": 40}));
+    place.run("drawn", &[]);
+    let said = place.run("out", &["--no-pictures", "--steps", "36"]);
+    assert!(!said.contains(".png") && !said.contains("numbered"), "{said}");
+    let (drawn, out) = (place.path("drawn"), place.path("out"));
+    succeeds(&["resume", &place.argument("out"), "--steps", "60", "--no-pictures"]);
+    assert!(listing(&out).iter().all(|name| !name.ends_with(".png")), "{:?}", listing(&out));
+    let said = succeeds(&["resume", &place.argument("out")]);
+    assert!(said.contains("nothing to do"), "{said}");
+    let rdf = &AnalysisId::RadialDistribution.tables()[0];
+    for name in [files::ENERGIES, rdf.file] {
+        assert_eq!(bytes(&out.join(name)), bytes(&drawn.join(name)), "{name}");
+    }
+    succeeds(&["plot", &place.argument("out")]);
+    for name in [files::ENERGIES_PLOT, files::SNAPSHOT, rdf.plot] {
+        assert_eq!(picture(&out.join(name)), picture(&drawn.join(name)), "{name}");
+    }
+}
+
 #[test]
 fn two_species_in_a_plane() {
     let place = place()

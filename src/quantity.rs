@@ -1,0 +1,262 @@
+//! The quantities of the table of energies, each with all that is said of it wherever it is shown.
+
+/// A quantity of the table of energies.
+///
+/// ```
+/// use mesoscope::quantity::{Quantity, Unit};
+///
+/// let pressure = Quantity::of_column("pressure_conservative").expect("a column of the table");
+/// assert_eq!((pressure.symbol, pressure.unit), ("p_C", Unit::Pressure));
+/// // A vector has a column for each axis, and walls have columns for each side.
+/// assert_eq!(Quantity::of_column("momentum_x"), Quantity::of_column("momentum_z"));
+/// assert_eq!(Quantity::of_column("wall_y_upper_momentum_x").map(|found| found.name), Some("wall_momentum"));
+/// assert_eq!(Quantity::of_column("colour"), None);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Quantity {
+    /// The name of its column; that of a vector, without the axis.
+    pub name: &'static str,
+    /// Its symbol in formulas.
+    pub symbol: &'static str,
+    /// Its unit.
+    pub unit: Unit,
+    /// Its definition.
+    pub meaning: &'static str,
+    /// Its look in the panel of its unit in the chart of energies, if it is there.
+    pub look: Option<Look>,
+    /// True if it fluctuates about a constant in equilibrium; false if it is conserved, wanders or counts.
+    pub settles: bool,
+}
+
+/// The look of a quantity among others of its unit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Look {
+    /// Its name in the legend.
+    pub legend: &'static str,
+    /// The number of its ink: what moves has the first, what the configuration holds the second, and so on, in every panel.
+    pub ink: usize,
+}
+
+/// The unit of a quantity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Units of energy, of a temperature kT.
+    Temperature,
+    /// Units of energy.
+    Energy,
+    /// Units of energy over those of volume, which is an area in two dimensions.
+    Pressure,
+    /// Another unit, in words.
+    Other(&'static str),
+}
+
+impl Unit {
+    /// The unit in words; that of a pressure depends on the dimension of the box, where that is known.
+    ///
+    /// ```
+    /// use mesoscope::quantity::Unit;
+    /// assert_eq!(Unit::Pressure.in_words(Some(2)), "energy units/length unit²");
+    /// assert_eq!(Unit::Pressure.in_words(None), "energy units/volume");
+    /// ```
+    #[must_use]
+    pub const fn in_words(self, dimension: Option<usize>) -> &'static str {
+        match (self, dimension) {
+            (Self::Temperature | Self::Energy, _) => "energy units",
+            (Self::Pressure, None) => "energy units/volume",
+            (Self::Pressure, Some(1)) => "energy units/length unit",
+            (Self::Pressure, Some(2)) => "energy units/length unit²",
+            (Self::Pressure, Some(_)) => "energy units/length unit³",
+            (Self::Other(words), _) => words,
+        }
+    }
+}
+
+const MOMENTUM: Unit = Unit::Other("mass units × length units/time unit");
+const NUMBER: Unit = Unit::Other("number");
+const WORK: Unit = Unit::Other("energy units");
+
+/// All quantities, those most asked for first.
+pub const QUANTITIES: [Quantity; 30] = [
+    quantity("temperature", "kT", Unit::Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0).settles(),
+    quantity("internal_temperature", "kT_i", Unit::Temperature, "mean temperature of the internal energies of cells")
+        .looks("internal", 5)
+        .settles(),
+    quantity("configurational_temperature", "kT_C", Unit::Temperature, "|∇U|²/∇²U of the potential energy U")
+        .looks("configurational", 1)
+        .settles(),
+    quantity("pressure", "p", Unit::Pressure, "of kinetic energy and the virial of all forces")
+        .looks("total", 2)
+        .settles(),
+    quantity("kinetic_energy", "K", Unit::Energy, "kinetic energy of all particles").looks("kinetic", 0).settles(),
+    quantity("potential_energy", "U", Unit::Energy, "potential energy of all particles")
+        .looks("potential", 1)
+        .settles(),
+    quantity(
+        "pressure_conservative",
+        "p_C",
+        Unit::Pressure,
+        "of kinetic energy and the virial of conservative forces alone",
+    )
+    .looks("conservative part", 1)
+    .settles(),
+    quantity("internal_energy", "E_i", Unit::Energy, "internal energy of all cells").looks("internal", 5),
+    quantity("total_energy", "E", Unit::Energy, "kinetic and potential energy; of cells, kinetic and internal energy")
+        .looks("total", 2),
+    quantity("bath_energy", "E_b", Unit::Energy, "energy of the variables of baths with memory").looks("bath", 3),
+    quantity("extended_energy", "E + E_b", Unit::Energy, "total energy and energy of the variables of baths")
+        .looks("total with bath", 4),
+    quantity("bath_square", "⟨h²⟩", Unit::Other("square of its unit"), "mean square of the variables of baths")
+        .settles(),
+    quantity(
+        "bath_times_momentum",
+        "⟨hp⟩",
+        Unit::Other("force units × momentum units"),
+        "mean product of bath variables and momenta over all coordinates of oscillators",
+    )
+    .settles(),
+    quantity(
+        "bath_times_displacement",
+        "⟨hx⟩",
+        WORK,
+        "mean product of bath variables and displacements over all coordinates of oscillators",
+    )
+    .settles(),
+    quantity(
+        "momentum_times_displacement",
+        "⟨px⟩",
+        Unit::Other("momentum units × length units"),
+        "mean product of momenta and displacements over all coordinates of oscillators",
+    )
+    .settles(),
+    quantity("step", "n", NUMBER, "steps since the start of the run"),
+    quantity("time", "t", Unit::Other("time units"), "time since the start of the run"),
+    quantity("momentum", "P", MOMENTUM, "total momentum"),
+    quantity("center_of_mass_velocity", "V", Unit::Other("length units/time unit"), "velocity of the centre of mass"),
+    quantity("body_force_momentum", "P_f", MOMENTUM, "impulse of body forces since the start"),
+    quantity("body_force_work", "W_f", WORK, "work of body forces since the start"),
+    quantity("wall_momentum", "P_w", MOMENTUM, "momentum that a wall has absorbed since the start"),
+    quantity("wall_work", "W_w", WORK, "work that moving walls have done on particles since the start"),
+    quantity("shear_momentum", "P_s", MOMENTUM, "momentum that sheared boundaries have taken from what crossed them"),
+    quantity("mass", "M", Unit::Other("mass units"), "mass of all cells"),
+    quantity(
+        "volume_error",
+        "ΔV/V",
+        Unit::Other("part of the volume"),
+        "volume of all cells over that of the box, less 1",
+    ),
+    quantity("mean_neighbours", "z", NUMBER, "mean number of neighbours of a cell, 6 in every tessellation"),
+    quantity("limited_exchanges", "n_l", NUMBER, "exchanges between cells that a limit has cut since the start"),
+    quantity("solver_iterations", "n_s", NUMBER, "iterations in which the friction of cells was solved for"),
+    quantity("solver_residual", "r", Unit::Other("part of the right side"), "residual of the friction of cells"),
+];
+
+const fn quantity(name: &'static str, symbol: &'static str, unit: Unit, meaning: &'static str) -> Quantity {
+    Quantity { name, symbol, unit, meaning, look: None, settles: false }
+}
+
+/// The ends of the names of columns of a vector.
+const AXES: [&str; 3] = ["_x", "_y", "_z"];
+
+impl Quantity {
+    const fn looks(self, legend: &'static str, ink: usize) -> Self {
+        Self { look: Some(Look { legend, ink }), ..self }
+    }
+
+    const fn settles(self) -> Self {
+        Self { settles: true, ..self }
+    }
+
+    /// The quantity of a column, if it is one of the table of energies.
+    #[must_use]
+    pub fn of_column(column: &str) -> Option<&'static Self> {
+        let known = |name: &str| QUANTITIES.iter().find(|quantity| quantity.name == name);
+        let of_vector = || {
+            let name = AXES.iter().find_map(|axis| column.strip_suffix(axis))?;
+            let of_wall = name.starts_with("wall_") && name.ends_with("_momentum");
+            known(if of_wall { "wall_momentum" } else { name })
+        };
+        known(column).or_else(of_vector)
+    }
+
+    /// The axis of which a column is a component, if it is one.
+    #[must_use]
+    pub fn axis_of(column: &str) -> Option<&'static str> {
+        let axis = AXES.into_iter().find(|axis| column.ends_with(axis))?;
+        Self::of_column(column).filter(|quantity| quantity.name != column).map(|_| &axis[1..])
+    }
+
+    /// The names of the columns that a chart shows in the panel of a unit, in their order.
+    #[must_use]
+    pub fn columns_shown_in(unit: Unit) -> impl DoubleEndedIterator<Item = &'static str> {
+        QUANTITIES
+            .iter()
+            .filter(move |quantity| quantity.unit == unit && quantity.look.is_some())
+            .map(|shown| shown.name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::families::Model;
+    use crate::scene;
+    use std::fmt::Write;
+    use std::path::Path;
+
+    /// The page of all quantities.
+    fn page() -> String {
+        let mut text = "# Columns of the table of energies\n\n\
+            `energies.csv` has the columns of this table that have a meaning for its scene; `columns` of `run.json` names them, with their units.\n\
+            Units are those of the scene: of length, mass, time and energy; in shallow water the unit of mass is the water that a node holds\n\
+            at the mean depth. A vector has a column for each axis (`momentum_x`, `momentum_y`, …), and\n\
+            `wall_momentum` one for each wall and axis (`wall_z_lower_momentum_x`, …). Those that settle fluctuate about a constant in equilibrium:\n\
+            a run looks for transients in them. This page is made from `src/quantity.rs` by\n\
+            `MESOSCOPE_RECORD=1 cargo test --lib quantity`.\n\n\
+            | column | symbol | unit | settles | meaning |\n|---|---|---|:-:|---|\n"
+            .to_owned();
+        for Quantity { name, symbol, unit, meaning, settles, .. } in &QUANTITIES {
+            let (unit, settles) = (unit.in_words(None), if *settles { "✓" } else { "" });
+            let meaning = meaning.replace('|', "\\|");
+            writeln!(text, "| `{name}` | {symbol} | {unit} | {settles} | {meaning} |").unwrap();
+        }
+        text
+    }
+
+    #[test]
+    fn the_page_of_the_documentation_is_made_from_the_table() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/columns.md");
+        if std::env::var_os("MESOSCOPE_RECORD").is_some() {
+            std::fs::write(&path, page()).unwrap();
+        }
+        let written = std::fs::read_to_string(&path).unwrap();
+        assert!(written == page(), "docs/columns.md is not that of the table: MESOSCOPE_RECORD=1 writes it");
+    }
+
+    #[test]
+    fn every_column_has_its_quantity() {
+        let scenes = scene::builtin().iter().map(|known| scene::load(known.name, &[]));
+        let mut met = std::collections::BTreeSet::from(["step"]);
+        for scene in scenes {
+            let model = Model::new(&scene.unwrap());
+            for column in model.physics().columns(&model) {
+                let quantity = Quantity::of_column(column.name).map(|quantity| quantity.name);
+                assert!(quantity.is_some(), "{}", column.name);
+                met.extend(quantity);
+            }
+        }
+        let unmet: Vec<&str> =
+            QUANTITIES.map(|quantity| quantity.name).into_iter().filter(|name| !met.contains(name)).collect();
+        assert!(unmet.is_empty(), "no scene has {unmet:?}");
+    }
+
+    #[test]
+    fn quantities_of_a_panel_are_told_apart() {
+        for (place, one) in QUANTITIES.iter().enumerate() {
+            for other in QUANTITIES[..place].iter().filter(|other| other.unit == one.unit) {
+                let (Some(look), Some(known)) = (one.look, other.look) else { continue };
+                assert!(look.legend != known.legend && look.ink != known.ink, "{} and {}", one.name, other.name);
+            }
+        }
+    }
+}
