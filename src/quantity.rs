@@ -71,99 +71,62 @@ impl Unit {
     }
 }
 
-const MOMENTUM: Unit = Unit::Other("mass units × length units/time unit");
-const NUMBER: Unit = Unit::Other("number");
-const WORK: Unit = Unit::Other("energy units");
+use Unit::{Energy, Other, Pressure, Temperature};
+
+const MOMENTUM: Unit = Other("mass units × length units/time unit");
+const VELOCITY: Unit = Other("length units/time unit");
+const NUMBER: Unit = Other("number");
+const WORK: Unit = Other("energy units");
+const BATH: Unit = Other("square of its unit");
+const FORCE_MOMENTUM: Unit = Other("force units × momentum units");
+const ACTION: Unit = Other("momentum units × length units");
 
 /// All quantities, those most asked for first.
 pub const QUANTITIES: [Quantity; 30] = [
-    quantity("temperature", "kT", Unit::Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0).settles(),
-    quantity("internal_temperature", "kT_i", Unit::Temperature, "mean temperature of the internal energies of cells")
-        .looks("internal", 5)
-        .settles(),
-    quantity("configurational_temperature", "kT_C", Unit::Temperature, "|∇U|²/∇²U of the potential energy U")
-        .looks("configurational", 1)
-        .settles(),
-    quantity("pressure", "p", Unit::Pressure, "of kinetic energy and the virial of all forces")
-        .looks("total", 2)
-        .settles(),
-    quantity("kinetic_energy", "K", Unit::Energy, "kinetic energy of all particles").looks("kinetic", 0).settles(),
-    quantity("potential_energy", "U", Unit::Energy, "potential energy of all particles")
-        .looks("potential", 1)
-        .settles(),
-    quantity(
-        "pressure_conservative",
-        "p_C",
-        Unit::Pressure,
-        "of kinetic energy and the virial of conservative forces alone",
-    )
-    .looks("conservative part", 1)
-    .settles(),
-    quantity("internal_energy", "E_i", Unit::Energy, "internal energy of all cells").looks("internal", 5),
-    quantity("total_energy", "E", Unit::Energy, "kinetic and potential energy; of cells, kinetic and internal energy")
-        .looks("total", 2),
-    quantity("bath_energy", "E_b", Unit::Energy, "energy of the variables of baths with memory").looks("bath", 3),
-    quantity("extended_energy", "E + E_b", Unit::Energy, "total energy and energy of the variables of baths")
-        .looks("total with bath", 4),
-    quantity("bath_square", "⟨h²⟩", Unit::Other("square of its unit"), "mean square of the variables of baths")
-        .settles(),
-    quantity(
-        "bath_times_momentum",
-        "⟨hp⟩",
-        Unit::Other("force units × momentum units"),
-        "mean product of bath variables and momenta over all coordinates of oscillators",
-    )
-    .settles(),
-    quantity(
-        "bath_times_displacement",
-        "⟨hx⟩",
-        WORK,
-        "mean product of bath variables and displacements over all coordinates of oscillators",
-    )
-    .settles(),
-    quantity(
-        "momentum_times_displacement",
-        "⟨px⟩",
-        Unit::Other("momentum units × length units"),
-        "mean product of momenta and displacements over all coordinates of oscillators",
-    )
-    .settles(),
+    settling("temperature", "kT", Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0),
+    settling("internal_temperature", "kT_i", Temperature, "mean of the internal energies of cells")
+        .looks("internal", 5),
+    settling("configurational_temperature", "kT_C", Temperature, "|∇U|²/∇²U").looks("configurational", 1),
+    settling("pressure", "p", Pressure, "by kinetic energy and the virial of all forces").looks("total", 2),
+    settling("kinetic_energy", "K", Energy, "kinetic energy of all particles").looks("kinetic", 0),
+    settling("potential_energy", "U", Energy, "potential energy of all particles").looks("potential", 1),
+    settling("pressure_conservative", "p_C", Pressure, "without friction and noise").looks("conservative part", 1),
+    quantity("internal_energy", "E_i", Energy, "internal energy of all cells").looks("internal", 5),
+    quantity("total_energy", "E", Energy, "K + U; of cells with an energy of their own, K + E_i").looks("total", 2),
+    quantity("bath_energy", "E_b", Energy, "energy of the variables of baths with memory").looks("bath", 3),
+    quantity("extended_energy", "E + E_b", Energy, "total energy and that of baths").looks("total with bath", 4),
+    settling("bath_square", "⟨h²⟩", BATH, "mean square of the variables h of baths"),
+    settling("bath_times_momentum", "⟨hp⟩", FORCE_MOMENTUM, "mean over all coordinates of oscillators in baths"),
+    settling("bath_times_displacement", "⟨hx⟩", WORK, "mean over all coordinates of oscillators in baths"),
+    settling("momentum_times_displacement", "⟨px⟩", ACTION, "mean over all coordinates of oscillators in baths"),
     quantity("step", "n", NUMBER, "steps since the start of the run"),
-    quantity("time", "t", Unit::Other("time units"), "time since the start of the run"),
+    quantity("time", "t", Other("time units"), "time since the start of the run"),
     quantity("momentum", "P", MOMENTUM, "total momentum"),
-    quantity("center_of_mass_velocity", "V", Unit::Other("length units/time unit"), "velocity of the centre of mass"),
+    quantity("center_of_mass_velocity", "V", VELOCITY, "velocity of the centre of mass"),
     quantity("body_force_momentum", "P_f", MOMENTUM, "impulse of body forces since the start"),
     quantity("body_force_work", "W_f", WORK, "work of body forces since the start"),
     quantity("wall_momentum", "P_w", MOMENTUM, "momentum that a wall has absorbed since the start"),
     quantity("wall_work", "W_w", WORK, "work that moving walls have done on particles since the start"),
     quantity("shear_momentum", "P_s", MOMENTUM, "momentum that sheared boundaries have taken from what crossed them"),
-    quantity("mass", "M", Unit::Other("mass units"), "mass of all cells"),
-    quantity(
-        "volume_error",
-        "ΔV/V",
-        Unit::Other("part of the volume"),
-        "volume of all cells over that of the box, less 1",
-    ),
+    quantity("mass", "M", Other("mass units"), "mass of all cells"),
+    quantity("volume_error", "ΔV/V", Other("part of the volume"), "volume of all cells over that of the box, less 1"),
     quantity("mean_neighbours", "z", NUMBER, "mean number of neighbours of a cell, 6 in every tessellation"),
     quantity("limited_exchanges", "n_l", NUMBER, "exchanges between cells that a limit has cut since the start"),
     quantity("solver_iterations", "n_s", NUMBER, "iterations in which the friction of cells was solved for"),
-    quantity("solver_residual", "r", Unit::Other("part of the right side"), "residual of the friction of cells"),
+    quantity("solver_residual", "r", Other("part of the right side"), "residual of the friction of cells"),
 ];
 
 const fn quantity(name: &'static str, symbol: &'static str, unit: Unit, meaning: &'static str) -> Quantity {
     Quantity { name, symbol, unit, meaning, look: None, settles: false }
 }
 
-/// The ends of the names of columns of a vector.
-const AXES: [&str; 3] = ["_x", "_y", "_z"];
+const fn settling(name: &'static str, symbol: &'static str, unit: Unit, meaning: &'static str) -> Quantity {
+    Quantity { settles: true, ..quantity(name, symbol, unit, meaning) }
+}
 
 impl Quantity {
     const fn looks(self, legend: &'static str, ink: usize) -> Self {
         Self { look: Some(Look { legend, ink }), ..self }
-    }
-
-    const fn settles(self) -> Self {
-        Self { settles: true, ..self }
     }
 
     /// The quantity of a column, if it is one of the table of energies.
@@ -171,18 +134,11 @@ impl Quantity {
     pub fn of_column(column: &str) -> Option<&'static Self> {
         let known = |name: &str| QUANTITIES.iter().find(|quantity| quantity.name == name);
         let of_vector = || {
-            let name = AXES.iter().find_map(|axis| column.strip_suffix(axis))?;
+            let (name, _) = column.rsplit_once('_').filter(|(_, axis)| ["x", "y", "z"].contains(axis))?;
             let of_wall = name.starts_with("wall_") && name.ends_with("_momentum");
             known(if of_wall { "wall_momentum" } else { name })
         };
         known(column).or_else(of_vector)
-    }
-
-    /// The axis of which a column is a component, if it is one.
-    #[must_use]
-    pub fn axis_of(column: &str) -> Option<&'static str> {
-        let axis = AXES.into_iter().find(|axis| column.ends_with(axis))?;
-        Self::of_column(column).filter(|quantity| quantity.name != column).map(|_| &axis[1..])
     }
 
     /// The names of the columns that a chart shows in the panel of a unit, in their order.

@@ -241,100 +241,92 @@ fn total(momenta: &[[i32; 3]]) -> [i64; 3] {
     total
 }
 
-/// An array that some states have and others not.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StateArray {
-    /// [`State::predicted`].
-    Predicted,
-    /// [`State::masses`].
-    Masses,
-    /// [`State::energies`].
-    Energies,
-    /// [`State::node_masses`].
-    NodeMasses,
-    /// [`State::node_bath`].
-    NodeBath,
-    /// [`State::pair_baths`].
-    PairBaths,
-    /// [`State::anchors`].
-    Anchors,
-    /// [`State::position_baths`].
-    PositionBaths,
-    /// [`State::bond_baths`].
-    BondBaths,
-    /// [`State::holds`].
-    Holds,
-    /// [`State::tethers`].
-    Tethers,
-    /// [`State::account`].
-    Account,
-    /// [`State::walls`].
-    Walls,
-    /// [`State::images`].
-    Images,
+/// Defines [`StateArray`] from the fields of a state, with the types of their elements and whether every particle has one, in the
+/// order of a checkpoint.
+macro_rules! state_arrays {
+    ($($variant:ident $field:ident [$element:ty] $of_particles:literal)*) => {
+        /// An array that some states have and others not.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum StateArray {
+            $(#[doc = concat!("[`State::", stringify!($field), "`].")] $variant,)*
+        }
+
+        impl StateArray {
+            /// All of them, in the order of a checkpoint.
+            pub const ALL: [Self; [$(stringify!($field)),*].len()] = [$(Self::$variant),*];
+
+            /// The name, also in a checkpoint.
+            #[must_use]
+            pub const fn name(self) -> &'static str {
+                match self { $(Self::$variant => stringify!($field),)* }
+            }
+
+            /// Whether it has an element for every particle, if any.
+            #[must_use]
+            pub const fn is_of_particles(self) -> bool {
+                match self { $(Self::$variant => $of_particles,)* }
+            }
+
+            /// Words of an element.
+            #[must_use]
+            pub const fn width(self) -> usize {
+                match self { $(Self::$variant => size_of::<$element>() / 4,)* }
+            }
+        }
+
+        impl State {
+            /// The words of an array.
+            #[must_use]
+            pub fn words(&self, array: StateArray) -> &[u32] {
+                match array { $(StateArray::$variant => bytemuck::cast_slice(&self.$field),)* }
+            }
+
+            /// Sets an array.
+            ///
+            /// ```
+            /// use mesoscope::state::{StateArray, State};
+            ///
+            /// let mut state = State { masses: vec![3, 5], ..State::default() };
+            /// let mut copy = State::default();
+            /// for array in StateArray::ALL {
+            ///     copy.set_words(array, state.words(array))?;
+            /// }
+            /// assert_eq!(copy, state);
+            /// assert!(state.set_words(StateArray::Tethers, &[1, 2]).is_err());
+            /// # Ok::<(), String>(())
+            /// ```
+            ///
+            /// # Errors
+            /// Words that are no whole number of its elements.
+            pub fn set_words(&mut self, array: StateArray, words: &[u32]) -> Result<(), String> {
+                match array { $(StateArray::$variant => self.$field = elements(array, words)?,)* }
+                Ok(())
+            }
+        }
+    };
 }
 
-impl StateArray {
-    /// All of them, in the order of a checkpoint.
-    pub const ALL: [Self; 14] = [
-        Self::Predicted,
-        Self::Masses,
-        Self::Energies,
-        Self::NodeMasses,
-        Self::NodeBath,
-        Self::PairBaths,
-        Self::Anchors,
-        Self::PositionBaths,
-        Self::BondBaths,
-        Self::Holds,
-        Self::Tethers,
-        Self::Account,
-        Self::Walls,
-        Self::Images,
-    ];
+state_arrays! {
+    Predicted predicted [[i32; 3]] true
+    Masses masses [u32] true
+    Energies energies [i32] true
+    NodeMasses node_masses [u32] false
+    NodeBath node_bath [u32] false
+    PairBaths pair_baths [PairBath] false
+    Anchors anchors [[u32; 3]] true
+    PositionBaths position_baths [[u32; 3]] true
+    BondBaths bond_baths [u32] false
+    Holds holds [Hold] true
+    Tethers tethers [[u32; 3]] true
+    Account account [Account] false
+    Walls walls [WallImpulse] false
+    Images images [[i32; 3]] true
+}
 
-    /// The name, also in a checkpoint.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Predicted => "predicted",
-            Self::Masses => "masses",
-            Self::Energies => "energies",
-            Self::NodeMasses => "node_masses",
-            Self::NodeBath => "node_bath",
-            Self::PairBaths => "pair_baths",
-            Self::Anchors => "anchors",
-            Self::PositionBaths => "position_baths",
-            Self::BondBaths => "bond_baths",
-            Self::Holds => "holds",
-            Self::Tethers => "tethers",
-            Self::Account => "account",
-            Self::Walls => "walls",
-            Self::Images => "images",
-        }
-    }
-
-    /// Words of an element.
-    #[must_use]
-    pub const fn width(self) -> usize {
-        match self {
-            Self::Masses | Self::Energies | Self::NodeMasses | Self::NodeBath | Self::BondBaths => 1,
-            Self::Predicted | Self::Anchors | Self::PositionBaths | Self::Tethers | Self::Images => 3,
-            Self::PairBaths => size_of::<PairBath>() / 4,
-            Self::Holds => size_of::<Hold>() / 4,
-            Self::Account => size_of::<Account>() / 4,
-            Self::Walls => size_of::<WallImpulse>() / 4,
-        }
-    }
-
-    /// Whether it has an element for every particle, if any.
-    #[must_use]
-    pub const fn is_of_particles(self) -> bool {
-        !matches!(
-            self,
-            Self::NodeMasses | Self::NodeBath | Self::PairBaths | Self::BondBaths | Self::Account | Self::Walls
-        )
-    }
+/// The elements of an array in its words.
+fn elements<T: bytemuck::Pod>(array: StateArray, words: &[u32]) -> Result<Vec<T>, String> {
+    let elements = bytemuck::try_cast_slice(words).map_err(|_| format!("its `{}` are cut off", array.name()))?;
+    Ok(elements.to_vec())
 }
 
 /// How often something crosses the ends of the box on its way, which is shorter than half of it, from one fraction to
@@ -461,74 +453,10 @@ impl WallImpulse {
 }
 
 impl State {
-    /// The words of an array.
-    #[must_use]
-    pub fn words(&self, array: StateArray) -> &[u32] {
-        match array {
-            StateArray::Predicted => bytemuck::cast_slice(&self.predicted),
-            StateArray::Masses => &self.masses,
-            StateArray::Energies => bytemuck::cast_slice(&self.energies),
-            StateArray::NodeMasses => &self.node_masses,
-            StateArray::NodeBath => &self.node_bath,
-            StateArray::PairBaths => bytemuck::cast_slice(&self.pair_baths),
-            StateArray::Anchors => bytemuck::cast_slice(&self.anchors),
-            StateArray::PositionBaths => bytemuck::cast_slice(&self.position_baths),
-            StateArray::BondBaths => &self.bond_baths,
-            StateArray::Holds => bytemuck::cast_slice(&self.holds),
-            StateArray::Tethers => bytemuck::cast_slice(&self.tethers),
-            StateArray::Account => bytemuck::cast_slice(&self.account),
-            StateArray::Walls => bytemuck::cast_slice(&self.walls),
-            StateArray::Images => bytemuck::cast_slice(&self.images),
-        }
-    }
-
     /// Number of elements of an array.
     #[must_use]
     pub fn length(&self, array: StateArray) -> usize {
         self.words(array).len() / array.width()
-    }
-
-    /// Sets an array.
-    ///
-    /// ```
-    /// use mesoscope::state::{StateArray, State};
-    ///
-    /// let mut state = State { masses: vec![3, 5], ..State::default() };
-    /// let mut copy = State::default();
-    /// for array in StateArray::ALL {
-    ///     copy.set_words(array, state.words(array))?;
-    /// }
-    /// assert_eq!(copy, state);
-    /// assert!(state.set_words(StateArray::Tethers, &[1, 2]).is_err());
-    /// # Ok::<(), String>(())
-    /// ```
-    ///
-    /// # Errors
-    /// Words that are no whole number of its elements.
-    pub fn set_words(&mut self, array: StateArray, words: &[u32]) -> Result<(), String> {
-        fn elements<T: bytemuck::Pod>(array: StateArray, words: &[u32]) -> Result<Vec<T>, String> {
-            match bytemuck::try_cast_slice(words) {
-                Ok(elements) => Ok(elements.to_vec()),
-                Err(_) => Err(format!("its `{}` are cut off", array.name())),
-            }
-        }
-        match array {
-            StateArray::Predicted => self.predicted = elements(array, words)?,
-            StateArray::Masses => self.masses = words.to_vec(),
-            StateArray::Energies => self.energies = elements(array, words)?,
-            StateArray::NodeMasses => self.node_masses = words.to_vec(),
-            StateArray::NodeBath => self.node_bath = words.to_vec(),
-            StateArray::PairBaths => self.pair_baths = elements(array, words)?,
-            StateArray::Anchors => self.anchors = elements(array, words)?,
-            StateArray::PositionBaths => self.position_baths = elements(array, words)?,
-            StateArray::BondBaths => self.bond_baths = words.to_vec(),
-            StateArray::Holds => self.holds = elements(array, words)?,
-            StateArray::Tethers => self.tethers = elements(array, words)?,
-            StateArray::Account => self.account = elements(array, words)?,
-            StateArray::Walls => self.walls = elements(array, words)?,
-            StateArray::Images => self.images = elements(array, words)?,
-        }
-        Ok(())
     }
 
     /// The first array that has neither no element nor one for each particle, where it should.

@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 use indicatif::ProgressBar;
 use mesoscope::families::{Model, PictureKind};
 use mesoscope::numbers::{counted, grouped, prefixed};
-use mesoscope::output::files;
 use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
 use mesoscope::quantity::{Quantity, Unit};
@@ -210,12 +209,7 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     let note = marks(&rows, summary.unequilibrated.as_ref());
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
     if outcome.snapshots > 0 {
-        let drawn = outcome.files.contains(&files::ENERGIES_PLOT);
-        let noun = match (flows, drawn) {
-            (false, _) => "snapshots",
-            (true, true) => "pictures and arrays of each field",
-            (true, false) => "arrays of each field",
-        };
+        let noun = if flows { "frames of each field" } else { "snapshots" };
         files.push(format!("{} numbered {noun}", outcome.snapshots));
     }
     // Particles that exchange momentum in pairs lead one to expect that it is conserved.

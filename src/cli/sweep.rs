@@ -1,5 +1,6 @@
 //! `mesoscope sweep`: runs of one scene that differ in a few values.
 
+use mesoscope::numbers::counted;
 use mesoscope::printable;
 use mesoscope::run::RunError;
 use mesoscope::sweep::{Look, Shard, Sweep, SweepOutcome, SweepRun, Variant};
@@ -102,11 +103,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 /// How many variants there are, and of what.
 fn in_words(sweep: &Sweep, shard: Option<Shard>, all: usize, waiting: usize) -> String {
     let keys: Vec<&str> = sweep.variations().iter().map(|variation| variation.key.as_str()).collect();
-    let count = if waiting == all {
-        format!("{all} variant{}", if all == 1 { "" } else { "s" })
-    } else {
-        format!("{waiting} of {all} variants left")
-    };
+    let count =
+        if waiting == all { counted(all as u64, "variant") } else { format!("{waiting} of {all} variants left") };
     let part = shard.map_or_else(String::new, |shard| format!(", shard {shard}"));
     format!("{count} of {}{part}", keys.join(", "))
 }

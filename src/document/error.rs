@@ -3,6 +3,7 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::numbers::counted;
 use crate::printable;
 
 /// One mistake in a scene.
@@ -178,8 +179,7 @@ const LISTED: usize = 20;
 
 fn list(scene: &str, problems: &[Problem], more: usize) -> String {
     let count = problems.len() + more;
-    let plural = if count == 1 { "" } else { "s" };
-    let mut lines = vec![format!("scene `{}` has {count} mistake{plural}:", printable::name(scene))];
+    let mut lines = vec![format!("scene `{}` has {}:", printable::name(scene), counted(count as u64, "mistake"))];
     lines.extend(problems.iter().take(LISTED).map(ToString::to_string));
     if count > LISTED {
         lines.push(format!("and {} more", count - LISTED));

@@ -89,7 +89,7 @@ pub struct Summary {
 pub struct ColumnSummary {
     /// Its name.
     pub name: String,
-    /// The symbol of its quantity; a component has the axis behind.
+    /// The symbol of its quantity, which a component shares with the others.
     pub symbol: String,
     /// Its unit.
     pub unit: String,
@@ -103,12 +103,9 @@ impl ColumnSummary {
     pub fn of(model: &Model) -> Vec<Self> {
         let summary = |column: Column| {
             let Quantity { symbol, unit, meaning, .. } = Quantity::of_column(column.name)?;
-            let symbol = Quantity::axis_of(column.name).map_or_else(
-                || (*symbol).to_owned(),
-                |axis| format!("{symbol}{}{axis}", if symbol.contains('_') { "," } else { "_" }),
-            );
             let unit = unit.in_words(Some(model.units.dimension)).to_owned();
-            Some(Self { name: column.name.to_owned(), symbol, unit, meaning: (*meaning).to_owned() })
+            let [name, symbol, meaning] = [column.name, symbol, meaning].map(str::to_owned);
+            Some(Self { name, symbol, unit, meaning })
         };
         model.physics().columns(model).into_iter().filter_map(summary).collect()
     }

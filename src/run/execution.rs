@@ -359,8 +359,8 @@ impl<'a> Run<'a> {
         let written: Vec<&str> = files::all().filter(written).collect();
         summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
         summary.save(&path)?;
-        let numbered = task.draws || self.model.picture() == PictureKind::Fields;
-        let snapshots = if numbered { self.schedule.snapshots_before(last_step + 1) } else { 0 };
+        let leaves_some = task.draws || self.model.picture() == PictureKind::Fields;
+        let snapshots = if leaves_some { self.schedule.snapshots_before(last_step + 1) } else { 0 };
         Ok(Outcome { summary, files: written, snapshots })
     }
 }

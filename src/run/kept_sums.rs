@@ -4,6 +4,7 @@
 use super::sections::Sections;
 use crate::engine::Sample;
 use crate::families::{KeptQuantity, KeptSum, Model};
+use crate::numbers::counted;
 use crate::output::checkpoint::CheckpointError;
 use crate::state::State;
 
@@ -170,8 +171,7 @@ impl KeptSums {
 
 /// A change with its number of units.
 fn size(sum: &KeptSum, change: i64) -> String {
-    let units = if change.unsigned_abs() == 1 { "unit" } else { "units" };
-    format!("{:.3e} ({} {units})", change as f64 * sum.unit, change.unsigned_abs())
+    format!("{:.3e} ({})", change as f64 * sum.unit, counted(change.unsigned_abs(), "unit"))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use serde_json::Value;
 
 use super::Warning;
 use super::overrides::dotted;
+use crate::numbers::counted;
 
 /// Analyses with windows, and the fewest samples that the schema accepts in one of them.
 const WINDOWED: [(&str, u64); 4] = [("diffusion", 2), ("viscosity", 8), ("stress", 2), ("autocorrelations", 2)];
@@ -130,12 +131,11 @@ impl Window {
         };
         entry["every"] = every.into();
         entry["window"] = samples.into();
-        let of_steps = |every: u64| format!("{every} step{}", if every == 1 { "" } else { "s" });
         let message = format!(
             "shortened from {} samples of {} to {samples} of {}",
             self.samples,
-            of_steps(self.every),
-            of_steps(every)
+            counted(self.every, "step"),
+            counted(every, "step")
         );
         Some(notice(&format!("{place}.window"), message))
     }

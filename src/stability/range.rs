@@ -1,5 +1,6 @@
 //! What a user wants varied: a range of numbers, or a list of values.
 
+use crate::numbers::counted;
 use crate::study::{Variation, numbers};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -100,8 +101,7 @@ impl Range {
             ends.split_once("..").and_then(|(low, high)| Some((number(low)?, number(high)?))).ok_or_else(wrong)?;
         let points: usize = points.trim().parse().map_err(|_| wrong())?;
         if !(2..=MOST_POINTS).contains(&points) {
-            let plural = if points == 1 { "point" } else { "points" };
-            return Err(format!("{points} {plural}; accepted: 2 to {MOST_POINTS}"));
+            return Err(format!("{}; accepted: 2 to {MOST_POINTS}", counted(points as u64, "point")));
         }
         if low >= high {
             return Err(format!("{low} is not below {high}; accepted: the smaller end first"));

@@ -1,7 +1,7 @@
 //! What each of several ranks that share a scene has to do.
 
 use mesoscope::families::Model;
-use mesoscope::numbers::{bytes, grouped, prefixed};
+use mesoscope::numbers::{bytes, counted, grouped, prefixed};
 use mesoscope::plan::{Division, Hardware};
 use mesoscope::run::{Share, share_of};
 use mesoscope::scene::Scene;
@@ -22,7 +22,7 @@ pub fn rows(
     let parts = product(division.parts.map(|part| part.to_string()).to_vec());
     let length = |length: f64| format!("{length:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
     let lengths = product(share.lengths.map(length).to_vec());
-    let peers = format!("{} {}", share.peers, if share.peers == 1 { "peer" } else { "peers" });
+    let peers = counted(share.peers as u64, "peer");
     let (count, most) = (grouped(division.ranks().into()), share.most);
     let (own, sent) = (grouped(share.own as u64), bytes(share.bytes as u64));
     let (around, shares, sends) = if let Some([nodes, all]) = share.nodes.map(|nodes| nodes.map(grouped)) {
