@@ -84,7 +84,7 @@ const ACTION: Unit = Other("momentum units × length units");
 /// All quantities, those most asked for first.
 pub const QUANTITIES: [Quantity; 30] = [
     settling("temperature", "kT", Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0),
-    settling("internal_temperature", "kT_i", Temperature, "mean of the internal energies of cells")
+    settling("internal_temperature", "kT_i", Temperature, "mean of the internal temperatures of cells")
         .looks("internal", 5),
     settling("configurational_temperature", "kT_C", Temperature, "|∇U|²/∇²U").looks("configurational", 1),
     settling("pressure", "p", Pressure, "by kinetic energy and the virial of all forces").looks("total", 2),
