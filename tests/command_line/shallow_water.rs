@@ -96,7 +96,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     let said = place.run("out", &[]);
     let out = place.path("out");
     assert!(said.starts_with("small sea: 1629 particles in 2 dimensions, on "), "{said}");
-    assert!(said.contains("circulation of `outer`  17.") && said.contains("3 numbered pictures"), "{said}");
+    assert!(said.contains("circulation of `outer`  17.") && said.contains("3 numbered frames of each field"), "{said}");
     let mut expected: Vec<String> =
         ["checkpoint.bin", "circulation.csv", "circulation.png", "energies.csv", "energies.png", "run.json"]
             .map(str::to_owned)
