@@ -33,7 +33,7 @@ pub struct Quantity {
 pub struct Look {
     /// Its name in the legend.
     pub legend: &'static str,
-    /// The number of its ink: what moves has the first, what the configuration holds the second, and so on, in every panel.
+    /// The number of its ink: quantities of motion have the first, those of the configuration the second, in every panel.
     pub ink: usize,
 }
 
@@ -84,12 +84,11 @@ const ACTION: Unit = Other("momentum units × length units");
 /// All quantities, those most asked for first.
 pub const QUANTITIES: [Quantity; 30] = [
     settling("temperature", "kT", Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0),
-    settling("internal_temperature", "kT_i", Temperature, "mean of the internal temperatures of cells")
-        .looks("internal", 5),
+    settling("internal_temperature", "kT_i", Temperature, "mean temperature inside cells").looks("internal", 5),
     settling("configurational_temperature", "kT_C", Temperature, "|∇U|²/∇²U").looks("configurational", 1),
-    settling("pressure", "p", Pressure, "by kinetic energy and the virial of all forces").looks("total", 2),
+    settling("pressure", "p", Pressure, "by kinetic energy and all virials; of cells, by their gas").looks("total", 2),
     settling("kinetic_energy", "K", Energy, "kinetic energy of all particles").looks("kinetic", 0),
-    settling("potential_energy", "U", Energy, "potential energy of all particles").looks("potential", 1),
+    settling("potential_energy", "U", Energy, "potential energy; free energy of cells").looks("potential", 1),
     settling("pressure_conservative", "p_C", Pressure, "without friction and noise").looks("conservative part", 1),
     quantity("internal_energy", "E_i", Energy, "internal energy of all cells").looks("internal", 5),
     quantity("total_energy", "E", Energy, "K + U; of cells with an energy of their own, K + E_i").looks("total", 2),
@@ -132,13 +131,10 @@ impl Quantity {
     /// The quantity of a column, if it is one of the table of energies.
     #[must_use]
     pub fn of_column(column: &str) -> Option<&'static Self> {
-        let known = |name: &str| QUANTITIES.iter().find(|quantity| quantity.name == name);
-        let of_vector = || {
-            let (name, _) = column.rsplit_once('_').filter(|(_, axis)| ["x", "y", "z"].contains(axis))?;
-            let of_wall = name.starts_with("wall_") && name.ends_with("_momentum");
-            known(if of_wall { "wall_momentum" } else { name })
-        };
-        known(column).or_else(of_vector)
+        let of_vector = column.rsplit_once('_').filter(|(_, axis)| ["x", "y", "z"].contains(axis));
+        let name = of_vector.map_or(column, |(name, _)| name);
+        let of_wall = name.starts_with("wall_") && name.ends_with("_momentum");
+        QUANTITIES.iter().find(|known| known.name == if of_wall { "wall_momentum" } else { name })
     }
 
     /// The names of the columns that a chart shows in the panel of a unit, in their order.
@@ -163,12 +159,12 @@ mod tests {
     /// The page of all quantities.
     fn page() -> String {
         let mut text = "# Columns of the table of energies\n\n\
-            `energies.csv` has the columns of this table that have a meaning for its scene; `columns` of `run.json` names them, with their units.\n\
-            Units are those of the scene: of length, mass, time and energy; in shallow water the unit of mass is the water that a node holds\n\
-            at the mean depth. A vector has a column for each axis (`momentum_x`, `momentum_y`, …), and\n\
-            `wall_momentum` one for each wall and axis (`wall_z_lower_momentum_x`, …). Those that settle fluctuate about a constant in equilibrium:\n\
-            a run looks for transients in them. This page is made from `src/quantity.rs` by\n\
-            `MESOSCOPE_RECORD=1 cargo test --lib quantity`.\n\n\
+            `energies.csv` has the columns of this table that have a meaning for its scene; `columns` of `run.json` names\n\
+            them, with their units. Units are those of the scene: of length, mass, time and energy; in shallow water the\n\
+            unit of mass is the water that a node holds at the mean depth. A vector has a column for each axis\n\
+            (`momentum_x`, `momentum_y`, …), and `wall_momentum` one for each wall and axis (`wall_z_lower_momentum_x`,\n\
+            …). Those that settle fluctuate about a constant in equilibrium: a run looks for transients in them. This page\n\
+            is made from `src/quantity.rs` by `MESOSCOPE_RECORD=1 cargo test --lib quantity`.\n\n\
             | column | symbol | unit | settles | meaning |\n|---|---|---|:-:|---|\n"
             .to_owned();
         for Quantity { name, symbol, unit, meaning, settles, .. } in &QUANTITIES {

@@ -161,7 +161,7 @@ pub struct State {
     pub tethers: Vec<[u32; 3]>,
     /// What body forces have given so far, one element in scenes with any; else empty.
     pub account: Vec<Account>,
-    /// What each wall has absorbed so far, the lower before the upper of an axis; empty without walls.
+    /// Momentum that each wall has absorbed so far, the lower before the upper of an axis; empty without walls.
     pub walls: Vec<WallImpulse>,
     /// How often each particle has gone round the box along every axis, where a trajectory is written; else empty. The way
     /// since the start is the difference of positions and so many boxes.
@@ -241,8 +241,8 @@ fn total(momenta: &[[i32; 3]]) -> [i64; 3] {
     total
 }
 
-/// Defines [`StateArray`] from the fields of a state, with the types of their elements and whether every particle has one, in the
-/// order of a checkpoint.
+/// Defines [`StateArray`] from the fields of a state in the order of a checkpoint, with the types of their elements; `true`
+/// where every particle has one.
 macro_rules! state_arrays {
     ($($variant:ident $field:ident [$element:ty] $of_particles:literal)*) => {
         /// An array that some states have and others not.
@@ -261,7 +261,7 @@ macro_rules! state_arrays {
                 match self { $(Self::$variant => stringify!($field),)* }
             }
 
-            /// Whether it has an element for every particle, if any.
+            /// True if it has an element for every particle, if any.
             #[must_use]
             pub const fn is_of_particles(self) -> bool {
                 match self { $(Self::$variant => $of_particles,)* }

@@ -209,8 +209,8 @@ fn results(outcome: &Outcome, directory: &str) -> String {
     let note = marks(&rows, summary.unequilibrated.as_ref());
     let mut files: Vec<String> = outcome.files.iter().map(|name| (*name).to_owned()).collect();
     if outcome.snapshots > 0 {
-        let noun = if flows { "frames of each field" } else { "snapshots" };
-        files.push(format!("{} numbered {noun}", outcome.snapshots));
+        let (noun, of) = if flows { ("numbered frame", " of each field") } else { ("numbered snapshot", "") };
+        files.push(counted(outcome.snapshots, noun) + of);
     }
     // Particles that exchange momentum in pairs lead one to expect that it is conserved.
     let mut unkept = summary.not_conserved.iter().filter(|_| !flows);

@@ -31,7 +31,7 @@ pub struct Arguments {
     #[command(flatten)]
     ranks: RanksArgument,
 
-    /// Write numbers only; `mesoscope plot DIR` draws the pictures
+    /// Write numbers only; `mesoscope plot DIR` draws the pictures of the end
     #[arg(long, help_heading = heading::OUTPUT)]
     no_pictures: bool,
 
@@ -63,14 +63,14 @@ fn resume(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<()
             kind.noun, kind.resumed
         )));
     }
-    let simulation = Simulation::resume(&arguments.directory, arguments.steps)?;
-    if simulation.is_finished() {
-        let step = simulation.first_step();
-        let state = if step > simulation.scene().time.steps { "has reached" } else { "is finished at" };
+    let resumed = Simulation::resume(&arguments.directory, arguments.steps)?;
+    if resumed.is_finished() {
+        let step = resumed.first_step();
+        let state = if step > resumed.scene().time.steps { "has reached" } else { "is finished at" };
         let text =
             format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` continues to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
-    let simulation = if arguments.no_pictures { simulation.without_pictures() } else { simulation };
+    let simulation = if arguments.no_pictures { resumed.without_pictures() } else { resumed };
     report::execute(simulation, processes, &arguments.ranks, &shown, arguments.quiet)
 }

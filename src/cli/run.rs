@@ -31,7 +31,7 @@ pub struct Arguments {
     #[command(flatten)]
     ranks: RanksArgument,
 
-    /// Write numbers only; `mesoscope plot DIR` draws the pictures
+    /// Write numbers only; `mesoscope plot DIR` draws the pictures of the end
     #[arg(long, help_heading = heading::OUTPUT)]
     no_pictures: bool,
 
@@ -48,7 +48,7 @@ fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<
     let (scene, notices) = arguments.ranks.load(&arguments.scene, processes.map(Processes::count))?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::stem(&arguments.scene.scene).into());
     let shown = printable::path(&directory);
-    let simulation = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
-    let simulation = if arguments.no_pictures { simulation.without_pictures() } else { simulation };
+    let started = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
+    let simulation = if arguments.no_pictures { started.without_pictures() } else { started };
     report::execute(simulation, processes, &arguments.ranks, &shown, arguments.how.quiet)
 }

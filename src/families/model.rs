@@ -17,7 +17,7 @@ pub struct Species {
     pub count: u64,
     /// Whether nothing that acts on them moves them: held where they start, or frozen behind a wall.
     pub fixed: bool,
-    /// Whether they make up layers behind walls, which absorb what they are given.
+    /// True if they make up layers behind walls, which absorb the momentum that they are given.
     pub frozen: bool,
 }
 
@@ -205,8 +205,8 @@ impl Model {
             && self.particles().shear.is_none()
     }
 
-    /// Whether particles get momentum from each other, from body forces and from walls only, so that the total is what
-    /// the two have added.
+    /// True if particles get momentum from each other, from body forces and from walls only, so that the total is the
+    /// momentum that the two have added.
     #[must_use]
     pub(crate) fn exchanges_momentum(&self) -> bool {
         self.particles().coloured_noise.is_none() && self.physics().is_free() && !self.has_fixed_particles()

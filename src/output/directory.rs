@@ -2,6 +2,7 @@
 
 use super::temporary::Temporary;
 use super::{DirectoryLock, OutputError, files, write_atomically};
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -146,6 +147,18 @@ impl RunDirectory {
     /// [`OutputError::Io`] when the directory cannot be listed or a file cannot be removed.
     pub fn remove_snapshots_after(&self, last: u64) -> Result<(), OutputError> {
         self.remove(|name| files::snapshot_number(name).is_some_and(|number| number > last))
+    }
+
+    /// Removes the pictures of the end of a run, those without a number.
+    pub(crate) fn remove_last_pictures(&self) -> Result<(), OutputError> {
+        self.remove(|name| files::all().any(|known| known == name) && name.ends_with("png"))
+    }
+
+    /// The number of numbered snapshots, and of numbered frames of fields.
+    pub(crate) fn snapshots(&self) -> Result<u64, OutputError> {
+        let numbers: BTreeSet<_> =
+            self.names(|_| true)?.iter().filter_map(|name| files::snapshot_number(name)).collect();
+        Ok(numbers.len() as u64)
     }
 
     /// Removes all files of a kind.

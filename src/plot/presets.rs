@@ -12,8 +12,8 @@ use crate::table::Table;
 /// Energies per particle, temperatures and pressures over time, with their means; a panel none of whose columns exist is left
 /// out.
 ///
-/// The columns are `time` and those of [`QUANTITIES`](crate::quantity::QUANTITIES) with a look. `temperature` is the set kT, drawn as a
-/// reference; a value that is not finite leaves it out.
+/// The columns are `time` and those of [`QUANTITIES`](crate::quantity::QUANTITIES) with a look. `temperature` is the set
+/// kT, drawn as a reference; a value that is not finite leaves it out.
 ///
 /// ```
 /// use mesoscope::plot::{Averages, energies_chart};

@@ -40,7 +40,7 @@ pub(super) fn series(column: &str, points: Vec<[f64; 2]>) -> Series {
     }
 }
 
-/// A panel over time of the quantities of a unit that a table has, over a divisor, with their means; one without any is empty.
+/// A panel over time of the quantities of a unit that a table has, over a divisor, with their means; empty without any.
 pub(super) fn panel(label: &str, table: &Table, unit: Unit, divisor: f64, averages: &Averages) -> Panel {
     let mut panel = Panel::new(TIME, label).settled();
     panel.averaged_from = averages.from;

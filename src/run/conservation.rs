@@ -136,7 +136,8 @@ mod tests {
         assert_eq!(lost, ["total energy: exchanged with the heat bath"]);
     }
 
-    /// A force that changes its sign from half to half adds momentum only as far as their numbers of particles differ, which is booked.
+    /// A force that changes its sign from half to half adds momentum only as far as their numbers of particles differ,
+    /// which is booked.
     #[test]
     fn opposed_forces_are_booked() {
         let interactions = r#"{"type": "dpd", "friction": 1}, {"type": "body-force", "force": [1, 0, 0], "profile": "opposed", "axis": "z"}"#;

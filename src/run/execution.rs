@@ -347,6 +347,9 @@ impl<'a> Run<'a> {
         if self.task.draws {
             self.pictures.energies(&self.energies.rows.table(), self.model, &summary)?;
             self.pictures.analyses(&summary, &go_on)?;
+        } else {
+            // Those that are there show an earlier end.
+            self.directory.remove_last_pictures()?;
         }
         engine.keep_alive();
         // What was moved away or replaced under way is not what `run.json` speaks of.
@@ -359,9 +362,7 @@ impl<'a> Run<'a> {
         let written: Vec<&str> = files::all().filter(written).collect();
         summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
         summary.save(&path)?;
-        let leaves_some = task.draws || self.model.picture() == PictureKind::Fields;
-        let snapshots = if leaves_some { self.schedule.snapshots_before(last_step + 1) } else { 0 };
-        Ok(Outcome { summary, files: written, snapshots })
+        Ok(Outcome { summary, files: written, snapshots: self.directory.snapshots()? })
     }
 }
 

@@ -35,7 +35,7 @@ pub struct Simulation {
     division: Option<Division>,
     /// Whether ranks may compute differently.
     mixed: bool,
-    /// Whether pictures are drawn.
+    /// True if pictures are drawn.
     draws: bool,
 }
 
@@ -60,7 +60,7 @@ impl Simulation {
     pub fn start(scene: Scene, directory: impl Into<PathBuf>, force: bool) -> Self {
         let beginning = Beginning::New { directory: directory.into(), force };
         let (id, model) = (Id::of_run(&scene), Model::new(&scene));
-        Self::of(scene, model, beginning, Vec::new(), id)
+        Self::new(scene, model, beginning, Vec::new(), id)
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory
@@ -111,15 +111,16 @@ impl Simulation {
         directory.check_run(checkpoint.run_id, files::CHECKPOINT)?;
         let id = checkpoint.run_id;
         let beginning = Beginning::Checkpoint { directory, checkpoint: Box::new(checkpoint), earlier };
-        Ok(Self::of(scene, model, beginning, notices, id))
+        Ok(Self::new(scene, model, beginning, notices, id))
     }
 
-    fn of(scene: Scene, model: Model, beginning: Beginning, notices: Vec<String>, id: Id) -> Self {
+    fn new(scene: Scene, model: Model, beginning: Beginning, notices: Vec<String>, id: Id) -> Self {
         let interrupt = Interrupt::default();
         Self { scene, model, beginning, interrupt, notices, id, division: None, mixed: false, draws: true }
     }
 
-    /// The same run without pictures, which [`redraw`](super::redraw) makes of its files; arrays of fields are written.
+    /// The same run without pictures; arrays of fields are written. [`redraw`](super::redraw) draws those of its end, and those of an earlier
+    /// end are removed.
     #[must_use]
     pub fn without_pictures(self) -> Self {
         Self { draws: false, ..self }

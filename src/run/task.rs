@@ -17,7 +17,7 @@ pub(super) struct Task {
     pub notices: Vec<String>,
     /// Whether ranks may compute differently.
     pub mixed: bool,
-    /// Whether pictures are drawn.
+    /// True if pictures are drawn.
     pub draws: bool,
     /// What `run.json` says of an earlier part of the run.
     pub earlier: Option<Box<Summary>>,

@@ -34,10 +34,10 @@ fn is_reckonable(number: f64) -> bool {
     number == 0.0 || (MAGNITUDES[0]..=MAGNITUDES[1]).contains(&number.abs())
 }
 
-/// What a schema accepts, together with those that it refers to.
+/// A schema as it is compared with values, together with those that it refers to.
 pub(super) struct Schema<'a> {
     kind: Kind<'a>,
-    /// Whether there may be no value.
+    /// True if there may be no value.
     nullable: bool,
 }
 
@@ -189,7 +189,7 @@ struct Walker {
 }
 
 impl Walker {
-    /// Whether the value can be read, right or wrong.
+    /// True if the value can be read, right or wrong.
     fn check(&mut self, schema: &Schema<'_>, value: &mut Value, path: &Path<'_>) -> bool {
         match (&schema.kind, &mut *value) {
             (_, Value::Null) if schema.nullable => true,

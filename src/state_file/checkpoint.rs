@@ -87,7 +87,8 @@ impl Fnv {
 /// Bytes read at once.
 pub(crate) const BUFFER: usize = 1 << 16;
 
-/// Reads a checkpoint. `check` sees its scene, step and number of particles before the arrays are read; the error inside is that of it.
+/// Reads a checkpoint. `check` sees its scene, step and number of particles before the arrays are read; its error is the
+/// inner one.
 pub(crate) fn read<E>(
     mut file: File,
     check: impl FnOnce(&str, u64, u64) -> Result<(), E>,

@@ -568,6 +568,16 @@ fn a_run_without_pictures_can_be_drawn_later() {
     for name in [files::ENERGIES_PLOT, files::SNAPSHOT, rdf.plot] {
         assert_eq!(picture(&out.join(name)), picture(&drawn.join(name)), "{name}");
     }
+    // Pictures of an earlier end are not those of a later one, and only snapshots that are there count.
+    place.run("part", &["--steps", "36"]);
+    let resumed = |further: &[&str]| succeeds(&[&["resume", &place.argument("part")], further].concat());
+    let said = resumed(&["--steps", "54", "--no-pictures"]);
+    assert!(said.contains("2 numbered snapshots") && !said.contains(".png"), "{said}");
+    let pictures = |name: &String| name.contains(".png");
+    let left: Vec<String> = listing(&place.path("part")).into_iter().filter(pictures).collect();
+    assert_eq!(left, ["snapshot-000001.png", "snapshot-000002.png"]);
+    let said = resumed(&["--steps", "90"]);
+    assert!(said.contains("3 numbered snapshots") && said.contains("energies.png"), "{said}");
 }
 
 #[test]

@@ -162,7 +162,8 @@ mod tests {
         assert_eq!(gathered.blocks().map(|blocks| blocks.total(0)), Some(33.0));
     }
 
-    /// What is restored is what was kept, and goes on as it would have: without a sample, with some, and with blocks of two.
+    /// Restored numbers are those that were kept, and continue alike: without a sample, with some, and with blocks of
+    /// two.
     #[test]
     fn restored_numbers_continue() {
         for samples in [0, 1, 5, 513] {

@@ -131,7 +131,7 @@ pub(crate) fn before(model: &Model, state: &State, particle: usize, parts: i64) 
     Flight { momentum: flight.momentum.map(|units| -units), ..flight }
 }
 
-/// What walls have absorbed, with what they have absorbed since.
+/// Momentum that walls have absorbed, with the momentum absorbed since.
 pub(crate) fn add(walls: &[WallImpulse], taken: &[[i64; 3]]) -> Vec<WallImpulse> {
     let sum = |(index, taken): (usize, &[i64; 3])| {
         let before = walls.get(index).copied().unwrap_or_default().momentum();
@@ -140,7 +140,7 @@ pub(crate) fn add(walls: &[WallImpulse], taken: &[[i64; 3]]) -> Vec<WallImpulse>
     taken.iter().enumerate().map(sum).collect()
 }
 
-/// What walls have absorbed until a report point, with what they are to absorb of the momenta of frozen particles there.
+/// Momentum that walls have absorbed until a report point, with that of frozen particles there.
 pub(crate) fn on_walls(model: &Model, state: &State, momenta: &[[i64; 3]]) -> OnWalls {
     let all = add(&state.walls, &held::absorbed(model, state, momenta));
     let walls = if all.is_empty() { &state.walls } else { &all };

@@ -35,7 +35,7 @@ pub struct BondKind {
     pub bath: Option<BathStep>,
     /// Temperature kT of the bath.
     pub temperature: f64,
-    /// Whether the repulsion between bonded particles is excluded.
+    /// True if the repulsion between bonded particles is excluded.
     pub exclude_repulsion: bool,
 }
 
