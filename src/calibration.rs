@@ -1,7 +1,8 @@
 //! What is known of the errors of scenes before they run: by theory, where the scheme is solved, or by tradeoffs that were made once and are
 //! shipped with the program.
 
-use crate::families::{ExactMean, Model};
+use crate::families::Checked;
+use crate::families::ExactMean;
 use crate::numbers::three_digits;
 use crate::scene::{self, Scene};
 use crate::tradeoff::{Choice, ChoiceState, Deviation, Measured, Reference, Source, TradeoffSummary, error_in_words};
@@ -59,7 +60,7 @@ const KNOWN: [&str; 5] =
 struct Known {
     summary: &'static TradeoffSummary,
     choice: &'static Choice,
-    scene: Scene,
+    scene: Checked,
 }
 
 impl Known {
@@ -102,13 +103,13 @@ impl Known {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn expected(scene: &Scene) -> Option<Expected> {
+pub fn expected(scene: &Checked) -> Option<Expected> {
     by_theory(scene).or_else(|| by_measurement(scene))
 }
 
 /// The errors of a scheme that is solved.
-fn by_theory(scene: &Scene) -> Option<Expected> {
-    let model = Model::new(scene);
+fn by_theory(scene: &Checked) -> Option<Expected> {
+    let model = scene.model();
     let deviation = |mean: ExactMean| {
         let measured = Measured {
             measure: mean.column.to_owned(),
@@ -125,10 +126,10 @@ fn by_theory(scene: &Scene) -> Option<Expected> {
         };
         Some(Deviation::new(&measured, &exact))
     };
-    let columns = model.physics().columns(&model);
+    let columns = model.physics().columns(model);
     let is_said =
         |mean: &ExactMean| KNOWN.contains(&mean.column) && columns.iter().any(|column| column.name == mean.column);
-    let means = model.physics().exact_means(&model).into_iter();
+    let means = model.physics().exact_means(model).into_iter();
     let errors: Vec<Deviation> = means.filter(is_said).map(deviation).collect::<Option<_>>()?;
     (!errors.is_empty()).then(|| Expected {
         scene: scene.title.clone(),
@@ -141,7 +142,7 @@ fn by_theory(scene: &Scene) -> Option<Expected> {
 }
 
 /// The errors of what was measured that is nearest to a scene.
-fn by_measurement(scene: &Scene) -> Option<Expected> {
+fn by_measurement(scene: &Checked) -> Option<Expected> {
     let nearest = |one: &Known, other: &Known| apart(scene, &one.scene).total_cmp(&apart(scene, &other.scene));
     let (mut alike, others): (Vec<Known>, Vec<Known>) = Known::all()
         .filter(|known| is_like(scene, &known.scene))
@@ -193,12 +194,11 @@ fn between(step: f64, [low, high]: [f64; 2], errors: [f64; 2]) -> f64 {
 }
 
 /// The scene of a choice that was finished.
-fn measured_scene(summary: &TradeoffSummary, choice: &Choice) -> Option<Scene> {
+fn measured_scene(summary: &TradeoffSummary, choice: &Choice) -> Option<Checked> {
     if choice.state != ChoiceState::Finished {
         return None;
     }
-    let (name, text, overrides) = summary.scene_of(choice);
-    scene::parse(name, text, &overrides).ok()
+    summary.scene_of(choice).check().ok()
 }
 
 /// By what factor time steps differ.

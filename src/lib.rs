@@ -13,19 +13,19 @@
 //! use mesoscope::gpu::AdapterChoice;
 //! use mesoscope::plan::{Hardware, Options};
 //! use mesoscope::run::{adapter_for, plan};
-//! use mesoscope::{engine::Engine, families::Model, measure, scene};
+//! use mesoscope::{engine::Engine, measure, scene};
 //!
 //! let small = ["space.box=[4,4,4]", r#"output={"energies": {"every": 10}}"#].map(str::to_owned);
 //! let scene = scene::load("dpd-fluid", &small)?;
-//! let model = Model::new(&scene);
-//! let state = mesoscope::families::initial_state(&scene, &model);
+//! let model = scene.model();
+//! let state = mesoscope::families::initial_state(&scene);
 //!
 //! let gpu = adapter_for(&scene, &AdapterChoice::Best)?;
-//! let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
+//! let plan = plan(&scene, Hardware::from(&gpu), Options::default());
 //! let mut engine = Engine::new(&gpu, plan, &state)?;
 //! engine.advance(300, 100)?;
 //! let samples = engine.finish()?;
-//! let rows = samples.iter().map(|sample| measure::observables_of(sample, engine.plan(), &model));
+//! let rows = samples.iter().map(|sample| measure::observables_of(sample, engine.plan(), model));
 //! let settled: Vec<f64> = rows.filter(|row| row.step >= 100).map(|row| row.kinetic_temperature()).collect();
 //!
 //! let temperature = measure::statistics::estimate(&settled).ok_or("there is no row to average")?;

@@ -151,7 +151,7 @@ impl Quantity {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::families::Model;
+
     use crate::scene;
     use std::fmt::Write;
     use std::path::Path;
@@ -190,8 +190,8 @@ mod tests {
         let scenes = scene::builtin().iter().map(|known| scene::load(known.name, &[]));
         let mut met = std::collections::BTreeSet::from(["step"]);
         for scene in scenes {
-            let model = Model::new(&scene.unwrap());
-            for column in model.physics().columns(&model) {
+            let scene = scene.unwrap();
+            for column in scene.model().physics().columns(scene.model()) {
                 let quantity = Quantity::of_column(column.name).map(|quantity| quantity.name);
                 assert!(quantity.is_some(), "{}", column.name);
                 met.extend(quantity);

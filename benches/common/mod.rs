@@ -11,11 +11,10 @@ pub mod timing;
 use std::time::Instant;
 
 use clap::Parser;
-use mesoscope::families::Model;
 use mesoscope::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 
 pub type Failure = Box<dyn std::error::Error>;
 
@@ -26,8 +25,8 @@ pub fn settings<S: Parser>() -> S {
 }
 
 /// The plan of a scene.
-pub fn plan_of(scene: &Scene, hardware: Hardware, options: Options) -> Plan {
-    run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, hardware, options)
+pub fn plan_of(scene: &Checked, hardware: Hardware, options: Options) -> Plan {
+    run::plan(scene, hardware, options)
 }
 
 /// The best adapter, or the one that `MESOSCOPE_ADAPTER` names, with buffers for all of these plans.

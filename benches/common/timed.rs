@@ -3,10 +3,10 @@
 use std::time::Instant;
 
 use mesoscope::engine::{Engine, StageClock, StageTime};
-use mesoscope::families::{Model, initial_state};
+use mesoscope::families::initial_state;
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 
 use super::{Failure, plan_of};
 
@@ -41,8 +41,8 @@ impl<'a> Run<'a> {
     }
 
     /// A run of a scene with the best plan for the adapter, from the start and after some steps that are not timed.
-    pub fn of_scene(gpu: &'a Gpu, scene: &Scene, options: Options, before: u64) -> Result<Self, Failure> {
-        let state = initial_state(scene, &Model::new(scene));
+    pub fn of_scene(gpu: &'a Gpu, scene: &Checked, options: Options, before: u64) -> Result<Self, Failure> {
+        let state = initial_state(scene);
         let mut engine = Engine::new(gpu, plan_of(scene, gpu.into(), options), &state)?;
         engine.advance(before, 50)?;
         engine.finish()?;

@@ -8,10 +8,9 @@
 mod common;
 
 use clap::Parser;
-use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Hardware, Options};
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 
 use common::statistics::{grouped, ratios, spread};
 use common::timed::Run;
@@ -87,7 +86,7 @@ fn fluids() -> Vec<Variant> {
     all
 }
 
-fn fluid(edge: f64, variant: &Variant) -> Result<Scene, Failure> {
+fn fluid(edge: f64, variant: &Variant) -> Result<Checked, Failure> {
     let text = format!(
         r#"{{"title": "fluid", "space": {{"box": [{edge}, {edge}, {edge}]}}, "time": {{"step": 0.01, "steps": 1}},
         "temperature": 1, "integrator": {{"type": "cotter-reich"}},
@@ -101,7 +100,7 @@ fn fluid(edge: f64, variant: &Variant) -> Result<Scene, Failure> {
 fn pairs(gpu: &Gpu, edge: f64, turns: Turns) -> Result<(), Failure> {
     let variants = fluids();
     let scene = fluid(edge, &variants[0])?;
-    let particles = Model::new(&scene).particle_count() as usize;
+    let particles = scene.model().particle_count() as usize;
     println!("\n### {} particles, density 3, time step 0.01\n", grouped(particles));
     println!("| | million particle-steps/s | time, no memory = 1 | bytes a particle |");
     println!("|:--|--:|--:|--:|");

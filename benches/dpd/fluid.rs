@@ -4,7 +4,7 @@ use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::Options;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::state::State;
 
 use crate::Failure;
@@ -28,7 +28,7 @@ pub fn changes(edge: f64, integrator: &str, time_step: f64) -> Vec<String> {
     ]
 }
 
-pub fn scene(edge: f64, integrator: &str, time_step: f64) -> Result<Scene, Failure> {
+pub fn scene(edge: f64, integrator: &str, time_step: f64) -> Result<Checked, Failure> {
     Ok(scene::load("dpd-fluid", &changes(edge, integrator, time_step))?)
 }
 
@@ -42,8 +42,8 @@ pub struct Fluid {
 impl Fluid {
     pub fn equilibrated(gpu: &Gpu, edge: f64) -> Result<Self, Failure> {
         let scene = scene(edge, "groot-warren", 0.04)?;
-        let model = Model::new(&scene);
-        let start = mesoscope::families::initial_state(&scene, &model);
+        let model = scene.model().clone();
+        let start = mesoscope::families::initial_state(&scene);
         let mut engine = engine(gpu, &scene, &start)?;
         engine.advance(EQUILIBRATION, 1)?;
         let state = State { step: 0, ..engine.state()? };
@@ -61,6 +61,6 @@ impl Fluid {
 }
 
 /// An engine of a scene from a state.
-pub fn engine<'a>(gpu: &'a Gpu, scene: &Scene, state: &State) -> Result<Engine<'a>, Failure> {
+pub fn engine<'a>(gpu: &'a Gpu, scene: &Checked, state: &State) -> Result<Engine<'a>, Failure> {
     Ok(Engine::new(gpu, plan_of(scene, gpu.into(), Options::default()), state)?)
 }

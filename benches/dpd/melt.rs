@@ -1,8 +1,7 @@
 //! A melt of chains: the price of bonds, and the same melt in LAMMPS.
 
-use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::state::State;
 
 use crate::common::statistics::{grouped, ratios, spread};
@@ -19,7 +18,7 @@ const STIFFNESS: f64 = 4.0;
 const EQUILIBRATION: u64 = 400;
 
 /// Melts as large as a fluid.
-fn scene(edge: f64, chains: u64, integrator: &str, time_step: f64) -> Result<Scene, Failure> {
+fn scene(edge: f64, chains: u64, integrator: &str, time_step: f64) -> Result<Checked, Failure> {
     let mut changes = fluid::changes(edge, integrator, time_step);
     changes.push(format!(
         r#"particles=[{{"species":"A","count":{},"chain":{{"beads":{BEADS},"spacing":0.9}}}}]"#,
@@ -37,13 +36,13 @@ pub fn compare(gpu: &Gpu, fluid: &Fluid, peer: bool, turns: Turns) -> Result<(),
     let chains = fluid.particles() as u64 / BEADS;
     let particles = (chains * BEADS) as usize;
     let start = scene(fluid.edge, chains, "groot-warren", 0.04)?;
-    let model = Model::new(&start);
-    let mut engine = fluid::engine(gpu, &start, &mesoscope::families::initial_state(&start, &model))?;
+    let model = start.model();
+    let mut engine = fluid::engine(gpu, &start, &mesoscope::families::initial_state(&start))?;
     engine.advance(EQUILIBRATION, 16)?;
     let state = State { step: 0, ..engine.state()? };
     let mut lammps = if peer { Some(Lammps::start()?) } else { None };
     if let Some(lammps) = &mut lammps {
-        lammps.melt(&model, &state, BEADS, STIFFNESS)?;
+        lammps.melt(model, &state, BEADS, STIFFNESS)?;
     }
     println!(
         "\n### A melt of chains of {BEADS}\n\n{} particles. Million particle-steps a second; × is the ratio in a round.\n",

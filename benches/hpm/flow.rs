@@ -8,7 +8,7 @@ use mesoscope::gpu::Gpu;
 use mesoscope::measure::{Observables, observables_of};
 use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::state::State;
 
 use crate::Failure;
@@ -67,7 +67,7 @@ impl FromStr for Size {
 }
 
 /// The scene on a mesh of a size, with the smoothing and the time step that belong to its spacing, and more changes.
-fn scene(size: Size, energies_every: u64, changes: &[&str]) -> Result<Scene, Failure> {
+fn scene(size: Size, energies_every: u64, changes: &[&str]) -> Result<Checked, Failure> {
     let mesh = size.mesh;
     let base = scene::load("shallow-water", &[])?;
     let length = SMOOTHING * base.space.lengths[0] / f64::from(mesh);
@@ -90,7 +90,7 @@ const NEVER: u64 = 1_000_000_000;
 /// The plan for a size, with changes of the scene.
 pub fn plan_of(size: Size, changes: &[&str], hardware: Hardware, options: Options) -> Result<Plan, Failure> {
     let scene = scene(size, NEVER, changes)?;
-    Ok(run::plan(&Model::new(&scene), 0, &scene.output, hardware, options))
+    Ok(run::plan(&scene, hardware, options))
 }
 
 /// Where a run begins.
@@ -113,8 +113,8 @@ pub struct Flow {
 impl Flow {
     pub fn new(size: Size) -> Result<Self, Failure> {
         let scene = scene(size, NEVER, &[])?;
-        let model = Model::new(&scene);
-        let state = mesoscope::families::initial_state(&scene, &model);
+        let model = scene.model().clone();
+        let state = mesoscope::families::initial_state(&scene);
         let water = model.shallow_water().cloned().ok_or("the scene holds no shallow water")?;
         Ok(Self { size, model, water, state })
     }
@@ -137,7 +137,7 @@ impl Flow {
     /// What is measured at step 0 and after so many steps.
     pub fn observed(&self, gpu: &Gpu, steps: u64) -> Result<[Observables; 2], Failure> {
         let scene = scene(self.size, steps, &[])?;
-        let plan = run::plan(&self.model, 0, &scene.output, gpu.into(), Options::default());
+        let plan = run::plan(&scene, gpu.into(), Options::default());
         let mut engine = Engine::new(gpu, plan, &self.state)?;
         engine.advance(steps, steps)?;
         let samples = engine.finish()?;

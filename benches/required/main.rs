@@ -11,10 +11,9 @@ mod common;
 use std::time::Instant;
 
 use clap::Parser;
-use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Hardware, Options, Plan};
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 
 use common::statistics::{grouped, ratios, spread};
 use common::timed::Run;
@@ -197,17 +196,17 @@ fn features() -> Vec<Feature> {
 }
 
 /// A scene with changes, of which some may be empty.
-fn scene_of(feature: &Feature, change: &str) -> Result<Scene, Failure> {
+fn scene_of(feature: &Feature, change: &str) -> Result<Checked, Failure> {
     let changes = [feature.never, change].into_iter().filter(|change| !change.is_empty()).map(str::to_owned);
     Ok(scene::parse(feature.name, feature.scene, &changes.collect::<Vec<_>>())?)
 }
 
 /// Chains are placed at random: some particles have more neighbours at first than lists have room for in a fluid.
-fn options_of(scene: &Scene) -> Options {
-    Options { list_growth: u32::from(Model::new(scene).particles().bonds.is_some()), ..Options::default() }
+fn options_of(scene: &Checked) -> Options {
+    Options { list_growth: u32::from(scene.model().particles().bonds.is_some()), ..Options::default() }
 }
 
-fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {
+fn plan_of(scene: &Checked, hardware: Hardware) -> Plan {
     common::plan_of(scene, hardware, options_of(scene))
 }
 
@@ -253,14 +252,14 @@ fn compare(gpu: &Gpu, feature: &Feature, turns: Turns) -> Result<(), Failure> {
     let [never, off, on] = &rates;
     let [never_spent, off_spent, on_spent] = &processors;
     let bytes = scenes.each_ref().map(|scene| {
-        let particles = Model::new(scene).particle_count();
+        let particles = scene.model().particle_count();
         format!("{:.0}", plan_of(scene, gpu.into()).bytes() as f64 / particles as f64)
     });
     let [never_bytes, off_bytes, on_bytes] = bytes;
     println!(
         "| {} | {} | {} | {} | {} | {} | {never_bytes} | {off_bytes} | {on_bytes} |",
         feature.name,
-        grouped(Model::new(&scenes[0]).particle_count() as usize),
+        grouped(scenes[0].model().particle_count() as usize),
         spread(&ratios(never, off), 2),
         spread(&ratios(off_spent, never_spent), 2),
         spread(&ratios(never, on), 2),

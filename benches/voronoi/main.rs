@@ -10,10 +10,9 @@ use std::time::Instant;
 
 use clap::Parser;
 use mesoscope::engine::Engine;
-use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Hardware, Options, Plan};
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::tessellation::Tessellation;
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 
@@ -72,7 +71,7 @@ fn main() -> Result<(), Failure> {
 }
 
 /// Cells of mean area 1, with changes.
-fn cells(count: usize, changes: &[&str]) -> Result<Scene, Failure> {
+fn cells(count: usize, changes: &[&str]) -> Result<Checked, Failure> {
     let edge = (count as f64).sqrt();
     let text = format!(
         r#"{{"title": "cells", "space": {{"box": [{edge}, {edge}]}}, "time": {{"step": 0.002, "steps": 1}}, "temperature": 1,
@@ -83,12 +82,12 @@ fn cells(count: usize, changes: &[&str]) -> Result<Scene, Failure> {
     Ok(scene::parse("cells", &text, &changes)?)
 }
 
-fn plan_of(scene: &Scene, hardware: Hardware) -> Plan {
+fn plan_of(scene: &Checked, hardware: Hardware) -> Plan {
     common::plan_of(scene, hardware, Options::default())
 }
 
 /// The plan of a scene with nothing in a step but the tessellation.
-fn tessellation(scene: &Scene, hardware: Hardware) -> Plan {
+fn tessellation(scene: &Checked, hardware: Hardware) -> Plan {
     let mut plan = plan_of(scene, hardware);
     let geometry = [
         "bin",
@@ -114,8 +113,8 @@ fn tessellation(scene: &Scene, hardware: Hardware) -> Plan {
 
 fn compare(gpu: &Gpu, size: usize, turns: Turns) -> Result<(), Failure> {
     let scene = cells(size, &[])?;
-    let model = Model::new(&scene);
-    let state = mesoscope::families::initial_state(&scene, &model);
+    let model = scene.model();
+    let state = mesoscope::families::initial_state(&scene);
     let lengths = [model.units.lengths[0], model.units.lengths[1]];
     let points: Vec<Point2<f64>> = state
         .positions
@@ -156,7 +155,7 @@ fn compare(gpu: &Gpu, size: usize, turns: Turns) -> Result<(), Failure> {
 fn step(gpu: &Gpu, size: usize, (name, changes): &Variant, turns: Turns) -> Result<(), Failure> {
     let lattice = r#"particles.0.placement={"type":"lattice","jitter":0.3}"#;
     let scene = cells(size, &[&[lattice], *changes].concat())?;
-    let state = mesoscope::families::initial_state(&scene, &Model::new(&scene));
+    let state = mesoscope::families::initial_state(&scene);
     let mut whole = Run::new(Engine::new(gpu, plan_of(&scene, gpu.into()), &state)?, size)?;
     let mut alone = Run::new(Engine::new(gpu, tessellation(&cells(size, &[lattice])?, gpu.into()), &state)?, size)?;
     let rates = turns.rates(&mut [&mut whole, &mut alone])?;

@@ -1,11 +1,11 @@
 //! The argument that says how many ranks share a run.
 
-use mesoscope::families::Model;
+use mesoscope::families::Checked;
 use mesoscope::gpu::adapters_by_turns;
 use mesoscope::plan::Division;
 use mesoscope::ranks::sharing;
 use mesoscope::run::{self, Ranks, RunError};
-use mesoscope::scene::{Scene, SceneError, Warning};
+use mesoscope::scene::SceneError;
 
 use super::{AdapterArgument, Failure, SceneArguments, heading};
 
@@ -47,7 +47,7 @@ fn asked(text: &str) -> Result<Asked, String> {
 
 impl RanksArgument {
     /// The division of the box of a run; none for one rank.
-    pub fn division(&self, scene: &Scene, model: &Model, copies: Option<u32>) -> Result<Option<Division>, Failure> {
+    pub fn division(&self, scene: &Checked, copies: Option<u32>) -> Result<Option<Division>, Failure> {
         let ranks = match &self.ranks {
             None if copies.is_none() => return Ok(None),
             None | Some(Asked::Auto) => {
@@ -68,7 +68,7 @@ impl RanksArgument {
                 Ranks::Parts(parts)
             }
         };
-        let division = run::divide(scene, model, ranks)?;
+        let division = run::divide(scene, ranks)?;
         if let Some(copies) = copies.filter(|copies| *copies != division.ranks()) {
             return Err(Failure::usage(format!(
                 "`--ranks` asks for {} ranks, and the launcher has started {copies} copies of the program",
@@ -85,10 +85,10 @@ impl RanksArgument {
     }
 
     /// Loads a scene; one that the adapter cannot hold is refused before its particles are read or placed.
-    pub fn load(&self, scene: &SceneArguments, copies: Option<u32>) -> Result<(Scene, Vec<Warning>), SceneError> {
+    pub fn load(&self, scene: &SceneArguments, copies: Option<u32>) -> Result<Checked, SceneError> {
         scene.load(&|scene| {
             // Whatever else is wrong is said of the whole scene.
-            let Ok(division) = self.division(scene, &Model::new(scene), copies) else { return Ok(()) };
+            let Ok(division) = self.division(scene, copies) else { return Ok(()) };
             match run::adapter_for_rank(scene, division, &self.adapter.choice()) {
                 Err(error @ RunError::TooLarge { .. }) => {
                     Err(SceneError::TooManyParticles { reason: error.to_string() })

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
-use mesoscope::families::{Model, PictureKind};
+use mesoscope::families::{self, Model, PictureKind};
 use mesoscope::numbers::{counted, grouped, prefixed};
 use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
@@ -26,7 +26,7 @@ pub fn execute(
     quiet: bool,
 ) -> Result<(), Failure> {
     let copies = processes.map(Processes::count);
-    let division = ranks.division(simulation.scene(), simulation.model(), copies)?;
+    let division = ranks.division(simulation.scene(), copies)?;
     let warning = ranks.warning(division, copies);
     let simulation = simulation.on_ranks(division).mixed(ranks.mixed);
     let choice = &ranks.adapter.choice_of_copy();
@@ -50,10 +50,11 @@ pub fn execute(
     for notice in &known {
         line(&format!("note: {notice}"));
     }
-    for warning in simulation.model().warnings(simulation.scene()) {
+    for warning in families::warnings(simulation.scene()) {
         line(&format!("warning: {warning}"));
         known.push(warning.to_string());
     }
+    let scene = simulation.scene().clone();
     let result = simulation.execute_among(processes, choice, &mut |event| {
         note_begin(&event);
         reporter.show(event);
@@ -64,7 +65,7 @@ pub fn execute(
     for warning in outcome.summary.warnings.iter().filter(|warning| !known.contains(warning)) {
         line(&format!("warning: {warning}"));
     }
-    print(&results(&outcome, directory))
+    print(&results(&outcome, scene.model(), directory))
 }
 
 /// The name of a scene or of its file, without directories and extension.
@@ -93,7 +94,7 @@ struct Reporter {
 
 impl Reporter {
     fn new(simulation: &Simulation) -> Self {
-        let (model, scene) = (simulation.model(), simulation.scene());
+        let (model, scene) = (simulation.scene().model(), simulation.scene());
         let particles = model.particle_count();
         let noun = if particles == 1 { "particle" } else { "particles" };
         let dimensions = counted(scene.space.lengths.len() as u64, "dimension");
@@ -101,7 +102,7 @@ impl Reporter {
         Self {
             flows: model.picture() == PictureKind::Fields,
             headline: format!("{title}: {} {noun} in {dimensions}", grouped(particles)),
-            composition: labelled(model.composition(scene), "  "),
+            composition: labelled(scene.composition(), "  "),
             bar: ProgressBar::hidden(),
             reported: 0,
             reported_at: Instant::now(),
@@ -177,10 +178,9 @@ pub fn duration(seconds: u64) -> String {
 /// The column of the part of the pressure that is not of friction and noise.
 const CONSERVATIVE_PRESSURE: &str = "pressure_conservative";
 
-fn results(outcome: &Outcome, directory: &str) -> String {
+fn results(outcome: &Outcome, model: &Model, directory: &str) -> String {
     let summary = &outcome.summary;
     let mut rows = Vec::new();
-    let model = Model::new(&summary.scene);
     let flows = model.picture() == PictureKind::Fields;
     // What flows has no temperature to speak of.
     let columns: Vec<&str> = if flows {

@@ -45,10 +45,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
-    let (scene, notices) = arguments.ranks.load(&arguments.scene, processes.map(Processes::count))?;
+    let scene = arguments.ranks.load(&arguments.scene, processes.map(Processes::count))?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::stem(&arguments.scene.scene).into());
     let shown = printable::path(&directory);
-    let started = Simulation::start(scene, directory, arguments.how.force).noting(&notices);
+    let started = Simulation::start(scene, directory, arguments.how.force);
     let simulation = if arguments.no_pictures { started.without_pictures() } else { started };
     report::execute(simulation, processes, &arguments.ranks, &shown, arguments.how.quiet)
 }

@@ -1,6 +1,7 @@
 //! The arguments that name a scene and change it.
 
-use mesoscope::scene::{self, Fits, Scene, SceneError, Warning};
+use mesoscope::families::Checked;
+use mesoscope::scene::{Fits, SceneError, WrittenScene};
 
 use super::heading;
 
@@ -34,12 +35,12 @@ impl SceneArguments {
         quoted(&self.scene) + &changes.concat()
     }
 
-    /// The scene with all changes applied, checked, and what was shortened to suit the number of steps.
+    /// The scene with all changes applied, checked.
     /// `fits` decides of many particles before they are read or placed.
-    pub fn load(&self, fits: &Fits<'_>) -> Result<(Scene, Vec<Warning>), SceneError> {
+    pub fn load(&self, fits: &Fits<'_>) -> Result<Checked, SceneError> {
         let mut overrides = self.set.clone();
         overrides.extend(self.seed.map(|seed| format!("seed={seed}")));
-        scene::load_fitting(&self.scene, &overrides, self.steps, fits)
+        WrittenScene::read(&self.scene)?.with(&overrides).for_steps(self.steps).check_fitting(fits)
     }
 }
 

@@ -1,6 +1,5 @@
 //! `mesoscope scenes`: the scenes inside the program.
 
-use mesoscope::families::Model;
 use mesoscope::scene;
 
 use super::{Failure, print, print_exactly};
@@ -33,7 +32,7 @@ fn table() -> Result<String, Failure> {
     let mut lines = vec![format!("{:width$}  {:>9}  {:>9}  TITLE\n", "NAME", "PARTICLES", "DIMENSION")];
     for builtin in scene::builtin() {
         let scene = scene::parse(builtin.name, builtin.text, &[])?;
-        let particles = Model::new(&scene).particle_count();
+        let particles = scene.model().particle_count();
         let dimension = scene.space.lengths.len();
         lines.push(format!("{:width$}  {particles:>9}  {dimension:>9}  {}\n", builtin.name, scene.title));
     }

@@ -37,7 +37,7 @@ impl<'a> Texts<'a> {
 pub fn warn(variants: &[&Variant]) {
     let mut texts = Texts::default();
     for variant in variants {
-        for notice in &variant.notices {
+        for notice in variant.scene.notices() {
             texts.add(format!("note: {notice}"), &variant.name);
         }
         for warning in families::warnings(&variant.scene) {
@@ -52,7 +52,7 @@ pub fn warn_of_results(variants: &[&Variant], outcome: &SweepOutcome) {
     let mut texts = Texts::default();
     for (variant, summary) in variants.iter().zip(&outcome.summary.variants) {
         let of_scene = families::warnings(&variant.scene);
-        let before = variant.notices.iter().chain(&of_scene).map(ToString::to_string);
+        let before = variant.scene.notices().iter().chain(&of_scene).map(ToString::to_string);
         let known: Vec<String> = before.chain(summary.unequilibrated.as_ref().map(ToString::to_string)).collect();
         for warning in summary.warnings.iter().filter(|warning| !known.contains(warning)) {
             texts.add(format!("warning: {warning}"), &variant.name);

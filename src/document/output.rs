@@ -70,6 +70,11 @@ pub struct Output {
 }
 
 impl Output {
+    /// The table of energies alone.
+    pub(crate) fn energies_alone(&self) -> Self {
+        Self { energies: self.energies.clone(), ..Self::default() }
+    }
+
     /// The analyses that it asks for by keys of their own, and of a list of quantities in the order of the list.
     pub(crate) fn analyses(&self) -> Vec<AnalysisId> {
         let keys = [

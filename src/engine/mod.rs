@@ -92,13 +92,12 @@ enum Phase {
 /// # use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 /// # use mesoscope::plan::{Hardware, Options};
 /// # use mesoscope::run::plan;
-/// # use mesoscope::{families::Model, scene};
+/// # use mesoscope::scene;
 /// # let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
 /// # let scene = scene::load("dpd-fluid", &small)?;
-/// # let model = Model::new(&scene);
-/// # let start = mesoscope::families::initial_state(&scene, &model);
+/// # let start = mesoscope::families::initial_state(&scene);
 /// # let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default())?;
-/// # let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
+/// # let plan = plan(&scene, Hardware::from(&gpu), Options::default());
 /// let mut engine = Engine::new(&gpu, plan, &start)?;
 /// engine.advance(30, 10)?;
 /// let state = engine.state()?;

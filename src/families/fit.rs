@@ -10,20 +10,19 @@ impl Plan {
     /// long or too many, species that are not those of the model, pairs of particles that do not exist.
     ///
     /// ```
-    /// use mesoscope::families::Model;
     /// use mesoscope::plan::{Hardware, Options};
     /// use mesoscope::run::plan;
     /// use mesoscope::{families::initial_state, scene};
     ///
     /// let scene = scene::load("langevin-gas", &["interactions.1.bath={\"type\":\"memory\",\"rate\":1}".to_owned()])?;
-    /// let model = Model::new(&scene);
-    /// let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
-    /// let mut state = initial_state(&scene, &model);
-    /// assert_eq!(plan.misfit(&state, &model), None);
+    /// let model = scene.model();
+    /// let plan = plan(&scene, Hardware::default(), Options::default());
+    /// let mut state = initial_state(&scene);
+    /// assert_eq!(plan.misfit(&state, model), None);
     /// state.position_baths.pop();
     /// let particles = state.len();
     /// let problem = format!("its `position_baths` have {} elements instead of {particles}", particles - 1);
-    /// assert_eq!(plan.misfit(&state, &model), Some(problem));
+    /// assert_eq!(plan.misfit(&state, model), Some(problem));
     /// # Ok::<(), scene::SceneError>(())
     /// ```
     #[must_use]

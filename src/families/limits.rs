@@ -1,7 +1,7 @@
 //! How far laws say that a scene may go.
 
-use super::Model;
 use crate::document::Scene;
+use crate::families::Checked;
 
 /// A law that bounds what a scene may ask for, and how near to its bound the scene is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,9 +40,8 @@ pub enum Beyond {
 /// # Ok::<(), scene::SceneError>(())
 /// ```
 #[must_use]
-pub fn limits(scene: &Scene) -> Vec<Limit> {
-    let model = Model::new(scene);
-    let mut limits = model.physics().limits(scene, &model);
+pub fn limits(scene: &Checked) -> Vec<Limit> {
+    let mut limits = scene.model().physics().limits(scene);
     limits.retain(|limit| limit.share > 0.0);
     limits
 }
@@ -72,7 +71,7 @@ pub struct LargestStep {
 /// # Ok::<(), scene::SceneError>(())
 /// ```
 #[must_use]
-pub fn largest_steps(scene: &Scene) -> Vec<LargestStep> {
+pub fn largest_steps(scene: &Checked) -> Vec<LargestStep> {
     let share = |law: &str, step: f64| {
         limits(&at_step(scene, step)).iter().find(|limit| limit.law == law).map_or(0.0, |limit| limit.share)
     };
@@ -85,11 +84,11 @@ pub fn largest_steps(scene: &Scene) -> Vec<LargestStep> {
     found
 }
 
-/// A scene with another time step.
-pub(super) fn at_step(scene: &Scene, step: f64) -> Scene {
+/// A scene with another time step, whether that is accepted or not.
+pub(super) fn at_step(scene: &Scene, step: f64) -> Checked {
     let mut other = scene.clone();
     other.time.step = step;
-    other
+    Checked::presumed(other)
 }
 
 /// Where a share that grows with the step is 1, to a precision, from a step and its share; none where that is nowhere near.

@@ -4,6 +4,7 @@
 //! its folder: what a scene says about it and has to fulfil, its numbers, its start, and its float64 [`mod@reference`].
 
 mod bath;
+mod checked;
 mod checks;
 pub(crate) mod column;
 pub(crate) mod conservation;
@@ -27,6 +28,7 @@ mod warnings;
 
 pub use crate::document::NETWORK_VISCOSITY;
 pub use bath::BathStep;
+pub use checked::Checked;
 pub use checks::check_start;
 pub(crate) use checks::{StepCheck, check};
 pub use column::Column;
@@ -158,7 +160,7 @@ pub(crate) trait Physics {
     }
 
     /// The laws that bound a scene, and how near to their bounds it is. Those without meaning for the scene have a share of 0.
-    fn limits(&self, scene: &Scene, model: &Model) -> Vec<Limit>;
+    fn limits(&self, scene: &Checked) -> Vec<Limit>;
 
     /// Whether particles only say how finely a continuum is resolved, so that more of them are the same scene.
     fn is_resolved_by_particles(&self) -> bool {
@@ -182,17 +184,17 @@ pub(crate) trait Physics {
 
     /// A field on the nodes at all times, the index of x first, where a scene starts with a flow that is steady if it is computed
     /// exactly; of [`PictureKind::Fields`] only.
-    fn steady_field(&self, _: FieldQuantity, _: &Scene, _: &Model) -> Option<Vec<f64>> {
+    fn steady_field(&self, _: FieldQuantity, _: &Checked) -> Option<Vec<f64>> {
         None
     }
 
     /// Choices of a scene that take time and change nothing that is likely to be measured, in words.
-    fn unneeded(&self, _: &Scene, _: &Model) -> Vec<String> {
+    fn unneeded(&self, _: &Checked) -> Vec<String> {
         Vec::new()
     }
 
     /// Warnings about a scene without mistakes.
-    fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning>;
+    fn warnings(&self, scene: &Checked) -> Vec<Warning>;
 
     /// Gives the particles of a group momenta, and masses where they have their own. The state has their places.
     fn set_in_motion(&self, state: &mut State, group: &ParticleGroup, ids: Range<usize>, model: &Model) {
@@ -200,7 +202,7 @@ pub(crate) trait Physics {
     }
 
     /// Completes a state at step 0 whose particles are placed and move; `thermal` are those of thermal velocities.
-    fn complete_start(&self, state: &mut State, scene: &Scene, model: &Model, thermal: &[usize]);
+    fn complete_start(&self, state: &mut State, scene: &Checked, thermal: &[usize]);
 
     /// Whether some starts are refused.
     fn may_refuse_starts(&self) -> bool {
@@ -208,13 +210,13 @@ pub(crate) trait Physics {
     }
 
     /// Refuses a start that integers or forces cannot hold.
-    fn check_start(&self, _: &Scene, _: &Model, _: &State, _: &mut Problems) {}
+    fn check_start(&self, _: &Checked, _: &State, _: &mut Problems) {}
 
     /// Refuses what integers or kernels cannot hold, which would go wrong without a sign of it.
-    fn check_capacity(&self, _: &Scene, _: &Model, _: &mut Problems) {}
+    fn check_capacity(&self, _: &Checked, _: &mut Problems) {}
 
     /// Refuses a time step that is certainly unstable.
-    fn check_step(&self, _: &Scene, _: &Model, _: &mut Problems) {}
+    fn check_step(&self, _: &Checked, _: &mut Problems) {}
 
     /// What of it several ranks cannot share, in words; nothing where they can share all.
     fn unshared(&self, _: &Scene) -> Vec<String> {
@@ -245,10 +247,10 @@ pub(crate) trait Physics {
     }
 
     /// What `check` says of it, name by name, beside what all families have; `cells` are those of the plan in words.
-    fn description(&self, scene: &Scene, model: &Model, plan: &Plan, cells: &str) -> Vec<(&'static str, String)>;
+    fn description(&self, scene: &Checked, plan: &Plan, cells: &str) -> Vec<(&'static str, String)>;
 
     /// What the particles of a file or of molecules are, and what acts on which of them, name by name.
-    fn composition(&self, _: &Scene, _: &Model) -> Vec<(&'static str, String)> {
+    fn composition(&self, _: &Checked) -> Vec<(&'static str, String)> {
         Vec::new()
     }
 

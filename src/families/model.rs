@@ -1,7 +1,7 @@
 //! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
 
 use super::{Family, Particles, Physics, PictureKind, ShallowWater, Voronoi, particles, speeds};
-use crate::document::{Distribution, Generator, Integrator, Output, Scene, Warning};
+use crate::document::{Distribution, Generator, Integrator, Output, Scene};
 use crate::noise;
 use crate::plan::{Plan, Quanta, StateLayout};
 use crate::state::Units;
@@ -70,9 +70,8 @@ impl Model {
     /// The model of a checked scene.
     ///
     /// ```
-    /// use mesoscope::families::Model;
     ///
-    /// let model = Model::new(&mesoscope::scene::load("binary-mixture", &[])?);
+    /// let model = mesoscope::scene::load("binary-mixture", &[])?.model().clone();
     /// assert_eq!((model.units.dimension, model.particle_count()), (2, 14_400));
     /// let names: Vec<&str> = model.species.iter().map(|species| species.name.as_str()).collect();
     /// assert_eq!(names, ["A", "B"]);
@@ -83,7 +82,7 @@ impl Model {
     /// # Ok::<(), mesoscope::scene::SceneError>(())
     /// ```
     #[must_use]
-    pub fn new(scene: &Scene) -> Self {
+    pub(crate) fn new(scene: &Scene) -> Self {
         let mut species = Species::of(scene);
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
@@ -265,40 +264,16 @@ impl Model {
         self.physics().particles_in_words(self.particle_count())
     }
 
-    /// What `check` says of it, name by name, beside what all families have; `cells` are those of the plan in words.
-    #[must_use]
-    pub fn description(&self, scene: &Scene, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
-        self.physics().description(scene, self, plan, cells)
-    }
-
-    /// What the particles of a file or of molecules are, and what acts on which of them, name by name.
-    #[must_use]
-    pub fn composition(&self, scene: &Scene) -> Vec<(&'static str, String)> {
-        self.physics().composition(scene, self)
-    }
-
     /// The kind of pictures that a run draws.
     #[must_use]
     pub fn picture(&self) -> PictureKind {
         self.physics().picture()
     }
 
-    /// Choices of its scene that take time and change nothing that is likely to be measured, in words.
-    #[must_use]
-    pub fn unneeded(&self, scene: &Scene) -> Vec<String> {
-        self.physics().unneeded(scene, self)
-    }
-
     /// What is expected of the errors that its step makes, measure by measure, in words.
     #[must_use]
     pub fn estimates(&self) -> Vec<String> {
         self.physics().estimates(self)
-    }
-
-    /// Warnings about its scene.
-    #[must_use]
-    pub fn warnings(&self, scene: &Scene) -> Vec<Warning> {
-        self.physics().warnings(scene, self)
     }
 
     /// What acts on particles; nothing in a model of another family.

@@ -8,11 +8,11 @@ use crate::state::State;
 /// Whoever fills this in, the reference or a GPU, computes sums only; everything derived from them is here, once.
 ///
 /// ```
-/// use mesoscope::{families::Model, families::reference::Reference, scene};
+/// use mesoscope::{families::reference::Reference, scene};
 ///
 /// let scene = scene::load("ideal-dissipative-gas", &["space.box=[4,4,4]".to_owned(), "output={}".to_owned()])?;
-/// let model = Model::new(&scene);
-/// let state = mesoscope::families::initial_state(&scene, &model);
+/// let model = scene.model();
+/// let state = mesoscope::families::initial_state(&scene);
 /// let found = Reference::new(model, state).observe()?;
 /// assert_eq!((found.potential_energy, found.total_energy()), (0.0, found.kinetic_energy));
 /// // Without forces that have a potential, pressure is density times temperature.

@@ -1,7 +1,7 @@
 //! How fast particles are expected to move, beside how far they may go in a step.
 
 use super::particles::terms::random_momenta;
-use super::{Model, Physics, Species};
+use super::{Checked, Model, Physics, Species};
 use crate::document::{ParticleGroup, Problems, Scene, Velocities, brief};
 
 /// Times that the fastest of many particles may exceed the velocities expected here: for Maxwell's distribution five are enough
@@ -66,7 +66,8 @@ pub(super) fn expected(scene: &Scene, species: &[Species], physics: &dyn Physics
 
 /// Refuses a time step in which particles go beyond the reach of their family with the velocities that they start with or that
 /// baths and random forces give them.
-pub(super) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
+pub(super) fn check(scene: &Checked, problems: &mut Problems) {
+    let model = scene.model();
     let physics = model.physics();
     let (reach, step) = (physics.reach(model), scene.time.step);
     let [_, pushed] = random_momenta(scene);

@@ -2,8 +2,8 @@
 
 use super::particles::chains;
 use super::particles::space::layers;
-use crate::document::{FileStart, Generator, ParticleGroup, Placement, Scene, StateVelocities, Velocities};
-use crate::families::Model;
+use crate::document::{FileStart, Generator, ParticleGroup, Placement, StateVelocities, Velocities};
+use crate::families::{Checked, Model};
 use crate::noise::{self, stream};
 use crate::numbers::grouped;
 use crate::state::{State, crossings};
@@ -17,22 +17,22 @@ use std::ops::Range;
 /// The net momentum of all thermal groups together is zero to the last bit, so a single thermal particle is at rest.
 ///
 /// ```
-/// use mesoscope::families::Model;
 /// use mesoscope::{families::initial_state, scene};
 ///
 /// let small = ["space.box=[4,4,4]", "output={}"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &small)?;
-/// let state = initial_state(&scene, &Model::new(&scene));
+/// let state = initial_state(&scene);
 /// assert_eq!((state.step, state.len()), (0, 192));
 /// assert_eq!(state.total_momentum(), [0; 3]);
 /// # Ok::<(), scene::SceneError>(())
 /// ```
 #[must_use]
-pub fn initial_state(scene: &Scene, model: &Model) -> State {
+pub fn initial_state(scene: &Checked) -> State {
+    let model = scene.model();
     let mut state = State::default();
     let mut thermal = Vec::new();
     if let Some(state) = scene.start().and_then(|start| start.places.as_ref()?.state.clone()) {
-        return count_turns(state, scene, model);
+        return count_turns(state, scene);
     }
     if let Some(velocities) = scene.start_velocities() {
         if let Some(start) = scene.start() {
@@ -46,7 +46,7 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
         if velocities == StateVelocities::Thermal {
             thermal.extend((0..state.len()).filter(moves));
         }
-        return complete(state, scene, model, &thermal);
+        return complete(state, scene, &thermal);
     }
     let lattices = scene.particles.iter().filter(|group| group.placement.is_lattice()).count();
     let mut lattice = 0;
@@ -59,7 +59,7 @@ pub fn initial_state(scene: &Scene, model: &Model) -> State {
             thermal.extend(first..first + count);
         }
     }
-    complete(state, scene, model, &thermal)
+    complete(state, scene, &thermal)
 }
 
 /// Appends a group with its momenta.
@@ -77,7 +77,8 @@ fn add_group(state: &mut State, group: &ParticleGroup, count: usize, model: &Mod
 
 /// What a run takes from the file that its particles are from, in words: where the noise begins, and what steps and times are counted from.
 #[must_use]
-pub fn start_in_words(scene: &Scene, model: &Model) -> Option<String> {
+pub fn start_in_words(scene: &Checked) -> Option<String> {
+    let model = scene.model();
     let file = &scene.state.as_ref()?.file;
     if scene.earlier_run().is_some() {
         let steps = grouped(model.steps_before);
@@ -92,13 +93,14 @@ pub fn start_in_words(scene: &Scene, model: &Model) -> Option<String> {
 }
 
 /// Completes a state whose particles have places and momenta; `thermal` are those whose momenta were drawn.
-fn complete(mut state: State, scene: &Scene, model: &Model, thermal: &[usize]) -> State {
-    model.physics().complete_start(&mut state, scene, model, thermal);
-    count_turns(state, scene, model)
+fn complete(mut state: State, scene: &Checked, thermal: &[usize]) -> State {
+    scene.model().physics().complete_start(&mut state, scene, thermal);
+    count_turns(state, scene)
 }
 
 /// A state with the times round the box, where a trajectory needs them.
-fn count_turns(mut state: State, scene: &Scene, model: &Model) -> State {
+fn count_turns(mut state: State, scene: &Checked) -> State {
+    let model = scene.model();
     if !model.follows_paths(&scene.output) {
         state.images = Vec::new();
     } else if state.images.is_empty() {
@@ -326,14 +328,13 @@ mod tests {
     use serde_json::{Value, json};
 
     fn start(seed: u64, lengths: &Value, particles: &Value) -> (Model, State) {
-        let scene: Scene = serde_json::from_value(json!({
+        let scene = serde_json::from_value(json!({
             "title": "test", "seed": seed, "space": {"box": lengths}, "time": {"step": 0.1, "steps": 1},
             "temperature": 2.0, "particles": particles, "interactions": [{"type": "dpd"}],
         }))
         .unwrap();
-        let model = Model::new(&scene);
-        let state = initial_state(&scene, &model);
-        (model, state)
+        let scene = Checked::presumed(scene);
+        (scene.model().clone(), initial_state(&scene))
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What is allowed but deserves a second look.
 
-use super::Model;
 use crate::document::{Scene, SpeciesNames, Velocities, Warning, number_of_copies};
+use crate::families::Checked;
 
 /// Warnings about a scene that [`crate::scene::load`] accepted.
 ///
@@ -14,8 +14,8 @@ use crate::document::{Scene, SpeciesNames, Velocities, Warning, number_of_copies
 /// # Ok::<(), scene::SceneError>(())
 /// ```
 #[must_use]
-pub fn warnings(scene: &Scene) -> Vec<Warning> {
-    Model::new(scene).warnings(scene)
+pub fn warnings(scene: &Checked) -> Vec<Warning> {
+    scene.model().physics().warnings(scene)
 }
 
 pub(super) fn warn(warnings: &mut Vec<Warning>, path: impl Into<String>, message: String) {

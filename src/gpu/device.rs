@@ -151,16 +151,15 @@ impl Gpu {
     /// use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
     /// # use mesoscope::plan::{Hardware, Options};
     /// # use mesoscope::run::plan;
-    /// # use mesoscope::{families::Model, scene};
+    /// # use mesoscope::scene;
     ///
     /// let seen = Arc::new(Mutex::new(0));
     /// let counter = Arc::clone(&seen);
     /// let rewriting = Arc::new(move |_: &mut naga::Module, _| *counter.lock().unwrap() += 1);
     /// let gpu = Gpu::open_rewriting(&AdapterChoice::Best, Requirements::default(), rewriting)?;
     /// # let scene = scene::load("dpd-fluid", &["space.box=[3,3,3]", "output={}"].map(str::to_owned))?;
-    /// # let model = Model::new(&scene);
-    /// # let start = mesoscope::families::initial_state(&scene, &model);
-    /// # let plan = plan(&model, 0, &scene.output, Hardware::from(&gpu), Options::default());
+    /// # let start = mesoscope::families::initial_state(&scene);
+    /// # let plan = plan(&scene, Hardware::from(&gpu), Options::default());
     /// let engine = Engine::new(&gpu, plan, &start)?;
     /// assert!(*seen.lock().unwrap() > 0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -1,7 +1,7 @@
 //! The summary of a run, `run.json`.
 
 use super::{Extent, Found, Id, OutputError, RunDirectory, files, of_one_run, own_file, write_atomically};
-use crate::families::{Column, Model, start_in_words};
+use crate::families::{Checked, Column, Model, start_in_words};
 use crate::gpu::AdapterDescription;
 use crate::measure::statistics::Estimate;
 use crate::quantity::Quantity;
@@ -125,8 +125,9 @@ pub struct StartSummary {
 impl StartSummary {
     /// That of a scene and its model, if its particles are from a file.
     #[must_use]
-    pub fn new(scene: &Scene, model: &Model) -> Option<Self> {
-        let what = start_in_words(scene, model)?;
+    pub fn new(scene: &Checked) -> Option<Self> {
+        let model = scene.model();
+        let what = start_in_words(scene)?;
         Some(Self { what, steps_before: model.steps_before, noise_seed: model.seed })
     }
 }

@@ -45,12 +45,11 @@ impl Kernel {
     /// Paths of the pages and variants that it reaches, below `shaders` and without extensions.
     ///
     /// ```
-    /// use mesoscope::families::Model;
     /// use mesoscope::plan::{Hardware, Options};
     /// use mesoscope::run::plan;
     ///
     /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
-    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+    /// let plan = plan(&scene, Hardware::default(), Options::default());
     /// let step = &plan.kernels[plan.advance[0]];
     /// assert!(step.files()?.contains("pairs/pass/relax"));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -76,14 +75,13 @@ impl Kernel {
     /// The buffer or texture that a variable stands for.
     ///
     /// ```
-    /// use mesoscope::families::Model;
     /// use mesoscope::plan::{Hardware, Options};
     /// use mesoscope::run::plan;
     /// use mesoscope::shaders::{Array, Entry};
     ///
     /// let asked = r#"output.viscosity={"every":10,"window":50}"#.to_owned();
     /// let scene = mesoscope::scene::load("dpd-fluid", &[asked])?;
-    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+    /// let plan = plan(&scene, Hardware::default(), Options::default());
     /// let kernel = plan.kernels.iter().find(|kernel| kernel.entry == Entry::SumTransverseModes);
     /// let array_of = |variable| kernel.map(|kernel| kernel.array_of(variable));
     /// assert_eq!(array_of(Array::PartialSums), Some(Array::ModeSums));

@@ -233,12 +233,11 @@ impl Plan {
     /// Bytes of all buffers and textures.
     ///
     /// ```
-    /// use mesoscope::families::Model;
     /// use mesoscope::plan::{Hardware, Options};
     /// use mesoscope::run::plan;
     ///
     /// let scene = mesoscope::scene::load("dpd-fluid", &["particles.0.number_density=6".to_owned()])?;
-    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+    /// let plan = plan(&scene, Hardware::default(), Options::default());
     /// // At least positions and momenta; a few MiB in all for 48 000 particles.
     /// assert!(plan.bytes() > 24 * plan.particles && plan.bytes() < 64 << 20);
     /// let textures: u64 = plan.textures.iter().map(|texture| texture.bytes()).sum();
@@ -254,12 +253,11 @@ impl Plan {
     /// The same plan without reports, samples and analyses: the steps alone, to measure their speed.
     ///
     /// ```
-    /// use mesoscope::families::Model;
     /// use mesoscope::plan::{Hardware, Options};
     /// use mesoscope::run::plan;
     ///
     /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
-    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+    /// let plan = plan(&scene, Hardware::default(), Options::default());
     /// let steps = plan.clone().without_reports();
     /// assert!(steps.samplers.is_empty() && steps.kernels.len() < plan.kernels.len());
     /// let names = |plan: &mesoscope::plan::Plan| -> Vec<&str> {
@@ -304,7 +302,7 @@ impl Plan {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::{Hardware, Options};
-    use crate::families::Model;
+
     use crate::run::plan;
     use crate::scene;
 
@@ -314,8 +312,7 @@ mod tests {
             // One whose particles are followed too.
             let followed = scene::load(builtin.name, &[r#"output.trajectory={"every":5}"#.to_owned()]).unwrap();
             for scene in [scene::load(builtin.name, &[]).unwrap(), followed] {
-                let model = Model::new(&scene);
-                let whole = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
+                let whole = plan(&scene, Hardware::default(), Options::default());
                 let steps = whole.clone().without_reports();
                 let stages = |plan: &super::Plan| {
                     let stages = [&plan.prepare, &plan.sort, &plan.tidy, &plan.before_report, &plan.advance];

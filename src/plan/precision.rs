@@ -10,11 +10,11 @@ use serde_json::Value;
 /// ```
 /// use mesoscope::plan::{Hardware, Options, check_precision};
 /// use mesoscope::run::plan;
-/// use mesoscope::{families::Model, scene};
+/// use mesoscope::scene;
 ///
 /// let heavy = ["particles.0.mass=1e60"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &heavy)?;
-/// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+/// let plan = plan(&scene, Hardware::default(), Options::default());
 /// let refusal = check_precision(&scene, &plan).map_or_else(|error| error.to_string(), |()| String::new());
 /// assert!(refusal.starts_with("particles[0].mass: found 1e60; "), "{refusal}");
 /// # Ok::<(), scene::SceneError>(())

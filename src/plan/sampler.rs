@@ -81,9 +81,9 @@ impl Sampler {
     ///
     /// ```
     /// # use mesoscope::plan::{Hardware, Options};
-    /// # use mesoscope::{families::Model, run::plan, scene};
+    /// # use mesoscope::{run::plan, scene};
     /// let scene = scene::load("dpd-fluid", &[r#"output={"energies":{"every":20}}"#.to_owned()])?;
-    /// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+    /// let plan = plan(&scene, Hardware::default(), Options::default());
     /// assert_eq!([0, 1, 20, 21].map(|step| plan.samplers[0].samples_before(step)), [0, 1, 1, 2]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -17,12 +17,11 @@ pub trait Words: Compared + Debug + Send + Sync {
 /// A table of words.
 ///
 /// ```
-/// use mesoscope::families::Model;
 /// use mesoscope::plan::{Contents, Hardware, Options};
 /// use mesoscope::run::plan;
 ///
 /// let scene = mesoscope::scene::load("polymer-melt", &[])?;
-/// let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+/// let plan = plan(&scene, Hardware::default(), Options::default());
 /// let tables: Vec<_> = plan.buffers.iter().filter(|buffer| matches!(buffer.contents, Contents::Table(_))).collect();
 /// for buffer in &tables {
 ///     let Contents::Table(table) = &buffer.contents else { unreachable!() };

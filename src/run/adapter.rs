@@ -3,20 +3,14 @@
 use super::RunError;
 use super::plan::plan;
 use crate::document::number_of_copies;
-use crate::families::Model;
+use crate::families::Checked;
 use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
 use crate::plan::{self, Division, Hardware, Options, Part, Plan};
-use crate::scene::Scene;
 
 /// Opens an adapter that allows the buffers of a scene, for which it makes the plan.
-pub(super) fn open_adapter(
-    scene: &Scene,
-    model: &Model,
-    choice: &AdapterChoice,
-    options: Options,
-) -> Result<(Gpu, Plan), RunError> {
+pub(super) fn open_adapter(scene: &Checked, choice: &AdapterChoice, options: Options) -> Result<(Gpu, Plan), RunError> {
     let open = |hardware| {
-        let plan = plan(model, scene.time.equilibration, &scene.output, hardware, options);
+        let plan = plan(scene, hardware, options);
         plan::check_precision(scene, &plan)?;
         let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
         let opened = Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() });
@@ -27,7 +21,7 @@ pub(super) fn open_adapter(
             }
             _ => error.into(),
         })?;
-        let plan = if Hardware::from(&gpu) == hardware { plan } else { plan_for(scene, model, &gpu, options) };
+        let plan = if Hardware::from(&gpu) == hardware { plan } else { plan_for(scene, &gpu, options) };
         Ok((gpu, plan))
     };
     match open(Hardware::default()) {
@@ -50,20 +44,20 @@ pub(super) fn open_adapter(
 ///
 /// # Errors
 /// [`RunError::Gpu`] without an adapter that allows its buffers, [`RunError::Scene`] if its numbers are beyond single precision.
-pub fn adapter_for(scene: &Scene, choice: &AdapterChoice) -> Result<Gpu, RunError> {
-    Ok(open_adapter(scene, &Model::new(scene), choice, Options::default())?.0)
+pub fn adapter_for(scene: &Checked, choice: &AdapterChoice) -> Result<Gpu, RunError> {
+    Ok(open_adapter(scene, choice, Options::default())?.0)
 }
 
 /// Opens the adapter that the first of the ranks that share this scene would open, where each has its own part of the box.
 ///
 /// # Errors
 /// As [`adapter_for`].
-pub fn adapter_for_rank(scene: &Scene, division: Option<Division>, choice: &AdapterChoice) -> Result<Gpu, RunError> {
+pub fn adapter_for_rank(scene: &Checked, division: Option<Division>, choice: &AdapterChoice) -> Result<Gpu, RunError> {
     let options = Options { part: division.map(|division| Part { division, rank: 0 }), ..Options::default() };
-    Ok(open_adapter(scene, &Model::new(scene), choice, options)?.0)
+    Ok(open_adapter(scene, choice, options)?.0)
 }
 
 /// The plan of a scene on an adapter.
-pub(super) fn plan_for(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Plan {
-    plan(model, scene.time.equilibration, &scene.output, gpu.into(), options)
+pub(super) fn plan_for(scene: &Checked, gpu: &Gpu, options: Options) -> Plan {
+    plan(scene, gpu.into(), options)
 }

@@ -58,7 +58,7 @@ mod tests {
             r#"{{"title": "test", "space": {{"box": [5, 5, 5]}}, "time": {{"step": 0.01, "steps": 1}}, "temperature": 1,
             "particles": [{{"species": "A", "count": 10}} {particles}], "interactions": [{interactions}]}}"#
         );
-        Model::new(&scene::parse("test", &text, &[]).expect("a scene"))
+        scene::parse("test", &text, &[]).expect("a scene").model().clone()
     }
 
     #[test]
@@ -69,7 +69,7 @@ mod tests {
                 "temperature": {temperature}, "particles": [{{"species": "A", "count": 10}}],
                 "interactions": [{{"type": "voronoi", {interaction}}}]}}"#
             );
-            let model = Model::new(&scene::parse("test", &text, &[]).expect("a scene"));
+            let model = scene::parse("test", &text, &[]).expect("a scene").model().clone();
             (conserved(&model, &[], false), not_conserved(&model, &[]))
         };
         let kept = ["mass, to the last bit", "total momentum, to the last bit", "total energy, to the last bit"];
@@ -95,7 +95,7 @@ mod tests {
                 "temperature": 1, "particles": [{{"species": "A", "count": 10}}],
                 "interactions": [{{"type": "dpd", "repulsion": 1}}{force}]}}"#
             );
-            let model = Model::new(&scene::parse("test", &text, &[]).expect("a scene"));
+            let model = scene::parse("test", &text, &[]).expect("a scene").model().clone();
             (conserved(&model, &[], false), not_conserved(&model, &[]))
         };
         let (kept, lost) = told(r#"{"z": {}}"#, "");
@@ -119,7 +119,7 @@ mod tests {
             )
         };
         let told = |rate: f64| {
-            let model = Model::new(&scene::parse("test", &text(rate), &[]).expect("a scene"));
+            let model = scene::parse("test", &text(rate), &[]).expect("a scene").model().clone();
             (conserved(&model, &[], false), not_conserved(&model, &[]))
         };
         let (kept, lost) = told(0.5);

@@ -2,10 +2,11 @@
 
 use super::RunError;
 use super::plan::plan;
+use crate::families::Checked;
 use crate::families::Model;
 use crate::numbers::grouped;
 use crate::plan::{Division, Domain, Hardware, Options, PARTICLE_WORDS, Part, PlannedPart, Sampler, SamplerId};
-use crate::scene::{AnalysisId, Scene};
+use crate::scene::AnalysisId;
 
 /// The most ranks that are looked for.
 const MOST: u32 = 4096;
@@ -26,27 +27,27 @@ pub enum Ranks {
 ///
 /// ```
 /// use mesoscope::run::{Ranks, divide};
-/// use mesoscope::{families::Model, scene};
+/// use mesoscope::scene;
 ///
 /// let scene = scene::load("dpd-fluid", &["output={}".to_owned()])?;
-/// let model = Model::new(&scene);
 /// // Divided on two axes a rank has fewer copies of others here than divided on three.
-/// assert_eq!(divide(&scene, &model, Ranks::Count(8))?.parts, [1, 2, 4]);
-/// let error = divide(&scene, &model, Ranks::Count(7)).unwrap_err().to_string();
+/// assert_eq!(divide(&scene, Ranks::Count(8))?.parts, [1, 2, 4]);
+/// let error = divide(&scene, Ranks::Count(7)).unwrap_err().to_string();
 /// assert!(error.contains("6 ranks fit"), "{error}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Errors
 /// [`RunError::Unshared`] with everything that hinders, or [`RunError::Undividable`] with how many fit.
-pub fn divide(scene: &Scene, model: &Model, asked: Ranks) -> Result<Division, RunError> {
+pub fn divide(scene: &Checked, asked: Ranks) -> Result<Division, RunError> {
+    let model = scene.model();
     let refuse = |reasons: Vec<String>| Err(RunError::Undividable { reasons });
-    let reasons = hindrances(scene, model);
+    let reasons = hindrances(scene);
     if !reasons.is_empty() {
         return Err(RunError::Unshared { reasons });
     }
     let dimension = model.units.dimension;
-    let (with_bonds, halo) = halo(scene, model);
+    let (with_bonds, halo) = halo(scene);
     let reach = model.physics().reach(model);
     let most = most_parts(model, halo);
     let needed = format!(
@@ -122,24 +123,24 @@ pub(super) fn fits(model: &Model, part: &PlannedPart) -> bool {
 }
 
 /// What the first rank of a division has.
-fn first_part(scene: &Scene, model: &Model, division: Division, hardware: Hardware) -> Option<PlannedPart> {
+fn first_part(scene: &Checked, division: Division, hardware: Hardware) -> Option<PlannedPart> {
     let options = Options { part: Some(Part { division, rank: 0 }), ..Options::default() };
-    plan(model, scene.time.equilibration, &scene.output, hardware, options).part
+    plan(scene, hardware, options).part
 }
 
 /// How far around its part a rank knows the particles, and how far it would without bonds.
-fn halo(scene: &Scene, model: &Model) -> (f64, f64) {
+fn halo(scene: &Checked) -> (f64, f64) {
     let alone = Division { parts: [1; 3] };
-    first_part(scene, model, alone, Hardware::default()).map_or((0.0, 0.0), |part| (part.halo, part.close))
+    first_part(scene, alone, Hardware::default()).map_or((0.0, 0.0), |part| (part.halo, part.close))
 }
 
 /// Why several ranks cannot share a scene: the reasons that its family gives, else the analyses that need one device.
-fn hindrances(scene: &Scene, model: &Model) -> Vec<String> {
-    let reasons = model.physics().unshared(scene);
+fn hindrances(scene: &Checked) -> Vec<String> {
+    let reasons = scene.model().physics().unshared(scene);
     if !reasons.is_empty() {
         return reasons;
     }
-    let plan = plan(model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
+    let plan = plan(scene, Hardware::default(), Options::default());
     let is_whole = |sampler: &Sampler| sampler.whole.len() == sampler.quantities;
     let on_one = |sampler: &Sampler| match sampler.id {
         SamplerId::Observables | SamplerId::Analysis(AnalysisId::RadialDistribution) => None,
@@ -236,12 +237,11 @@ impl Share {
 /// ```
 /// use mesoscope::plan::Hardware;
 /// use mesoscope::run::{Ranks, divide, share_of};
-/// use mesoscope::{families::Model, scene};
+/// use mesoscope::scene;
 ///
 /// let scene = scene::load("dpd-fluid", &["output={}".to_owned()])?;
-/// let model = Model::new(&scene);
-/// let division = divide(&scene, &model, Ranks::Parts([1, 1, 2]))?;
-/// let share = share_of(&scene, &model, division, Hardware::default());
+/// let division = divide(&scene, Ranks::Parts([1, 1, 2]))?;
+/// let share = share_of(&scene, division, Hardware::default());
 /// assert_eq!((share.own, share.halo, share.peers), (12_000.0, 2.0, 1));
 /// assert!((share.copies - 2.0 * 2.0 / 20.0 * 24_000.0).abs() < 1.0);
 /// // Two of its ten layers of cells, of fourteen with the copies, hold nothing that others may need; the last of two visits of pairs.
@@ -249,8 +249,9 @@ impl Share {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn share_of(scene: &Scene, model: &Model, division: Division, hardware: Hardware) -> Share {
-    let (units, planned) = (&model.units, first_part(scene, model, division, hardware));
+pub fn share_of(scene: &Checked, division: Division, hardware: Hardware) -> Share {
+    let model = scene.model();
+    let (units, planned) = (&model.units, first_part(scene, division, hardware));
     let Some(part) = &planned else { return Share::default() };
     let PlannedPart { halo, close, domains, wider, peers, shared, .. } = part;
     let particles = |domain: Option<&Domain>| domain.map_or(0.0, Domain::share) * *shared as f64;

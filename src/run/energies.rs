@@ -4,10 +4,10 @@ use super::RunError;
 use super::energy_rows::EnergyRows;
 use super::sections::{Sections, bytes, samples};
 use super::settling;
+use crate::families::Checked;
 use crate::families::Model;
 use crate::measure::Observables;
 use crate::output::{EnergiesFile, Extent, OutputError, Summary, files, own_file, read_table};
-use crate::scene::Scene;
 use crate::table::Table;
 use std::path::Path;
 
@@ -28,8 +28,8 @@ pub(super) struct EnergyRecorder {
 }
 
 /// Reads the table that a run of this scene wrote until it came to a step.
-pub(crate) fn read(path: &Path, scene: &Scene, step: u64) -> Result<Table, OutputError> {
-    let model = &Model::new(scene);
+pub(crate) fn read(path: &Path, scene: &Checked, step: u64) -> Result<Table, OutputError> {
+    let model = scene.model();
     let table = read_table(path)?;
     let expected: Vec<&str> =
         std::iter::once("step").chain(model.physics().columns(model).into_iter().map(|column| column.name)).collect();
@@ -57,12 +57,11 @@ impl EnergyRecorder {
     /// [`Self::section`] left there.
     pub(super) fn open(
         path: &Path,
-        scene: &Scene,
-        model: &Model,
+        scene: &Checked,
         written: Option<Extent>,
         sections: &Sections<'_>,
     ) -> Result<Self, RunError> {
-        let step = sections.step;
+        let (model, step) = (scene.model(), sections.step);
         let kept = samples(scene.output.energies.every, scene.time.equilibration, step);
         let configuration = sections.numbers(SECTION, kept.saturating_mul(2))?.unwrap_or_default();
         let configuration = configuration.as_chunks().0.to_vec();
@@ -80,8 +79,8 @@ impl EnergyRecorder {
                 file => (file?, read_table(path)?.rows),
             },
         };
-        let is_about_equilibrium = settling::is_about_equilibrium(scene, model);
-        let rows = EnergyRows::continued(scene, model, rows, configuration);
+        let is_about_equilibrium = settling::is_about_equilibrium(scene);
+        let rows = EnergyRows::continued(scene, rows, configuration);
         Ok(Self { file, rows, is_about_equilibrium })
     }
 

@@ -1,9 +1,8 @@
 //! The rows of the table of energies, and the means of its columns.
 
-use crate::families::{Column, Model, column};
+use crate::families::{Checked, Column, column};
 use crate::measure::Observables;
 use crate::measure::statistics::{Estimate, estimate};
-use crate::scene::Scene;
 use crate::table::Table;
 
 /// All rows of a run so far.
@@ -18,12 +17,13 @@ pub(super) struct EnergyRows {
 
 impl EnergyRows {
     /// No rows yet.
-    pub(super) fn new(scene: &Scene, model: &Model) -> Self {
-        Self::continued(scene, model, Vec::new(), Vec::new())
+    pub(super) fn new(scene: &Checked) -> Self {
+        Self::continued(scene, Vec::new(), Vec::new())
     }
 
     /// The rows of a run that goes on, and the sums behind the configurational temperature.
-    pub(super) fn continued(scene: &Scene, model: &Model, rows: Vec<Vec<f64>>, configuration: Vec<[f64; 2]>) -> Self {
+    pub(super) fn continued(scene: &Checked, rows: Vec<Vec<f64>>, configuration: Vec<[f64; 2]>) -> Self {
+        let model = scene.model();
         let columns = model.physics().columns(model);
         Self { columns, rows, configuration, time_step: scene.time.step, equilibration: scene.time.equilibration }
     }

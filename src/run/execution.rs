@@ -12,7 +12,7 @@ use super::tally::Carried;
 use super::task::Task;
 use super::{Event, Progress, RunError};
 use crate::engine::{EngineError, Sample, Shown, Stepper};
-use crate::families::{KeptQuantity, Model, PictureKind};
+use crate::families::{Checked, KeptQuantity, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
 use crate::output::summary::{AdapterSummary, ColumnSummary, RanksSummary, StartSummary};
@@ -21,7 +21,6 @@ use crate::output::{
 };
 use crate::plan::Need;
 use crate::ranks::{computes_alike, remedy};
-use crate::scene::Scene;
 use crate::state::{Reported, State};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -41,8 +40,7 @@ pub struct Outcome {
 /// A run under way: its open files and what it has gathered.
 pub(super) struct Run<'a> {
     task: &'a Task,
-    scene: &'a Scene,
-    model: &'a Model,
+    scene: &'a Checked,
     gpu: &'a Gpu,
     directory: &'a RunDirectory,
     schedule: Schedule,
@@ -70,18 +68,18 @@ impl<'a> Run<'a> {
         engine: &mut dyn Stepper,
         start: &Checkpoint,
     ) -> Result<Self, RunError> {
-        let Task { id, scene, model, directory, .. } = task;
-        let step = start.state.step;
+        let Task { id, scene, directory, .. } = task;
+        let (model, step) = (scene.model(), start.state.step);
         let path = directory.file(files::CHECKPOINT);
         let sections = Sections::new(&path, step, &start.sections);
         // What is wrong with the checkpoint is found before a file is touched.
-        let analyses = Analyses::new(&Setting { scene, model, plan: engine.plan() }, &sections)?;
+        let analyses = Analyses::new(&Setting { scene, plan: engine.plan() }, &sections)?;
         analyses.continue_windows(engine, &sections)?;
         let carried = Carried::new(model, &sections)?;
         let ranks = engine.ranks();
         let sharing = Sharing { strict: ranks.len() > 1 && !task.mixed, mixed: !computes_alike(ranks) };
         let kept_sums = KeptSums::new(model, &start.state, &sections, sharing)?;
-        let schedule = Schedule::new(scene, model, analyses.state_intervals());
+        let schedule = Schedule::new(scene, analyses.state_intervals());
         let written = |name: &str| match start.files.iter().find(|(known, _)| known == name) {
             // At step 0 there is nothing yet.
             _ if step == 0 => Ok(None),
@@ -94,7 +92,7 @@ impl<'a> Run<'a> {
             own_file::check_to_continue(&path).map_err(OutputError::io("continue", &path))?;
         }
         let table = directory.file(files::ENERGIES);
-        let energies = EnergyRecorder::open(&table, scene, model, written(files::ENERGIES)?, &sections)?;
+        let energies = EnergyRecorder::open(&table, scene, written(files::ENERGIES)?, &sections)?;
         let trajectory = match &scene.output.trajectory {
             None => None,
             Some(asked) => {
@@ -111,7 +109,6 @@ impl<'a> Run<'a> {
         Ok(Self {
             task,
             scene,
-            model,
             gpu,
             directory,
             schedule,
@@ -194,35 +191,35 @@ impl<'a> Run<'a> {
         self.record(&samples, engine)?;
         self.energies.file.flush()?;
         if let (Some(mut frame), Some(trajectory)) = (frame, &mut self.trajectory) {
-            with_flow(&mut frame, self.scene, self.model);
+            with_flow(&mut frame, self.scene);
             trajectory.append(&frame)?;
             trajectory.flush()?;
             engine.keep_alive();
         }
         let number = self.schedule.snapshot(step);
         let taken = self.analyses.take_state(step);
-        let fields = self.model.picture() == PictureKind::Fields;
+        let fields = self.scene.model().picture() == PictureKind::Fields;
         let is_shown = (number.is_some() || last) && (fields || self.task.draws);
         if is_shown || taken {
-            let most = most_shown(self.scene, self.model);
+            let most = most_shown(self.scene);
             let all = if taken { Shown::all(engine.reported()?) } else { engine.shown(most)? };
             let state = &all.state;
-            let setting = Setting { scene: self.scene, model: self.model, plan: engine.plan() };
+            let setting = Setting { scene: self.scene, plan: engine.plan() };
             self.analyses.add_state(state, &setting);
             if fields && is_shown {
-                let depth = mesh_depth(engine, self.model)?;
+                let depth = mesh_depth(engine, self.scene.model())?;
                 for number in number.map(Some).into_iter().chain(last.then_some(None)) {
-                    self.pictures.fields(number, state, &depth, self.model)?;
+                    self.pictures.fields(number, state, &depth, self.scene.model())?;
                     engine.keep_alive();
                 }
             } else if is_shown {
                 let shown = if all.numbers.is_some() { all } else { Shown::of(all.state, most) };
                 if let Some(number) = number {
-                    self.pictures.snapshot(&files::snapshot(number), &shown, self.model)?;
+                    self.pictures.snapshot(&files::snapshot(number), &shown, self.scene.model())?;
                     engine.keep_alive();
                 }
                 if last {
-                    self.pictures.snapshot(files::SNAPSHOT, &shown, self.model)?;
+                    self.pictures.snapshot(files::SNAPSHOT, &shown, self.scene.model())?;
                 }
             }
         }
@@ -251,7 +248,7 @@ impl<'a> Run<'a> {
         sections.extend(of_states);
         sections.extend(self.kept_sums.sections());
         sections.extend(self.pictures.sections());
-        sections.extend(self.carried.section(self.model, engine)?);
+        sections.extend(self.carried.section(self.scene.model(), engine)?);
         let mut written = vec![(files::ENERGIES.to_owned(), self.energies.file.extent())];
         if let (Some(trajectory), Some(asked)) = (&self.trajectory, &self.scene.output.trajectory) {
             written.push((files::trajectory(asked.format).to_owned(), trajectory.extent()));
@@ -267,7 +264,7 @@ impl<'a> Run<'a> {
     }
 
     fn record(&mut self, samples: &[Sample], engine: &dyn Stepper) -> Result<(), RunError> {
-        let setting = Setting { scene: self.scene, model: self.model, plan: engine.plan() };
+        let setting = Setting { scene: self.scene, plan: engine.plan() };
         for sample in samples {
             if sample.sampler == 0 {
                 self.kept_sums.compare(sample);
@@ -275,8 +272,8 @@ impl<'a> Run<'a> {
                     let reason = format!("{reason}: the ranks do not compute alike{}", remedy(engine.ranks()));
                     return Err(EngineError::Ranks { reason }.into());
                 }
-                let mut observables = observables_of(sample, engine.plan(), self.model);
-                self.carried.complete(self.model, &mut observables);
+                let mut observables = observables_of(sample, engine.plan(), self.scene.model());
+                self.carried.complete(self.scene.model(), &mut observables);
                 self.energies.add(&observables)?;
             } else {
                 self.analyses.add(sample, &setting);
@@ -293,7 +290,7 @@ impl<'a> Run<'a> {
         Progress {
             step,
             last_step,
-            particle_steps_per_second: rate * self.model.particle_count() as f64,
+            particle_steps_per_second: rate * self.scene.model().particle_count() as f64,
             remaining: Duration::try_from_secs_f64(left).ok(),
             temperature: self.energies.temperature(),
         }
@@ -313,9 +310,10 @@ impl<'a> Run<'a> {
             task.obey(saved_step)
         };
         let adapter = AdapterSummary::from(self.gpu.description());
-        let mut summary = Summary::new(self.task.id, self.scene.clone(), adapter, self.model.particle_count());
-        summary.start = StartSummary::new(self.scene, self.model);
-        summary.columns = ColumnSummary::of(self.model);
+        let mut summary =
+            Summary::new(self.task.id, self.scene.clone().into_scene(), adapter, self.scene.model().particle_count());
+        summary.start = StartSummary::new(self.scene);
+        summary.columns = ColumnSummary::of(self.scene.model());
         let last_step = self.scene.time.steps;
         summary.set_duration(last_step, steps, spent.as_secs_f64());
         if let Some(earlier) = self.task.earlier.as_deref().filter(|earlier| steps == 0 && earlier.steps == last_step) {
@@ -323,17 +321,17 @@ impl<'a> Run<'a> {
             summary.wall_seconds = earlier.wall_seconds;
             summary.particle_steps_per_second = earlier.particle_steps_per_second;
         }
-        let composition = self.model.composition(self.scene).into_iter();
+        let composition = self.scene.composition().into_iter();
         summary.composition = composition.map(|(name, text)| format!("{name}: {text}")).collect();
         summary.warnings = warnings;
         summary.ranks = self.ranks.take();
         self.energies.summarise(&mut summary);
-        let setting = Setting { scene: self.scene, model: self.model, plan: engine.plan() };
+        let setting = Setting { scene: self.scene, plan: engine.plan() };
         self.analyses.conclude(&setting, self.directory, &mut summary, &go_on)?;
         let changed = self.kept_sums.lost();
         let lost: Vec<KeptQuantity> = changed.iter().map(|(quantity, _)| *quantity).collect();
-        summary.conserved_exactly = conserved(self.model, &lost, self.kept_sums.is_mixed());
-        summary.not_conserved = not_conserved(self.model, &changed);
+        summary.conserved_exactly = conserved(self.scene.model(), &lost, self.kept_sums.is_mixed());
+        summary.not_conserved = not_conserved(self.scene.model(), &changed);
         let written = |name: &&str| self.directory.file(name).exists();
         let is_table = |name: &&str| Path::new(name).extension().is_some_and(|extension| extension == "csv");
         for name in files::all().filter(is_table).filter(written) {
@@ -345,7 +343,7 @@ impl<'a> Run<'a> {
         summary.save(&path)?;
         go_on()?;
         if self.task.draws {
-            self.pictures.energies(&self.energies.rows.table(), self.model, &summary)?;
+            self.pictures.energies(&self.energies.rows.table(), self.scene.model(), &summary)?;
             self.pictures.analyses(&summary, &go_on)?;
         } else {
             // Those that are there show an earlier end.
@@ -367,7 +365,8 @@ impl<'a> Run<'a> {
 }
 
 /// Adds the momenta of the linear profile that analyses of a sheared box leave out of those of split steps.
-fn with_flow(frame: &mut Reported, scene: &Scene, model: &Model) {
+fn with_flow(frame: &mut Reported, scene: &Checked) {
+    let model = scene.model();
     let particles = model.particles();
     let Some(shear) =
         particles.shear.as_ref().filter(|_| particles.splits(model) && needs(&scene.output).contains(&Need::Momenta))

@@ -190,13 +190,13 @@ mod tests {
     /// A model, and a sample of its start.
     fn start(text: &str) -> (Model, State, Sample) {
         let scene = scene::parse("test", text, &[]).unwrap();
-        let model = Model::new(&scene);
-        let state = initial_state(&scene, &model);
+        let model = scene.model();
+        let state = initial_state(&scene);
         let mut sums = vec![0; 12];
-        for sum in model.physics().kept(&model, &state) {
+        for sum in model.physics().kept(model, &state) {
             sums[sum.parts[0].0] = sum.total;
         }
-        (model, state, Sample { sampler: 0, step: 0, sums })
+        (model.clone(), state, Sample { sampler: 0, step: 0, sums })
     }
 
     const FLUID: &str = r#"{"title": "t", "space": {"box": [5, 5, 5]}, "time": {"step": 0.01, "steps": 1}, "temperature": 1,

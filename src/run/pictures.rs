@@ -6,7 +6,7 @@ use super::analyses::{self, mean};
 use super::colour_ranges::{self, ColourRanges};
 use crate::engine::{Engine, Shown, Stepper};
 use crate::families::pictures::{CellValues, EnergyChart, MeshPictures, ValueScale};
-use crate::families::{Model, PictureKind};
+use crate::families::{Checked, Model, PictureKind};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::numbers::grouped;
 use crate::output::{
@@ -18,7 +18,7 @@ use crate::plot::{
     ShownValues, averages_note, energetic_cells_chart, energies_chart, mesh_energies_chart, missing_glyphs,
     snapshot_size,
 };
-use crate::scene::{self, AnalysisTable, Scene, Snapshot, SnapshotColor};
+use crate::scene::{AnalysisTable, Scene, Snapshot, SnapshotColor, WrittenScene};
 use crate::shaders::Array;
 use crate::state::{Reported, crossings};
 use crate::table::Table;
@@ -38,7 +38,7 @@ pub fn redraw(
     let summary = Summary::load(&directory.file(files::SUMMARY))?;
     let text = serde_json::to_string(&summary.scene).unwrap_or_default();
     let name = directory.file(files::SUMMARY).display().to_string();
-    let scene = scene::parse_kept(&name, &text, overrides, None)?;
+    let scene = WrittenScene::new(name, text).with(overrides).check_kept(None)?;
     // The run's own scene for everything but the look.
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
     summary.check_run(checkpoint.run_id, &checkpoint.scene, &directory.file(files::SUMMARY))?;
@@ -48,23 +48,23 @@ pub fn redraw(
         return Err(OutputError::Continued { directory, finished }.into());
     }
     summary.check_tables(directory)?;
-    let model = Model::new(&checkpoint.scene);
-    let (gpu, _) = open_adapter(&checkpoint.scene, &model, choice, Options::default())?;
+    let model = checkpoint.scene.model();
+    let (gpu, _) = open_adapter(&checkpoint.scene, choice, Options::default())?;
     let mut pictures = Pictures::again(&gpu, directory, &scene, &checkpoint);
     let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
-    pictures.energies(&table, &model, &summary)?;
+    pictures.energies(&table, model, &summary)?;
     let mut written = vec![files::ENERGIES_PLOT];
     written.extend(pictures.analyses(&summary, &|| Ok(()))?);
-    let plan = plan_for(&checkpoint.scene, &model, &gpu, Options::default().with_room(model.particle_count()));
+    let plan = plan_for(&checkpoint.scene, &gpu, Options::default().with_room(model.particle_count()));
     let mut engine = Engine::new(&gpu, plan, &checkpoint.state)?;
     if model.picture() == PictureKind::Fields {
         let state = engine.reported()?;
-        let depth = mesh_depth(&mut engine, &model)?;
-        let names = pictures.fields(None, &state, &depth, &model)?;
+        let depth = mesh_depth(&mut engine, model)?;
+        let names = pictures.fields(None, &state, &depth, model)?;
         written.extend(files::all().filter(|name| names.iter().any(|written| written == name)));
     } else {
-        let shown = engine.shown(most_shown(&scene, &model))?;
-        pictures.snapshot(files::SNAPSHOT, &shown, &model)?;
+        let shown = engine.shown(most_shown(&scene))?;
+        pictures.snapshot(files::SNAPSHOT, &shown, model)?;
         if model.units.dimension > 1 {
             written.push(files::SNAPSHOT);
         }
@@ -79,8 +79,9 @@ pub(super) fn mesh_depth(engine: &mut dyn Stepper, model: &Model) -> Result<Vec<
 }
 
 /// Particles that a picture shows; of more a sample. A particle covers a pixel and a half at least, so that it is as full as with all.
-pub(super) fn most_shown(scene: &Scene, model: &Model) -> u64 {
+pub(super) fn most_shown(scene: &Checked) -> u64 {
     const LEAST: u64 = 1 << 22;
+    let model = scene.model();
     if model.picture() != PictureKind::Particles {
         return u64::MAX;
     }
@@ -465,9 +466,9 @@ mod tests {
 
     #[test]
     fn means_of_a_summary_stand_in_the_chart() {
-        let scene = scene::load("dpd-fluid", &[]).unwrap();
+        let scene = crate::scene::load("dpd-fluid", &[]).unwrap();
         let mut summary =
-            Summary::new(Id::of_run(&scene), scene, crate::output::summary::AdapterSummary::default(), 10);
+            Summary::new(Id::of_run(&scene), scene.into_scene(), crate::output::summary::AdapterSummary::default(), 10);
         summary.add_mean("temperature", crate::measure::statistics::estimate(&[0.75, 1.25]).as_ref());
         summary.add_mean("pressure", None);
         let averages = averages(&summary);

@@ -4,10 +4,10 @@ use super::RunError;
 use super::adapter::plan_for;
 use super::sizes::Sizes;
 use crate::engine::{Engine, EngineError};
-use crate::families::{self, Instability, Model};
+use crate::families::{self, Checked, Instability};
 use crate::gpu::{AdapterKind, Gpu};
 use crate::plan::{Options, Plan};
-use crate::scene::{self, Scene};
+use crate::scene::{self};
 use std::time::{Duration, Instant};
 
 /// The work of a step and the nodes of a mesh, relative to the small fluid, up to which steps of the scene itself are timed.
@@ -64,19 +64,17 @@ pub struct ExpectedTime {
 ///
 /// # Errors
 /// [`RunError`] if already the first steps fail: [`RunError::UnstableTrial`] if it is the scene that is unstable.
-pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError> {
-    let model = Model::new(scene);
-    let plan = plan_for(scene, &model, gpu, Options::default());
+pub fn expected_time(scene: &Checked, gpu: &Gpu) -> Result<ExpectedTime, RunError> {
+    let plan = plan_for(scene, gpu, Options::default());
     let fluid = scene::load("dpd-fluid", &["time.equilibration=0".to_owned(), "output={}".to_owned()])?;
-    let known = Model::new(&fluid);
     let work = |plan: &Plan| plan.operations_per_particle * plan.particles as f64;
-    let relative = work(&plan) / work(&plan_for(&fluid, &known, gpu, Options::default()));
-    let nodes = model.physics().nodes();
+    let relative = work(&plan) / work(&plan_for(&fluid, gpu, Options::default()));
+    let nodes = scene.model().physics().nodes();
     let of_scene = relative <= MOST_WORK && nodes <= MOST_NODES;
     let timed = if of_scene {
-        time_of_step(scene, &model, gpu, Options::default())?
+        time_of_step(scene, gpu, Options::default())?
     } else {
-        let timed = time_of_step(&fluid, &known, gpu, Options::default())?;
+        let timed = time_of_step(&fluid, gpu, Options::default())?;
         Timed { step: timed.step * relative, ..timed }
     };
     let Timed { step, steps, unstable } = timed;
@@ -85,7 +83,7 @@ pub fn expected_time(scene: &Scene, gpu: &Gpu) -> Result<ExpectedTime, RunError>
     let reports: f64 = plan.samplers.iter().map(|sampler| all / sampler.every as f64).sum();
     let factor = if of_scene { FACTOR_OF_SCENE } else { FACTOR_OF_ARITHMETIC };
     let kind = usize::from(gpu.description().kind != AdapterKind::Software);
-    let drawing = FIRST_PICTURE[kind] + PIXEL[kind] * Sizes::of(scene, &model, &plan).pixels;
+    let drawing = FIRST_PICTURE[kind] + PIXEL[kind] * Sizes::of(scene, &plan).pixels;
     Ok(ExpectedTime { seconds: step * (all + reports), drawing, step, factor, of_scene, steps, unstable })
 }
 
@@ -98,15 +96,16 @@ struct Timed {
 }
 
 /// Times steps of a scene.
-fn time_of_step(scene: &Scene, model: &Model, gpu: &Gpu, options: Options) -> Result<Timed, RunError> {
-    let plan = plan_for(scene, model, gpu, options).without_reports();
-    let state = families::initial_state(scene, model);
+fn time_of_step(scene: &Checked, gpu: &Gpu, options: Options) -> Result<Timed, RunError> {
+    let model = scene.model();
+    let plan = plan_for(scene, gpu, options).without_reports();
+    let state = families::initial_state(scene);
     let mut engine = Engine::new(gpu, plan, &state)?;
     // The first steps list neighbours and touch memory for the first time.
     match engine.advance(2, 2).and_then(|()| engine.finish()) {
         // As a run does.
         Err(EngineError::Crowded { .. }) if options.has_room_left() => {
-            return time_of_step(scene, model, gpu, options.with_room(model.particle_count()));
+            return time_of_step(scene, gpu, options.with_room(model.particle_count()));
         }
         Err(EngineError::Unstable(failure)) => {
             return Err(RunError::UnstableTrial(Instability::new(&failure, engine.plan(), model)));

@@ -1,21 +1,18 @@
 //! The plan of a run: the physics, completed with the samplers of the analyses, and suited to the memory of the adapter.
 
 use super::analyses::{Planner, add_samplers, needs};
-use crate::families::Model;
+use crate::families::Checked;
 use crate::plan::{Hardware, Measured, Options, Plan};
-use crate::scene::Output;
 
-/// Makes the plan of a model.
+/// Makes the plan of a scene.
 ///
 /// ```
-/// use mesoscope::families::Model;
 /// use mesoscope::plan::{Hardware, Options};
 /// use mesoscope::run::plan;
 ///
 /// // No device is needed to see what a run would do, nor to check its shaders.
 /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
-/// let model = Model::new(&scene);
-/// let plan = plan(&model, scene.time.equilibration, &scene.output, Hardware::default(), Options::default());
+/// let plan = plan(&scene, Hardware::default(), Options::default());
 /// assert_eq!((plan.particles, plan.cells), (24_000, [20, 20, 20]));
 /// assert!(plan.samplers[0].due(40) && !plan.samplers[0].due(41));
 /// for kernel in plan.sort.iter().chain(&plan.advance).map(|&index| &plan.kernels[index]) {
@@ -24,13 +21,14 @@ use crate::scene::Output;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn plan(model: &Model, equilibration: u64, output: &Output, hardware: Hardware, options: Options) -> Plan {
+pub fn plan(scene: &Checked, hardware: Hardware, options: Options) -> Plan {
+    let (model, output) = (scene.model(), &scene.output);
     let range = output.radial_distribution.as_ref().map_or(0.0, |asked| asked.range);
     let follows = model.follows_paths(output);
     let (every, needs, frames) = (output.energies.every, needs(output), output.trajectory.is_some());
     let measured = Measured { every, needs, range, follows, frames };
     let mut physics = model.physics().plan(model, &measured, hardware, options);
-    add_samplers(&mut Planner::new(model, output, equilibration, options, &mut physics));
+    add_samplers(&mut Planner::new(model, output, scene.time.equilibration, options, &mut physics));
     let mut plan = physics.plan;
     if follows {
         plan.follow(physics.followers, physics.stride);

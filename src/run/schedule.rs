@@ -1,7 +1,6 @@
 //! When a run has to stop for something.
 
-use crate::families::{Model, PictureKind};
-use crate::scene::Scene;
+use crate::families::{Checked, PictureKind};
 use std::time::Duration;
 
 /// The steps of checkpoints, snapshots and frames.
@@ -18,9 +17,9 @@ pub(super) struct Schedule {
 
 impl Schedule {
     /// The schedule of a scene, with the steps between two states that its analyses take.
-    pub(super) fn new(scene: &Scene, model: &Model, states: Vec<u64>) -> Self {
+    pub(super) fn new(scene: &Checked, states: Vec<u64>) -> Self {
         let output = &scene.output;
-        let pictures = match model.picture() {
+        let pictures = match scene.model().picture() {
             PictureKind::Fields => output.fields.as_ref().map_or(0, |fields| fields.every),
             PictureKind::Particles | PictureKind::Cells => output.snapshot.every,
         };

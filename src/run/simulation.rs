@@ -11,21 +11,20 @@ use super::task::Task;
 use super::team;
 use super::{Event, RunError};
 use crate::engine::{Engine, EngineError, RankReport, Stepper};
-use crate::families::{self, Instability, Model};
+use crate::families::Checked;
+use crate::families::{self, Instability};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::{RankSummary, RanksSummary};
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
 use crate::plan::{Division, Hardware, Options, Part, Plan};
 use crate::ranks::{Processes, computes_alike, sharing_anywhere};
-use crate::scene::{self, Scene, Warning};
 use std::path::PathBuf;
 
 /// A run to be executed: a scene, where it begins and where its files go.
 #[derive(Debug, Clone)]
 pub struct Simulation {
-    scene: Scene,
-    model: Model,
+    scene: Checked,
     beginning: Beginning,
     interrupt: Interrupt,
     /// What was done to the scene before the run, for its summary.
@@ -57,10 +56,11 @@ impl Simulation {
     /// A run of a checked scene from step 0 into a directory, which is created. With `force` the files of an earlier
     /// run there are replaced.
     #[must_use]
-    pub fn start(scene: Scene, directory: impl Into<PathBuf>, force: bool) -> Self {
+    pub fn start(scene: Checked, directory: impl Into<PathBuf>, force: bool) -> Self {
         let beginning = Beginning::New { directory: directory.into(), force };
-        let (id, model) = (Id::of_run(&scene), Model::new(&scene));
-        Self::new(scene, model, beginning, Vec::new(), id)
+        let id = Id::of_run(&scene);
+        let notices = scene.notices().iter().map(ToString::to_string).collect();
+        Self::new(scene, beginning, notices, id)
     }
 
     /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory
@@ -86,16 +86,14 @@ impl Simulation {
         let notices = checkpoint.sections.iter().find(|(name, _)| name == NOTICES);
         let notices = notices.and_then(|(_, bytes)| serde_json::from_slice(bytes).ok()).unwrap_or_default();
         if let Some(steps) = steps.filter(|steps| *steps != scene.time.steps) {
-            scene.time.steps = steps;
+            scene = scene.changed(|scene| scene.time.steps = steps);
             if steps > checkpoint.state.step {
-                scene = scene::checked(&path.display().to_string(), &scene)?;
+                scene = scene.check_kept(&path.display().to_string())?;
             }
         }
-        let model = Model::new(&scene);
         // What a state has to have is the same on every adapter.
         let (hardware, options) = (Hardware::default(), Options::default());
-        let plan = plan(&model, scene.time.equilibration, &scene.output, hardware, options);
-        if let Some(problem) = plan.misfit(&checkpoint.state, &model) {
+        if let Some(problem) = plan(&scene, hardware, options).misfit(&checkpoint.state, scene.model()) {
             return Err(CheckpointError::malformed(&path, problem).into());
         }
         let summary = directory.file(files::SUMMARY);
@@ -111,12 +109,12 @@ impl Simulation {
         directory.check_run(checkpoint.run_id, files::CHECKPOINT)?;
         let id = checkpoint.run_id;
         let beginning = Beginning::Checkpoint { directory, checkpoint: Box::new(checkpoint), earlier };
-        Ok(Self::new(scene, model, beginning, notices, id))
+        Ok(Self::new(scene, beginning, notices, id))
     }
 
-    fn new(scene: Scene, model: Model, beginning: Beginning, notices: Vec<String>, id: Id) -> Self {
+    fn new(scene: Checked, beginning: Beginning, notices: Vec<String>, id: Id) -> Self {
         let interrupt = Interrupt::default();
-        Self { scene, model, beginning, interrupt, notices, id, division: None, mixed: false, draws: true }
+        Self { scene, beginning, interrupt, notices, id, division: None, mixed: false, draws: true }
     }
 
     /// The same run without pictures; arrays of fields are written. [`redraw`](super::redraw) draws those of its end, and those of an earlier
@@ -124,13 +122,6 @@ impl Simulation {
     #[must_use]
     pub fn without_pictures(self) -> Self {
         Self { draws: false, ..self }
-    }
-
-    /// The same run, whose summary also says what was done to the scene, as [`scene::load_for`] does.
-    #[must_use]
-    pub fn noting(mut self, notices: &[Warning]) -> Self {
-        self.notices.extend(notices.iter().map(ToString::to_string));
-        self
     }
 
     /// The same run as part of a sweep, whose summary has its id.
@@ -162,15 +153,9 @@ impl Simulation {
         Self { mixed, ..self }
     }
 
-    /// The model of the scene.
-    #[must_use]
-    pub fn model(&self) -> &Model {
-        &self.model
-    }
-
     /// The scene, with every default filled in.
     #[must_use]
-    pub fn scene(&self) -> &Scene {
+    pub fn scene(&self) -> &Checked {
         &self.scene
     }
 
@@ -218,7 +203,7 @@ impl Simulation {
         choice: &AdapterChoice,
         observer: &mut dyn FnMut(Event<'_>),
     ) -> Result<Outcome, RunError> {
-        let Self { scene, model, beginning, interrupt, notices, id, division, mixed, draws } = self;
+        let Self { scene, beginning, interrupt, notices, id, division, mixed, draws } = self;
         let part = division.map(|division| Part { division, rank: 0 });
         let mut options = Options { part, ..Options::default() };
         // Whatever takes long before the first step can be left; until then nothing is written, or there is a checkpoint already.
@@ -226,14 +211,14 @@ impl Simulation {
         let asked = interrupt.clone();
         let proceed = move || if is_new && asked.is_asked() { Err(RunError::NotBegun) } else { Ok(()) };
         let keep_alive = || processes.iter().for_each(|processes| processes.channel().keep_alive());
-        let (mut gpu, mut plan) = open_adapter(&scene, &model, choice, options)?;
+        let (mut gpu, mut plan) = open_adapter(&scene, choice, options)?;
         keep_alive();
         proceed()?;
         let (directory, mut start, earlier, replaces) = match beginning {
             Beginning::New { directory, force } => {
-                let state = families::initial_state(&scene, &model);
+                let state = families::initial_state(&scene);
                 proceed()?;
-                families::check_start(&scene, &model, &state)?;
+                families::check_start(&scene, &state)?;
                 proceed()?;
                 let directory = RunDirectory::make(directory)?;
                 directory.in_the_way(force)?;
@@ -245,8 +230,8 @@ impl Simulation {
         };
         keep_alive();
         let (first_step, last_step) = (start.state.step, scene.time.steps);
-        let mut pace = Pace::new(model.particle_count(), plan.operations_per_particle);
-        let task = Task { id, scene, model, directory, interrupt, notices, mixed, draws, earlier };
+        let mut pace = Pace::new(scene.model().particle_count(), plan.operations_per_particle);
+        let task = Task { id, scene, directory, interrupt, notices, mixed, draws, earlier };
         let mut begun = false;
         loop {
             let opened = open(&task, &gpu, plan, (choice, processes), options, &start);
@@ -264,20 +249,22 @@ impl Simulation {
                         observer(Event::Warned { warning: &warning });
                     }
                     if !computes_alike(engine.ranks()) {
-                        observer(Event::Warned { warning: &warning_of_mixed_ranks(&task.model) });
+                        observer(Event::Warned { warning: &warning_of_mixed_ranks(task.scene.model()) });
                     }
                 }
                 attempt(&task, &gpu, engine.as_mut(), &mut start, &mut pace, observer)
             });
             match ended {
                 Err(RunError::Engine(error)) => {
-                    let particles = task.model.particle_count();
+                    let particles = task.scene.model().particle_count();
                     let (reason, with);
                     // Too rare for every run to pay for it in memory or time.
                     (options, reason, with) = match error {
-                        EngineError::Crowded { .. } if options.has_room_left() => {
-                            (options.with_room(particles), task.model.physics().crowd(&task.model), "more memory")
-                        }
+                        EngineError::Crowded { .. } if options.has_room_left() => (
+                            options.with_room(particles),
+                            task.scene.model().physics().crowd(task.scene.model()),
+                            "more memory",
+                        ),
                         EngineError::Overreached { .. } if options.may_lengthen() => {
                             (options.with_longer_bonds(), "a bond is longer than expected", "wider halos")
                         }
@@ -287,7 +274,7 @@ impl Simulation {
                         start = task.last_checkpoint(start)?;
                     }
                     observer(Event::Repeating { from: start.state.step, reason, with });
-                    (gpu, plan) = open_adapter(&task.scene, &task.model, choice, options)?;
+                    (gpu, plan) = open_adapter(&task.scene, choice, options)?;
                     keep_alive();
                 }
                 ended => return ended,
@@ -305,7 +292,7 @@ fn open<'a>(
     options: Options,
     start: &Checkpoint,
 ) -> Result<Box<dyn Stepper + 'a>, RunError> {
-    let (scene, mixed) = ((&task.scene, &task.model), task.mixed);
+    let (scene, mixed) = ((&task.scene), task.mixed);
     Ok(match (options.part, processes) {
         (Some(Part { division, .. }), Some(processes)) => {
             Box::new(team::team_of_processes(scene, gpu, choice, (division, mixed), options, &start.state, processes)?)
@@ -334,7 +321,7 @@ fn attempt(
             let (checkpoint, checkpoint_step) = (task.directory.file(files::CHECKPOINT), run.saved_step);
             return Err(match source {
                 EngineError::Unstable(failure) => {
-                    let source = Instability::new(&failure, engine.plan(), &task.model);
+                    let source = Instability::new(&failure, engine.plan(), task.scene.model());
                     RunError::Unstable { source, checkpoint, checkpoint_step }
                 }
                 source => RunError::GaveUp { source, checkpoint, checkpoint_step },
@@ -346,8 +333,8 @@ fn attempt(
     run.ranks = ranks(engine);
     observer(Event::Finishing);
     let mut warnings = task.notices.clone();
-    warnings.extend(task.model.warnings(&task.scene).iter().map(ToString::to_string));
-    warnings.extend(run.kept_sums.is_mixed().then(|| warning_of_mixed_ranks(&task.model)));
+    warnings.extend(families::warnings(&task.scene).iter().map(ToString::to_string));
+    warnings.extend(run.kept_sums.is_mixed().then(|| warning_of_mixed_ranks(task.scene.model())));
     warnings.extend(run.kept_sums.warning());
     warnings.extend(pictures::lettering(&task.scene));
     let saved_step = run.saved_step;

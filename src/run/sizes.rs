@@ -1,11 +1,10 @@
 //! How large the files of a run will be, before it begins.
 
 use super::analyses::{AskedAnalysis, asked_analyses};
-use crate::families::{Model, PictureKind};
+use crate::families::{Checked, PictureKind};
 use crate::output::bytes_per_particle;
 use crate::plan::Plan;
 use crate::plot::snapshot_size;
-use crate::scene::Scene;
 
 /// Bytes of a number in a table, with its comma: most have sixteen or seventeen digits.
 const NUMBER: u64 = 19;
@@ -38,16 +37,14 @@ impl Sizes {
     /// The sizes for a scene, its model and a plan of it; estimates, but for trajectories and checkpoints within a few per cent.
     ///
     /// ```
-    /// use mesoscope::families::Model;
     /// use mesoscope::run::Sizes;
     /// use mesoscope::plan::{Hardware, Options};
     /// use mesoscope::run::plan;
     ///
     /// let sizes = |set: &str| {
     ///     let scene = mesoscope::scene::load("dpd-fluid", &[set.to_owned()])?;
-    ///     let model = Model::new(&scene);
-    ///     let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
-    ///     Ok::<_, mesoscope::scene::SceneError>(Sizes::of(&scene, &model, &plan))
+    ///     let plan = plan(&scene, Hardware::default(), Options::default());
+    ///     Ok::<_, mesoscope::scene::SceneError>(Sizes::of(&scene, &plan))
     /// };
     /// assert_eq!(sizes("seed=1")?.trajectory, 0);
     /// let long = sizes(r#"output.trajectory={"every":1}"#)?;
@@ -56,12 +53,13 @@ impl Sizes {
     /// # Ok::<(), mesoscope::scene::SceneError>(())
     /// ```
     #[must_use]
-    pub fn of(scene: &Scene, model: &Model, plan: &Plan) -> Self {
+    pub fn of(scene: &Checked, plan: &Plan) -> Self {
+        let model = scene.model();
         let output = &scene.output;
         let times = |every: u64| scene.time.steps.checked_div(every).map_or(0, |times| times.saturating_add(1));
         let columns = super::quantities(model).len() as u64 + 2;
         let energies = times(output.energies.every).saturating_mul(NUMBER * columns);
-        let analyses = asked_analyses(scene, model);
+        let analyses = asked_analyses(scene);
         let trajectory = output.trajectory.as_ref().map_or(0, |asked| {
             times(asked.every)
                 .saturating_mul(bytes_per_particle(asked.format).saturating_mul(plan.particles).saturating_add(300))

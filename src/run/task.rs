@@ -2,15 +2,13 @@
 
 use super::RunError;
 use super::interrupt::Interrupt;
-use crate::families::Model;
+use crate::families::Checked;
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
-use crate::scene::Scene;
 
 /// What stays the same if a run has to go back.
 pub(super) struct Task {
     pub id: Id,
-    pub scene: Scene,
-    pub model: Model,
+    pub scene: Checked,
     pub directory: RunDirectory,
     pub interrupt: Interrupt,
     /// What was done to the scene before the run.

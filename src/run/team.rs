@@ -4,7 +4,8 @@ use super::RunError;
 use super::adapter::{open_adapter, plan_for};
 use super::division::fits;
 use crate::engine::{Engine, EngineError, RankReport, Swap, Traffic};
-use crate::families::{Model, initial_state};
+use crate::families::Checked;
+use crate::families::initial_state;
 use crate::gpu::{AdapterChoice, Gpu, adapters_by_turns};
 use crate::plan::{Division, Hardware, Options, Part};
 use crate::ranks::{Channel, Processes, Team, decline, serve, threads};
@@ -26,16 +27,15 @@ use std::thread;
 ///
 /// let changes = ["space.box=[3,3,12]", "output={}"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &changes)?;
-/// let model = families::Model::new(&scene);
-/// let start = families::initial_state(&scene, &model);
+/// let start = families::initial_state(&scene);
 /// let gpu = run::adapter_for(&scene, &AdapterChoice::Best)?;
 /// let options = Options::default();
 ///
 /// // Two ranks, one after the other along z, do what one does, to the last bit.
 /// let division = Division { parts: [1, 1, 2] };
-/// let mut team = run::team((&scene, &model), &gpu, &AdapterChoice::Best, (division, false), options, &start)?;
+/// let mut team = run::team(&scene, &gpu, &AdapterChoice::Best, (division, false), options, &start)?;
 /// team.advance(20, 20)?;
-/// let mut alone = Engine::new(&gpu, run::plan(&model, 0, &scene.output, (&gpu).into(), options), &start)?;
+/// let mut alone = Engine::new(&gpu, run::plan(&scene, (&gpu).into(), options), &start)?;
 /// alone.advance(20, 20)?;
 /// assert_eq!(team.state()?, alone.state()?);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -44,7 +44,7 @@ use std::thread;
 /// # Errors
 /// [`RunError`] of the first rank that cannot be opened or does not take its part.
 pub fn team<'a>(
-    (scene, model): (&Scene, &Model),
+    scene: &Checked,
     gpu: &'a Gpu,
     choice: &AdapterChoice,
     (division, mixed): (Division, bool),
@@ -53,7 +53,7 @@ pub fn team<'a>(
 ) -> Result<Team<'a>, RunError> {
     let part = |rank| Options { part: Some(Part { division, rank }), ..options };
     // Parts have to be wide enough for what their ranks have to know of each other.
-    if !plan_for(scene, model, gpu, part(0)).part.as_ref().is_some_and(|part| fits(model, part)) {
+    if !plan_for(scene, gpu, part(0)).part.as_ref().is_some_and(|part| fits(scene.model(), part)) {
         return Err(RunError::Undividable { reasons: vec!["its parts are too thin for this scene".to_owned()] });
     }
     let mut links = threads::links(division.ranks()).into_iter();
@@ -62,28 +62,28 @@ pub fn team<'a>(
     };
     let mut threads = Vec::new();
     for (rank, links) in (1..).zip(links) {
-        let (scene, model, choice) = (scene.clone(), model.clone(), choice.of_rank(rank as usize));
+        let (scene, choice) = (scene.clone(), choice.of_rank(rank as usize));
         let options = part(rank);
         threads.push(thread::spawn(move || {
             let threads::Links { mut channel, peers } = links;
             // Whoever is left alone ends; the first rank is told, or is gone.
-            let _ = take_part((&scene, &model), &choice, options, &mut channel, Box::new(peers));
+            let _ = take_part(&scene, &choice, options, &mut channel, Box::new(peers));
         }));
     }
     first.channel.keep(threads);
-    let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, part(0)), Box::new(first.peers))?;
+    let engine = Engine::of_part(gpu, plan_for(scene, gpu, part(0)), Box::new(first.peers))?;
     Ok(Team::new(engine, introduction(gpu, scene, choice)?, Box::new(first.channel), state, mixed)?)
 }
 
 /// Opens this rank's adapter and does what the first rank tells.
 fn take_part<'a>(
-    (scene, model): (&Scene, &Model),
+    scene: &Checked,
     choice: &AdapterChoice,
     options: Options,
     channel: &mut dyn Channel,
     peers: Box<dyn Swap + 'a>,
 ) -> Result<(), String> {
-    let (gpu, plan) = match open_adapter(scene, model, choice, options) {
+    let (gpu, plan) = match open_adapter(scene, choice, options) {
         Ok(opened) => opened,
         Err(error) => return decline(channel, error.to_string()),
     };
@@ -101,14 +101,15 @@ const SMALL: [&str; 3] = ["space.box=[5,5,5]", "time.equilibration=0", "output={
 const STEPS: u64 = 8;
 
 /// A small scene of the kind of a scene; else a small fluid with its integrator and noise.
-fn small_scene(scene: &Scene) -> Result<Scene, RunError> {
-    if let Some(small) = Model::new(scene).physics().small_scene(scene) {
-        return Ok(small);
+fn small_scene(scene: &Checked) -> Result<Checked, RunError> {
+    if let Some(small) = scene.model().physics().small_scene(scene) {
+        return Ok(Checked::presumed(small));
     }
-    let mut small = scene::load("dpd-fluid", &SMALL.map(str::to_owned))?;
-    small.integrator.clone_from(&scene.integrator);
-    small.noise.clone_from(&scene.noise);
-    Ok(small)
+    let fluid = scene::load("dpd-fluid", &SMALL.map(str::to_owned))?;
+    Ok(fluid.changed(|small| {
+        small.integrator.clone_from(&scene.integrator);
+        small.noise.clone_from(&scene.noise);
+    }))
 }
 
 /// Checksums of small scenes by adapter, driver, plan and scene. Ranks of a process that share an adapter compute alike: one of them finds
@@ -116,7 +117,7 @@ fn small_scene(scene: &Scene) -> Result<Scene, RunError> {
 static CHECKSUMS: Mutex<BTreeMap<String, Arc<Mutex<Option<u32>>>>> = Mutex::new(BTreeMap::new());
 
 /// A checksum of the state that an adapter comes to after a few steps of a small scene.
-fn arithmetic(gpu: &Gpu, scene: &Scene) -> Result<u32, RunError> {
+fn arithmetic(gpu: &Gpu, scene: &Checked) -> Result<u32, RunError> {
     let small = small_scene(scene)?;
     if gpu.is_rewriting() {
         return checksum(gpu, &small);
@@ -133,10 +134,9 @@ fn arithmetic(gpu: &Gpu, scene: &Scene) -> Result<u32, RunError> {
     Ok(found)
 }
 
-fn checksum(gpu: &Gpu, small: &Scene) -> Result<u32, RunError> {
-    let model = Model::new(small);
-    let state = initial_state(small, &model);
-    let mut engine = Engine::new(gpu, plan_for(small, &model, gpu, Options::default()).without_reports(), &state)?;
+fn checksum(gpu: &Gpu, small: &Checked) -> Result<u32, RunError> {
+    let plan = plan_for(small, gpu, Options::default()).without_reports();
+    let mut engine = Engine::new(gpu, plan, &initial_state(small))?;
     engine.advance(STEPS, STEPS)?;
     let state = engine.state()?;
     let mut checksum = crc32fast::Hasher::new();
@@ -146,7 +146,7 @@ fn checksum(gpu: &Gpu, small: &Scene) -> Result<u32, RunError> {
 }
 
 /// This rank, with what its adapter makes of a small scene.
-fn introduction(gpu: &Gpu, scene: &Scene, choice: &AdapterChoice) -> Result<RankReport, RunError> {
+fn introduction(gpu: &Gpu, scene: &Checked, choice: &AdapterChoice) -> Result<RankReport, RunError> {
     let adapter = gpu.description();
     let host = std::fs::read_to_string("/proc/sys/kernel/hostname").map(|name| name.trim().to_owned());
     let host = host.or_else(|_| std::env::var("COMPUTERNAME")).unwrap_or_else(|_| "this machine".to_owned());
@@ -187,7 +187,7 @@ fn call(processes: &dyn Processes, call: &Call) -> Result<(), RunError> {
 
 /// As [`team`], of processes.
 pub(super) fn team_of_processes<'a>(
-    (scene, model): (&Scene, &Model),
+    scene: &Checked,
     gpu: &'a Gpu,
     choice: &AdapterChoice,
     (division, mixed): (Division, bool),
@@ -196,7 +196,7 @@ pub(super) fn team_of_processes<'a>(
     processes: &'a dyn Processes,
 ) -> Result<Team<'a>, RunError> {
     let version = VERSION.to_owned();
-    let scene_told = Box::new(scene.clone());
+    let scene_told = Box::new(Scene::clone(scene));
     let (repeated, lengthened) = (options.list_growth, options.lengthened);
     let start = scene.start().map(|start| start.to_bytes());
     call(
@@ -204,7 +204,7 @@ pub(super) fn team_of_processes<'a>(
         &Call::Share { version, scene: scene_told, start, division: division.parts, repeated, lengthened },
     )?;
     let options = Options { part: Some(Part { division, rank: 0 }), ..options };
-    let engine = Engine::of_part(gpu, plan_for(scene, model, gpu, options), processes.peers())?;
+    let engine = Engine::of_part(gpu, plan_for(scene, gpu, options), processes.peers())?;
     Ok(Team::new(engine, introduction(gpu, scene, choice)?, processes.channel(), state, mixed)?)
 }
 
@@ -232,12 +232,12 @@ pub fn follow(processes: &dyn Processes, rank: u32, choice: &AdapterChoice) -> R
             Call::Share { mut scene, start, division, repeated, lengthened, .. } => {
                 let start = start.as_deref().and_then(FileStart::from_bytes).map(Arc::new);
                 scene.kept = start.map(KeptStart::of).unwrap_or_default();
-                let model = Model::new(&scene);
-                let roomy = |options: Options, _| options.with_room(model.particle_count());
+                let scene = Checked::presumed(*scene);
+                let roomy = |options: Options, _| options.with_room(scene.model().particle_count());
                 let options = (0..repeated).fold(Options::default(), roomy);
                 let part = Some(Part { division: Division { parts: division }, rank });
                 let options = Options { lengthened, part, ..options };
-                take_part((&scene, &model), choice, options, channel.as_mut(), processes.peers()).map_err(lost)?;
+                take_part(&scene, choice, options, channel.as_mut(), processes.peers()).map_err(lost)?;
             }
         }
     }

@@ -5,20 +5,19 @@ use super::energy_rows::EnergyRows;
 use super::pace::Pace;
 use super::{Interrupt, RunError};
 use crate::engine::{Engine, EngineError, Sample};
-use crate::families::{self, Instability, Model};
+use crate::families::Checked;
+use crate::families::{self, Instability};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
 use crate::measure::statistics::Estimate;
 use crate::plan::Options;
-use crate::scene::{Output, Scene};
 use crate::state::State;
 use crate::table::Table;
 
 /// A run without files, which can be made longer.
 pub(crate) struct Trial<'a> {
     gpu: &'a Gpu,
-    scene: Scene,
-    model: Model,
+    scene: Checked,
     options: Options,
     engine: Engine<'a>,
     rows: EnergyRows,
@@ -43,16 +42,14 @@ impl<'a> Trial<'a> {
     ///
     /// # Errors
     /// [`RunError`] if the adapter cannot run it.
-    pub(crate) fn new(gpu: &'a Gpu, scene: &Scene) -> Result<Self, RunError> {
-        let energies = scene.output.energies.clone();
-        let scene = Scene { output: Output { energies, ..Output::default() }, ..scene.clone() };
-        let model = Model::new(&scene);
-        let state = families::initial_state(&scene, &model);
-        families::check_start(&scene, &model, &state)?;
-        let (engine, options) = open(gpu, &scene, &model, &state, Options::default())?;
-        let rows = EnergyRows::new(&scene, &model);
-        let pace = Pace::new(model.particle_count(), engine.plan().operations_per_particle);
-        Ok(Self { gpu, scene, model, options, engine, rows, saved: state, pace })
+    pub(crate) fn new(gpu: &'a Gpu, scene: &Checked) -> Result<Self, RunError> {
+        let scene = scene.clone().changed(|scene| scene.output = scene.output.energies_alone());
+        let state = families::initial_state(&scene);
+        families::check_start(&scene, &state)?;
+        let (engine, options) = open(gpu, &scene, &state, Options::default())?;
+        let rows = EnergyRows::new(&scene);
+        let pace = Pace::new(scene.model().particle_count(), engine.plan().operations_per_particle);
+        Ok(Self { gpu, scene, options, engine, rows, saved: state, pace })
     }
 
     /// Goes on until a step, which has a row.
@@ -64,11 +61,11 @@ impl<'a> Trial<'a> {
             match self.advance_once(last, interrupt) {
                 Err(EngineError::Crowded { .. }) if self.options.has_room_left() => {
                     // From where it was, with more room, as a run does.
-                    let options = self.options.with_room(self.model.particle_count());
-                    (self.engine, self.options) = open(self.gpu, &self.scene, &self.model, &self.saved, options)?;
+                    let options = self.options.with_room(self.scene.model().particle_count());
+                    (self.engine, self.options) = open(self.gpu, &self.scene, &self.saved, options)?;
                 }
                 Err(EngineError::Unstable(failure)) => {
-                    let reason = Instability::new(&failure, self.engine.plan(), &self.model);
+                    let reason = Instability::new(&failure, self.engine.plan(), self.scene.model());
                     return Ok(Stop::Unstable(format!("{} at step {}", reason.quantity, reason.step)));
                 }
                 Err(error @ EngineError::GaveUp { .. }) => return Ok(Stop::Unstable(error.to_string())),
@@ -107,7 +104,7 @@ impl<'a> Trial<'a> {
     fn add(&mut self, samples: &[Sample]) {
         for sample in samples.iter().filter(|sample| sample.sampler == 0) {
             if self.rows.last_step().is_none_or(|step| sample.step > step) {
-                self.rows.add(&observables_of(sample, self.engine.plan(), &self.model));
+                self.rows.add(&observables_of(sample, self.engine.plan(), self.scene.model()));
             }
         }
     }
@@ -139,15 +136,14 @@ const STEPS_BETWEEN_STATES: u64 = 4096;
 /// An engine with as much room as its first state needs.
 fn open<'a>(
     gpu: &'a Gpu,
-    scene: &Scene,
-    model: &Model,
+    scene: &Checked,
     state: &State,
     mut options: Options,
 ) -> Result<(Engine<'a>, Options), RunError> {
     loop {
-        match Engine::new(gpu, plan_for(scene, model, gpu, options), state) {
+        match Engine::new(gpu, plan_for(scene, gpu, options), state) {
             Err(EngineError::Crowded { .. }) if options.has_room_left() => {
-                options = options.with_room(model.particle_count());
+                options = options.with_room(scene.model().particle_count());
             }
             opened => return Ok((opened?, options)),
         }

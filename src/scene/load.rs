@@ -1,11 +1,13 @@
 //! Loading: from a file or a built-in name to a checked scene.
 
+use crate::families::Checked;
 use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::families::{self, StepCheck};
@@ -33,69 +35,233 @@ use super::{
 /// # Errors
 /// No such scene, a file that cannot be read, text that is not JSON, an override that does not fit, or
 /// [`SceneError::Invalid`] with all mistakes at once.
-pub fn load(source: &str, overrides: &[String]) -> Result<Scene, SceneError> {
-    Ok(load_for(source, overrides, None)?.0)
+pub fn load(source: &str, overrides: &[String]) -> Result<Checked, SceneError> {
+    WrittenScene::read(source)?.with(overrides).check()
 }
 
-/// Like [`load`], for a run of this many steps: if the scene has more, equilibration and the windows of correlations that no longer
-/// fit are shortened, unless an override sets them. Also returns what was shortened.
+/// Reads a scene from JSON text; `name` is what messages call it, and a file of its state is looked for beside a file of that
+/// name. Otherwise like [`load`].
 ///
 /// ```
-/// use mesoscope::scene;
+/// use mesoscope::scene::{self, SceneError};
 ///
-/// let (scene, notices) = scene::load_for("dpd-fluid", &[], Some(200))?;
-/// assert_eq!((scene.time.steps, scene.time.equilibration), (200, 50));
-/// assert_eq!(notices[0].to_string(), "time.equilibration: shortened from 500 to 50 of 200 steps");
+/// let text = r#"{
+///     "title": "Soft particles", "space": {"box": [5, 5, 5]}, "time": {"step": 0.04, "steps": 100},
+///     "temperature": 1, "particles": [{"species": "A", "number_density": 3}],
+///     "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}]
+/// }"#;
+/// let scene = scene::parse("soft", text, &["seed=7".to_owned()])?;
+/// assert_eq!((scene.seed, scene.output.energies.every), (7, 20));
+///
+/// let slips = ["time.stepps=3", "temperature=-1"].map(str::to_owned);
+/// match scene::parse("soft", text, &slips) {
+///     Err(SceneError::Invalid { problems, .. }) => {
+///         assert_eq!(problems[0].suggestion.as_deref(), Some("steps"));
+///         assert_eq!(problems[1].to_string(), "temperature: found -1; accepted: a number, zero or positive");
+///     }
+///     other => unreachable!("two mistakes went unnoticed: {other:?}"),
+/// }
+/// # Ok::<(), SceneError>(())
+/// ```
+///
+/// # Errors
+/// Text that is not JSON, or [`SceneError::Invalid`] with all mistakes at once, of overrides too.
+pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Checked, SceneError> {
+    WrittenScene::new(name, text).with(overrides).check()
+}
+
+/// A scene as it was written, and what is to change in it before it is checked.
+///
+/// ```
+/// use mesoscope::scene::{self, WrittenScene};
+///
+/// let short = WrittenScene::read("dpd-fluid")?.for_steps(Some(200)).check()?;
+/// assert_eq!((short.time.steps, short.time.equilibration), (200, 50));
+/// assert_eq!(short.notices()[0].to_string(), "time.equilibration: shortened from 500 to 50 of 200 steps");
 /// # Ok::<(), scene::SceneError>(())
 /// ```
-///
-/// # Errors
-/// As [`load`].
-pub fn load_for(source: &str, overrides: &[String], steps: Option<u64>) -> Result<(Scene, Vec<Warning>), SceneError> {
-    let (name, text) = read(source)?;
-    parse_for(&name, &text, overrides, steps)
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct WrittenScene {
+    /// The name of the scene in messages; a file of its state is looked for beside a file of that name.
+    #[serde(rename = "scene")]
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// Overrides, `path.to.key=value`, in order.
+    pub set: Vec<String>,
+    /// The number of steps of the scene, to which equilibration and windows of correlations that no longer fit are shortened, unless an
+    /// override sets them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
 }
 
-/// Like [`load_for`], for a scene that is asked of `fits` once the particles of its file or its molecules are counted, before any of them
-/// is read or placed; a few are not worth asking.
-///
-/// # Errors
-/// As [`load`], and what `fits` returns.
-pub fn load_fitting(
-    source: &str,
-    overrides: &[String],
-    steps: Option<u64>,
-    fits: &Fits<'_>,
-) -> Result<(Scene, Vec<Warning>), SceneError> {
-    let (name, text) = read(source)?;
-    let draft = Draft { name: &name, text: &text, overrides, steps };
-    draft.parse(StepCheck::Refuse, Source::File(&StateFiles::default(), Some(fits)))
-}
-
-/// The name and the text of the scene in the file `source`, or of the built-in scene of that name.
-///
-/// ```
-/// use mesoscope::scene;
-///
-/// let (name, text) = scene::read("dpd-fluid")?;
-/// assert_eq!(name, "dpd-fluid");
-/// assert!(text.starts_with('{'));
-/// # Ok::<(), scene::SceneError>(())
-/// ```
-///
-/// # Errors
-/// There is no such scene, or the file cannot be read or is not text.
-pub fn read(source: &str) -> Result<(String, String), SceneError> {
-    let path = Path::new(source);
-    // A directory of a scene's name is the likely place of its last run, not a scene.
-    if path.exists() && !path.is_dir() {
-        let bytes = bytes(path).map_err(|error| SceneError::Read { path: path.to_owned(), source: error })?;
-        let text = String::from_utf8(bytes).map_err(|error| not_text(source, &error))?;
-        return Ok((source.to_owned(), text));
+impl WrittenScene {
+    /// The scene in the file `source`, or the built-in scene of that name.
+    ///
+    /// # Errors
+    /// There is no such scene, or the file cannot be read or is not text.
+    pub fn read(source: &str) -> Result<Self, SceneError> {
+        let path = Path::new(source);
+        // A directory of a scene's name is the likely place of its last run, not a scene.
+        if path.exists() && !path.is_dir() {
+            let bytes = bytes(path).map_err(|error| SceneError::Read { path: path.to_owned(), source: error })?;
+            return Ok(Self::new(source, String::from_utf8(bytes).map_err(|error| not_text(source, &error))?));
+        }
+        match builtin().iter().find(|scene| scene.name == source) {
+            Some(scene) => Ok(Self::new(scene.name, scene.text)),
+            None => Err(unknown_builtin(source)),
+        }
     }
-    match builtin().iter().find(|scene| scene.name == source) {
-        Some(scene) => Ok((scene.name.to_owned(), scene.text.to_owned())),
-        None => Err(unknown_builtin(source)),
+
+    /// A scene of this name and text.
+    #[must_use]
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into(), ..Self::default() }
+    }
+
+    /// The same with further overrides.
+    #[must_use]
+    pub fn with(mut self, overrides: &[String]) -> Self {
+        self.set.extend_from_slice(overrides);
+        self
+    }
+
+    /// The same with this number of steps, where one is given.
+    #[must_use]
+    pub fn for_steps(self, steps: Option<u64>) -> Self {
+        Self { steps: steps.or(self.steps), ..self }
+    }
+
+    /// The scene, checked, with a model of it.
+    ///
+    /// # Errors
+    /// Text that is not JSON, a file of its state that cannot be read, or [`SceneError::Invalid`] with all mistakes at once.
+    pub fn check(&self) -> Result<Checked, SceneError> {
+        self.check_among(&StateFiles::default(), StepCheck::Refuse)
+    }
+
+    /// The same; `fits` is asked once the particles of its file or its molecules are counted, before any of them is read or placed. A few
+    /// are not worth asking.
+    ///
+    /// # Errors
+    /// As [`Self::check`], and what `fits` returns.
+    pub fn check_fitting(&self, fits: &Fits<'_>) -> Result<Checked, SceneError> {
+        self.check_from(StepCheck::Refuse, Source::File(&StateFiles::default(), Some(fits)))
+    }
+
+    /// The same with the files that other scenes of the same text were read with; [`StepCheck::Allow`] accepts a time step that no scheme
+    /// is stable with, to see what becomes of it.
+    ///
+    /// # Errors
+    /// As [`Self::check`], and [`SceneError::StateChanged`] if one of the files is not what it was.
+    pub(crate) fn check_among(&self, files: &StateFiles, step: StepCheck) -> Result<Checked, SceneError> {
+        self.check_from(step, Source::File(files, None))
+    }
+
+    /// The same, but the file of a state is not read: what a run keeps of it is given, as far as it is known. Nor is the time step
+    /// refused: whoever let the run begin has decided that.
+    ///
+    /// # Errors
+    /// As [`Self::check`].
+    pub(crate) fn check_kept(&self, start: Option<Arc<FileStart>>) -> Result<Checked, SceneError> {
+        self.check_from(StepCheck::Allow, Source::Kept(start))
+    }
+
+    /// The text with overrides written into it, and nothing else changed but the path of the file of its state: that becomes absolute, since
+    /// the text may be kept anywhere.
+    ///
+    /// # Errors
+    /// As [`Self::check_among`].
+    pub(crate) fn resolved(&self, files: &StateFiles) -> Result<String, SceneError> {
+        // After this there is no mistake in text and overrides.
+        self.check_among(files, StepCheck::Refuse)?;
+        let (mut document, _) = text::parse(&self.name, &self.text)?;
+        overridden(&mut document, &self.set);
+        if let Some(file) = document.pointer_mut("/state/file")
+            && let Some(path) = file.as_str().map(|file| files.path(&self.name, file))
+        {
+            *file = std::path::absolute(&path).unwrap_or(path).display().to_string().into();
+        }
+        let text = serde_json::to_string_pretty(&document).map_err(|error| mismatch(&self.name, &error))?;
+        Ok(text + "\n")
+    }
+
+    /// The first mistake that overrides make in the shape of a scene, whatever it means.
+    pub(crate) fn misshapen(&self) -> Option<Problem> {
+        self.substituted(Substitute::Least).ok()?.problems.iter().next().cloned()
+    }
+
+    /// The scene that can be read of it, with numbers in place of those that are refused.
+    fn substituted(&self, substitute: Substitute) -> Result<Reading, SceneError> {
+        let (mut document, mut problems) = text::parse(&self.name, &self.text)?;
+        problems.extend(overridden(&mut document, &self.set));
+        let notices = self.steps.map(|steps| shorten::shorten(&mut document, steps, &self.set)).unwrap_or_default();
+        let left_out = |place: &str| document.pointer(place).is_none();
+        let (integrator, colour) = (left_out("/integrator"), left_out("/output/snapshot/color"));
+        problems.append(shape::check(&SHAPE, &mut document, substitute));
+        let groups = document.get("particles").and_then(Value::as_array).into_iter().flatten();
+        let masses = groups.map(|group| group.get("mass").is_some()).collect();
+        // What the shape check has mended may be readable, and then everything can be said at once.
+        if !problems.is_empty() {
+            fill_in(&mut document, substitute);
+        }
+        let scene = serde_json::from_value(document).map(|mut scene| {
+            families::complete(&mut scene, integrator, colour);
+            scene
+        });
+        Ok(Reading { problems, scene, notices, masses })
+    }
+
+    fn check_from(&self, step: StepCheck, source: Source<'_>) -> Result<Checked, SceneError> {
+        let name = self.name.as_str();
+        // A run that was begun without a rule of relaxation goes on without one.
+        let is_kept = matches!(source, Source::Kept(_));
+        let mut reading = self.substituted(Substitute::Least)?;
+        let mut unreadable = Problems::default();
+        if let Ok(scene) = &mut reading.scene {
+            match source {
+                // Numbers that stand in for refused ones are not compared with a file.
+                Source::File(..) if reading.problems.iter().any(|known| says_where_particles_are(&known.path)) => {}
+                Source::File(files, fits) => {
+                    unreadable = start::read(scene, &reading.masses, (name, files), fits, &mut reading.notices)?;
+                    let known: Vec<&str> = reading.problems.iter().map(|known| known.path.as_str()).collect();
+                    unreadable.retain(|found| known.iter().all(|known| !related(known, &found.path)));
+                }
+                Source::Kept(start) => scene.kept = start.map(KeptStart::of).unwrap_or_default(),
+            }
+        }
+        if reading.problems.is_empty() && unreadable.is_empty() {
+            let mut scene = reading.scene.map_err(|error| mismatch(name, &error))?;
+            let mut problems = semantics::check(&scene);
+            // What needs a model or a start needs a scene that makes sense.
+            if !problems.is_empty() {
+                return Err(invalid(name, problems, true));
+            }
+            if !is_kept {
+                families::settle(&mut scene);
+            }
+            let checked = Checked::presumed(scene).noting(reading.notices);
+            families::check(&checked, step, &mut problems);
+            return if problems.is_empty() { Ok(checked) } else { Err(invalid(name, problems, false)) };
+        }
+        let mut problems = reading.problems;
+        problems.append(unreadable);
+        // What a file should say, or what its box is compared with, is missing wherever it is needed.
+        if let Some(scene) = reading.scene.ok().filter(|scene| !scene.has_start()) {
+            let mut misfits = semantics::check(&scene);
+            drop(scene);
+            // What depends on a number that stands in for a refused one is nobody's mistake, nor is a misfit in the same place.
+            if !misfits.is_empty() {
+                let other = self.substituted(Substitute::Most)?.scene;
+                let others = other.map(|scene| semantics::check(&scene)).unwrap_or_default();
+                let others: HashSet<&Problem> = others.iter().collect();
+                misfits.retain(|misfit| {
+                    others.contains(misfit) && problems.iter().all(|known| !related(&known.path, &misfit.path))
+                });
+            }
+            problems.append(misfits);
+        }
+        Err(invalid(name, problems, true))
     }
 }
 
@@ -129,80 +295,6 @@ pub fn unknown_builtin(name: &str) -> SceneError {
     }
 }
 
-/// Reads a scene from JSON text; `name` is what messages call it, and a file of its state is looked for beside a file of that
-/// name. Otherwise like [`load`].
-///
-/// ```
-/// use mesoscope::scene::{self, SceneError};
-///
-/// let text = r#"{
-///     "title": "Soft particles", "space": {"box": [5, 5, 5]}, "time": {"step": 0.04, "steps": 100},
-///     "temperature": 1, "particles": [{"species": "A", "number_density": 3}],
-///     "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}]
-/// }"#;
-/// let scene = scene::parse("soft", text, &["seed=7".to_owned()])?;
-/// assert_eq!((scene.seed, scene.output.energies.every), (7, 20));
-///
-/// let slips = ["time.stepps=3", "temperature=-1"].map(str::to_owned);
-/// match scene::parse("soft", text, &slips) {
-///     Err(SceneError::Invalid { problems, .. }) => {
-///         assert_eq!(problems[0].suggestion.as_deref(), Some("steps"));
-///         assert_eq!(problems[1].to_string(), "temperature: found -1; accepted: a number, zero or positive");
-///     }
-///     other => unreachable!("two mistakes went unnoticed: {other:?}"),
-/// }
-/// # Ok::<(), SceneError>(())
-/// ```
-///
-/// # Errors
-/// Text that is not JSON, or [`SceneError::Invalid`] with all mistakes at once, of overrides too.
-pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Scene, SceneError> {
-    Ok(parse_for(name, text, overrides, None)?.0)
-}
-
-/// Like [`parse`], for a run of so many steps, as [`load_for`].
-///
-/// # Errors
-/// As [`parse`].
-pub fn parse_for(
-    name: &str,
-    text: &str,
-    overrides: &[String],
-    steps: Option<u64>,
-) -> Result<(Scene, Vec<Warning>), SceneError> {
-    parse_with(&StateFiles::default(), name, text, overrides, steps, StepCheck::Refuse)
-}
-
-/// Like [`parse_for`], with the files that other scenes of the same text were read with; [`StepCheck::Allow`] accepts a time step that
-/// no scheme is stable with, to see what becomes of it.
-///
-/// # Errors
-/// As [`parse`], and [`SceneError::StateChanged`] if one of the files is not what it was.
-pub(crate) fn parse_with(
-    files: &StateFiles,
-    name: &str,
-    text: &str,
-    overrides: &[String],
-    steps: Option<u64>,
-    step: StepCheck,
-) -> Result<(Scene, Vec<Warning>), SceneError> {
-    Draft { name, text, overrides, steps }.parse(step, Source::File(files, None))
-}
-
-/// Like [`parse`], but the file of a state is not read: what a run keeps of it is given, as far as it is known. Nor is the time step
-/// refused: whoever let the run begin has decided that.
-///
-/// # Errors
-/// As [`parse`].
-pub(crate) fn parse_kept(
-    name: &str,
-    text: &str,
-    overrides: &[String],
-    start: Option<Arc<FileStart>>,
-) -> Result<Scene, SceneError> {
-    Ok(Draft { name, text, overrides, steps: None }.parse(StepCheck::Allow, Source::Kept(start))?.0)
-}
-
 /// Where what a scene keeps of the file of its state comes from.
 #[derive(Clone)]
 enum Source<'a> {
@@ -210,95 +302,6 @@ enum Source<'a> {
     File(&'a StateFiles, Option<&'a Fits<'a>>),
     /// The run that has read it.
     Kept(Option<Arc<FileStart>>),
-}
-
-/// The text of a scene with a name for messages, what is set in it, and the steps of its run, if it is to have fewer.
-#[derive(Clone, Copy)]
-struct Draft<'a> {
-    name: &'a str,
-    text: &'a str,
-    overrides: &'a [String],
-    steps: Option<u64>,
-}
-
-impl Draft<'_> {
-    /// The scene that can be read of it, with numbers in place of those that are refused.
-    fn read(&self, substitute: Substitute) -> Result<Reading, SceneError> {
-        let (mut document, mut problems) = text::parse(self.name, self.text)?;
-        problems.extend(overridden(&mut document, self.overrides));
-        let notices =
-            self.steps.map(|steps| shorten::shorten(&mut document, steps, self.overrides)).unwrap_or_default();
-        let left_out = |place: &str| document.pointer(place).is_none();
-        let (integrator, colour) = (left_out("/integrator"), left_out("/output/snapshot/color"));
-        problems.append(shape::check(&SHAPE, &mut document, substitute));
-        let groups = document.get("particles").and_then(Value::as_array).into_iter().flatten();
-        let masses = groups.map(|group| group.get("mass").is_some()).collect();
-        // What the shape check has mended may be readable, and then everything can be said at once.
-        if !problems.is_empty() {
-            fill_in(&mut document, substitute);
-        }
-        let scene = serde_json::from_value(document).map_err(|error| error.to_string()).map(|mut scene| {
-            families::complete(&mut scene, integrator, colour);
-            scene
-        });
-        Ok(Reading { problems, scene, notices, masses })
-    }
-
-    fn parse(&self, step: StepCheck, source: Source<'_>) -> Result<(Scene, Vec<Warning>), SceneError> {
-        let name = self.name;
-        // A run that was begun without a rule of relaxation goes on without one.
-        let is_kept = matches!(source, Source::Kept(_));
-        let mut reading = self.read(Substitute::Least)?;
-        let mut unreadable = Problems::default();
-        if let Ok(scene) = &mut reading.scene {
-            match source {
-                // Numbers that stand in for refused ones are not compared with a file.
-                Source::File(..) if reading.problems.iter().any(|known| says_where_particles_are(&known.path)) => {}
-                Source::File(files, fits) => {
-                    unreadable = start::read(scene, &reading.masses, (name, files), fits, &mut reading.notices)?;
-                    let known: Vec<&str> = reading.problems.iter().map(|known| known.path.as_str()).collect();
-                    unreadable.retain(|found| known.iter().all(|known| !related(known, &found.path)));
-                }
-                Source::Kept(start) => scene.kept = start.map(KeptStart::of).unwrap_or_default(),
-            }
-        }
-        if reading.problems.is_empty() && unreadable.is_empty() {
-            let mut scene =
-                reading.scene.map_err(|message| SceneError::SchemaMismatch { name: name.to_owned(), message })?;
-            let mut problems = semantics::check(&scene);
-            // What needs a model or a start needs a scene that makes sense.
-            let further = !problems.is_empty();
-            if !further {
-                if !is_kept {
-                    families::settle(&mut scene);
-                }
-                families::check(&scene, step, &mut problems);
-            }
-            return if problems.is_empty() {
-                Ok((scene, reading.notices))
-            } else {
-                Err(invalid(name, problems, further))
-            };
-        }
-        let mut problems = reading.problems;
-        problems.append(unreadable);
-        // What a file should say, or what its box is compared with, is missing wherever it is needed.
-        if let Some(scene) = reading.scene.ok().filter(|scene| !scene.has_start()) {
-            let mut misfits = semantics::check(&scene);
-            drop(scene);
-            // What depends on a number that stands in for a refused one is nobody's mistake, nor is a misfit in the same place.
-            if !misfits.is_empty() {
-                let other = self.read(Substitute::Most)?.scene;
-                let others = other.map(|scene| semantics::check(&scene)).unwrap_or_default();
-                let others: HashSet<&Problem> = others.iter().collect();
-                misfits.retain(|misfit| {
-                    others.contains(misfit) && problems.iter().all(|known| !related(&known.path, &misfit.path))
-                });
-            }
-            problems.append(misfits);
-        }
-        Err(invalid(name, problems, true))
-    }
 }
 
 /// Whether a mistake in this place concerns which file is read, the box that the file is compared with, or which molecules there are.
@@ -312,11 +315,6 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
 /// The same as documents are compared with it.
 static SHAPE: LazyLock<Schema<'_>> = LazyLock::new(|| Schema::read(&SCHEMA, &SCHEMA));
 
-/// The first mistake that overrides make in the shape of a scene, whatever it means.
-pub(crate) fn misshapen(name: &str, text: &str, overrides: &[String]) -> Option<Problem> {
-    Draft { name, text, overrides, steps: None }.read(Substitute::Least).ok()?.problems.iter().next().cloned()
-}
-
 /// Applies overrides to the JSON of a scene; returns those that cannot be.
 fn overridden(document: &mut Value, overrides: &[String]) -> Vec<Problem> {
     let is_at_top = |key: &str| SCHEMA["properties"].get(key).is_some();
@@ -328,46 +326,66 @@ struct Reading {
     /// The mistakes of its shape.
     problems: Problems,
     /// The scene, in which numbers that were refused are replaced; it satisfies the schema. Or why there is none.
-    scene: Result<Scene, String>,
+    scene: serde_json::Result<Scene>,
     /// What was shortened for a run of so many steps, or is not used of a file.
     notices: Vec<Warning>,
     /// Which groups give their mass.
     masses: Vec<bool>,
 }
 
-/// The text of a scene with overrides written into it, and nothing else changed but the path of the file of its state: that becomes
-/// absolute, since the text may be kept anywhere.
-///
-/// # Errors
-/// As [`parse`].
-pub(crate) fn with_overrides(
-    files: &StateFiles,
-    name: &str,
-    text: &str,
-    overrides: &[String],
-) -> Result<String, SceneError> {
-    // After this there is no mistake in text and overrides.
-    parse_with(files, name, text, overrides, None, StepCheck::Refuse)?;
-    let (mut document, _) = text::parse(name, text)?;
-    overridden(&mut document, overrides);
-    if let Some(file) = document.pointer_mut("/state/file")
-        && let Some(path) = file.as_str().map(|file| files.path(name, file))
-    {
-        *file = std::path::absolute(&path).unwrap_or(path).display().to_string().into();
+impl Scene {
+    /// The scene, checked, with a model of it; a file of its state that has not been read is looked for in the current directory.
+    ///
+    /// ```
+    /// use mesoscope::scene::{self, SceneError};
+    ///
+    /// let mut scene = scene::load("dpd-fluid", &[])?.into_scene();
+    /// scene.space.lengths = vec![4.0; 3];
+    /// assert_eq!(scene.check()?.model().particle_count(), 192);
+    /// scene.temperature = f64::NAN;
+    /// assert!(matches!(scene.check(), Err(SceneError::Invalid { problems, .. }) if problems[0].path == "temperature"));
+    /// # Ok::<(), SceneError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`parse`], with the title in place of a name.
+    pub fn check(&self) -> Result<Checked, SceneError> {
+        self.check_with(StepCheck::Refuse)
     }
-    let text = serde_json::to_string_pretty(&document)
-        .map_err(|error| SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() })?;
-    Ok(text + "\n")
+
+    /// Like [`Self::check`], but a time step that no scheme is stable with is accepted: to see what becomes of it.
+    ///
+    /// # Errors
+    /// As [`Self::check`].
+    pub fn check_but_step(&self) -> Result<Checked, SceneError> {
+        self.check_with(StepCheck::Allow)
+    }
+
+    fn check_with(&self, step: StepCheck) -> Result<Checked, SceneError> {
+        let written = self.written(&self.title)?;
+        match self.start() {
+            Some(start) => written.check_from(step, Source::Kept(Some(Arc::clone(start)))),
+            None => written.check_among(&StateFiles::default(), step),
+        }
+    }
+
+    /// The scene as text of this name.
+    fn written(&self, name: &str) -> Result<WrittenScene, SceneError> {
+        let text = serde_json::to_string(self).map_err(|error| mismatch(name, &error))?;
+        Ok(WrittenScene::new(name, text))
+    }
+
+    /// The scene after a change, checked like one that a run keeps.
+    ///
+    /// # Errors
+    /// As [`Self::check`]; mistakes are said to be in `name`.
+    pub(crate) fn check_kept(&self, name: &str) -> Result<Checked, SceneError> {
+        self.written(name)?.check_kept(self.start().cloned())
+    }
 }
 
-/// A scene that has been changed, checked like one that is kept.
-///
-/// # Errors
-/// As [`parse`]; mistakes are said to be in `name`.
-pub(crate) fn checked(name: &str, scene: &Scene) -> Result<Scene, SceneError> {
-    let text = serde_json::to_string(scene)
-        .map_err(|error| SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() })?;
-    parse_kept(name, &text, &[], scene.start().cloned())
+fn mismatch(name: &str, error: &serde_json::Error) -> SceneError {
+    SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() }
 }
 
 /// Numbers for further checks in place of required ones that a scene lacks.

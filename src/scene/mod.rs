@@ -17,10 +17,10 @@ mod state_files;
 mod text;
 
 pub use crate::document::*;
+pub use crate::families::Checked;
 pub(crate) use builtin::CALIBRATIONS;
 pub use builtin::{Builtin, builtin};
-pub(crate) use load::{checked, misshapen, parse_kept, parse_with, with_overrides};
-pub use load::{load, load_fitting, load_for, parse, parse_for, read, schema, unknown_builtin};
+pub use load::{WrittenScene, load, parse, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;
 pub use start::Fits;

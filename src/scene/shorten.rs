@@ -145,24 +145,30 @@ impl Window {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::scene::{self, Scene, builtin};
+    use crate::scene::{self, Checked, Scene, SceneError, WrittenScene, builtin};
 
     #[test]
     fn every_built_in_scene_runs_for_any_number_of_steps() {
         for scene in builtin() {
-            let own = scene::parse(scene.name, scene.text, &[]).unwrap().time;
+            let own = scene::parse(scene.name, scene.text, &[]).unwrap().into_scene().time;
             for steps in [0, 1, 7, 15, 200, 1000, own.steps, 2 * own.steps] {
-                let (found, notices) = scene::parse_for(scene.name, scene.text, &[], Some(steps)).unwrap();
+                let found = WrittenScene::new(scene.name, scene.text).for_steps(Some(steps)).check().unwrap();
+                let notices = found.notices();
                 assert_eq!(found.time.steps, steps, "{}", scene.name);
                 assert!(notices.is_empty() || steps < own.steps, "{} {steps}: {notices:?}", scene.name);
             }
         }
     }
 
-    fn gas(steps: u64, set: &[&str]) -> (Scene, Vec<String>) {
+    fn check(set: &[&str], steps: u64) -> Result<Checked, SceneError> {
         let set: Vec<String> = set.iter().map(|argument| (*argument).to_owned()).collect();
-        let (found, notices) = scene::load_for("ideal-dissipative-gas", &set, Some(steps)).unwrap();
-        (found, notices.iter().map(ToString::to_string).collect())
+        WrittenScene::read("ideal-dissipative-gas")?.with(&set).for_steps(Some(steps)).check()
+    }
+
+    fn gas(steps: u64, set: &[&str]) -> (Scene, Vec<String>) {
+        let found = check(set, steps).unwrap();
+        let notices = found.notices().iter().map(ToString::to_string).collect();
+        (found.into_scene(), notices)
     }
 
     #[test]
@@ -214,14 +220,13 @@ mod tests {
     fn what_is_set_beside_it_is_not_touched() {
         for set in ["time.equilibration=300", r#"time={"step":0.02,"equilibration":300}"#, "output.diffusion.window=41"]
         {
-            let error = scene::load_for("ideal-dissipative-gas", &[set.to_owned()], Some(200)).unwrap_err().to_string();
+            let error = check(&[set], 200).unwrap_err().to_string();
             assert!(error.contains("accepted: "), "{error}");
         }
         let (found, notices) = gas(200, &["time.equilibration=100", "output.viscosity.every=9"]);
         let viscosity = found.output.viscosity.unwrap();
         assert_eq!((found.time.equilibration, found.output.diffusion.unwrap().window), (100, 20));
         assert_eq!((viscosity.every, viscosity.window, notices.len()), (9, 11, 2), "{notices:?}");
-        let often = ["time.equilibration=100", "output.viscosity.every=13"].map(str::to_owned);
-        assert!(scene::load_for("ideal-dissipative-gas", &often, Some(200)).is_err());
+        assert!(check(&["time.equilibration=100", "output.viscosity.every=13"], 200).is_err());
     }
 }

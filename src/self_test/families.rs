@@ -2,12 +2,13 @@
 
 use super::Finding;
 use crate::engine::{Engine, EngineError};
+use crate::families::Checked;
 use crate::families::reference::Stepper;
 use crate::families::{self, KeptQuantity, Model};
 use crate::gpu::{Gpu, GpuError, Requirements};
 use crate::plan::{Hardware, Options, Plan};
 use crate::run::{self, plan};
-use crate::scene::{self, Scene};
+use crate::scene::{self};
 use crate::state::State;
 use serde::Deserialize;
 use serde_json::{Map, Value};
@@ -157,7 +158,7 @@ fn where_possible(
 }
 
 /// All cases with their scenes.
-fn checks() -> Result<Vec<(Case, Scene)>, String> {
+fn checks() -> Result<Vec<(Case, Checked)>, String> {
     let Checks { scenes, cases } = serde_json::from_str(CHECKS).map_err(|error| error.to_string())?;
     let with_scene = |case: Case| {
         let changes: Vec<String> = case.set.iter().map(|(path, value)| format!("{path}={value}")).collect();
@@ -242,13 +243,12 @@ fn deviation(start: &State, found: &State, expected: &State) -> (f64, Quantity) 
 ///
 /// # Errors
 /// Why there are no such steps, in words.
-pub(crate) fn distances_from_reference(gpu: &Gpu, scene: &Scene, steps: u64) -> Result<[f64; 2], String> {
-    let model = Model::new(scene);
-    let start = families::initial_state(scene, &model);
+pub(crate) fn distances_from_reference(gpu: &Gpu, scene: &Checked, steps: u64) -> Result<[f64; 2], String> {
+    let start = families::initial_state(scene);
     let words = |error: EngineError| error.to_string();
-    let plan = plan(&model, scene.time.equilibration, &scene.output, Hardware::from(gpu), Options::default());
+    let plan = plan(scene, Hardware::from(gpu), Options::default());
     let mut device = Engine::new(gpu, plan.without_reports(), &start).map_err(words)?;
-    let mut reference = reference_of(&model, &start)?;
+    let mut reference = reference_of(scene.model(), &start)?;
     let mut distance_after = |steps: u64| {
         device.advance(steps, steps.max(1)).map_err(words)?;
         advance(&mut *reference, steps)?;
@@ -259,9 +259,8 @@ pub(crate) fn distances_from_reference(gpu: &Gpu, scene: &Scene, steps: u64) -> 
 }
 
 /// What was found, or what is wrong.
-fn against_the_reference(gpu: &Gpu, case: &Case, scene: &Scene, contracts: bool) -> Result<Finding, String> {
-    let model = Model::new(scene);
-    let plan = |hardware| plan(&model, 0, &scene.output, hardware, Options::default());
+fn against_the_reference(gpu: &Gpu, case: &Case, scene: &Checked, contracts: bool) -> Result<Finding, String> {
+    let plan = |hardware| plan(scene, hardware, Options::default());
     let (own, portable) = (plan(Hardware::from(gpu)), plan(Hardware::default()));
     let portable = (case.twice && portable != own).then_some(portable);
     let plans: Vec<&Plan> = portable.iter().chain([&own]).collect();
@@ -269,27 +268,33 @@ fn against_the_reference(gpu: &Gpu, case: &Case, scene: &Scene, contracts: bool)
 }
 
 /// The same on a device with room for the plans: that of the adapter, and the one for any adapter where it is to give the same.
-fn compare(gpu: &Gpu, scene: &Scene, plan: &Plan, portable: Option<&Plan>, contracts: bool) -> Result<String, String> {
-    let model = Model::new(scene);
-    let start = families::initial_state(scene, &model);
+fn compare(
+    gpu: &Gpu,
+    scene: &Checked,
+    plan: &Plan,
+    portable: Option<&Plan>,
+    contracts: bool,
+) -> Result<String, String> {
+    let model = scene.model();
+    let start = families::initial_state(scene);
     let words = |error: EngineError| error.to_string();
     let mut device = Engine::new(gpu, plan.clone(), &start).map_err(words)?;
     device.advance(1, 1).map_err(words)?;
-    let (part, quantity) = deviation(&start, &device.state().map_err(words)?, &reference_step(&model, &start)?);
+    let (part, quantity) = deviation(&start, &device.state().map_err(words)?, &reference_step(model, &start)?);
     device.advance(STEPS - 1, STEPS).map_err(words)?;
     let last = device.state().map_err(words)?;
     let mut found = format!("a step is off by {part:.0e} of its change at most ({})", quantity.name());
     if part > TOLERANCE {
         return Err(format!("{found}, more than {TOLERANCE:.0e}"));
     }
-    let kept = |state: &State| model.physics().kept(&model, state);
+    let kept = |state: &State| model.physics().kept(model, state);
     for (before, after) in kept(&start).iter().zip(kept(&last)) {
         let (name, change) = (before.quantity.name(), after.total - before.total);
         if change != 0 {
             return Err(format!("{name}{} changes by {change} units in {STEPS} steps", before.direction));
         }
     }
-    let names: Vec<String> = run::kept(&model).into_iter().map(KeptQuantity::name).collect();
+    let names: Vec<String> = run::kept(model).into_iter().map(KeptQuantity::name).collect();
     if !names.is_empty() {
         found = format!("{found}; {} constant to the last bit", names.join(", "));
     }
@@ -321,7 +326,7 @@ mod tests {
         let bound = |gpu: &Gpu| gpu.device().limits().max_storage_buffers_per_shader_stage;
         let offered = gpu.reopen(Requirements { storage_buffers: 9, ..Requirements::default() }).is_ok();
         let scene = checks()?.swap_remove(0).1;
-        let plan = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+        let plan = plan(&scene, Hardware::default(), Options::default());
         let with = |storage_buffers: u32| Plan { storage_buffers, ..plan.clone() };
         let check = |plan: &Plan| where_possible(&gpu, "a check", &[plan], |gpu| Ok(bound(gpu).to_string()));
         assert_eq!(check(&with(8))?, Finding::new("a check", true, "8"));
@@ -337,9 +342,8 @@ mod tests {
     #[test]
     fn a_wrong_number_is_seen() -> Result<(), String> {
         for (case, scene) in checks()? {
-            let model = Model::new(&scene);
-            let start = families::initial_state(&scene, &model);
-            let expected = reference_step(&model, &start)?;
+            let start = families::initial_state(&scene);
+            let expected = reference_step(scene.model(), &start)?;
             assert_eq!(deviation(&start, &expected, &expected).0, 0.0);
             let change = |quantity: Quantity| quantity.largest_difference(&start, &expected);
             let mut wrong = expected.clone();
@@ -357,7 +361,6 @@ mod tests {
     #[test]
     fn what_a_model_keeps_is_known() -> Result<(), String> {
         for (case, scene) in checks()? {
-            let model = Model::new(&scene);
             let expected: &[&str] = match case.name.as_str() {
                 "coloured noise, Langevin bath and tethers" => &[],
                 "pairs and a body force" => &["total momentum, excluding the impulse of body forces"],
@@ -370,7 +373,7 @@ mod tests {
                 name if name.starts_with("shallow water") => &["mass on the mesh"],
                 _ => &["total momentum"],
             };
-            let names: Vec<String> = run::kept(&model).into_iter().map(KeptQuantity::name).collect();
+            let names: Vec<String> = run::kept(scene.model()).into_iter().map(KeptQuantity::name).collect();
             assert_eq!(names, expected, "{}", case.name);
         }
         Ok(())

@@ -1,7 +1,6 @@
 //! The speed of the standard fluid.
 
 use super::Finding;
-use crate::families::Model;
 use crate::gpu::Gpu;
 use crate::run::{self, RunError};
 use crate::scene;
@@ -10,7 +9,7 @@ use crate::scene;
 pub(super) fn of_the_standard_fluid(gpu: &Gpu) -> Finding {
     let measure = || -> Result<String, RunError> {
         let scene = scene::load("dpd-fluid", &["output={}".to_owned()])?;
-        let particles = Model::new(&scene).particle_count();
+        let particles = scene.model().particle_count();
         let rate = particles as f64 / run::expected_time(&scene, gpu)?.step;
         Ok(format!("{:.2} million particle-steps a second with {particles} particles", rate / 1e6))
     };

@@ -2,11 +2,11 @@
 
 use super::request::Arguments;
 use super::verdict::{Verdict, verdict};
-use crate::families::Model;
+use crate::families::Checked;
 use crate::gpu::AdapterChoice;
 use crate::measure::equilibration::transient;
 use crate::run::{self, Interrupt, RunError, Stop, Trial};
-use crate::scene::{Scene, SceneError};
+use crate::scene::SceneError;
 use crate::tradeoff::{self, Deviation, Measured, References, error_in_words};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -106,7 +106,7 @@ pub(super) fn is_of_the_scene(error: &RunError) -> bool {
 /// [`RunError`], also for what says something about the scene.
 pub(super) fn evaluate(
     value: f64,
-    scene: &Scene,
+    scene: &Checked,
     measures: &[String],
     arguments: &Arguments,
     adapter: &AdapterChoice,
@@ -133,7 +133,7 @@ pub(super) fn evaluate(
         let (errors, lost) = compare(&trial, scene, measures, &arguments.references);
         cell.errors = errors;
         (cell.verdict, cell.is_certain) = verdict(&cell.errors, arguments.tolerance);
-        if Model::new(scene).particle_count() < FEW {
+        if scene.model().particle_count() < FEW {
             cell.undefined = lost;
         } else if !lost.is_empty() {
             (cell.verdict, cell.is_certain) = (Verdict::Biased, true);
@@ -157,7 +157,12 @@ pub(super) fn listed<'m>(measures: impl IntoIterator<Item = &'m String>) -> Stri
 }
 
 /// How far measures are off, and which are not numbers.
-fn compare(trial: &Trial<'_>, scene: &Scene, measures: &[String], given: &References) -> (Vec<Deviation>, Vec<String>) {
+fn compare(
+    trial: &Trial<'_>,
+    scene: &Checked,
+    measures: &[String],
+    given: &References,
+) -> (Vec<Deviation>, Vec<String>) {
     let (means, further) = (trial.means(), tradeoff::of_table(&trial.table(), scene));
     let (mut errors, mut lost) = (Vec::new(), Vec::new());
     for measure in measures {

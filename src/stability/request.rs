@@ -1,12 +1,13 @@
 //! What a map of stability is asked for.
 
 use super::range::{Range, Spacing, number_of};
-use crate::families::{Model, StepCheck};
+use crate::families::Checked;
+use crate::families::StepCheck;
 use crate::output::Id;
 use crate::quantity::{Quantity, Unit};
 use crate::run;
-use crate::scene::{self, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
-use crate::study::{LENGTHS, Setting, ShortKeys, StudyError, WrittenScene};
+use crate::scene::{SceneError, StateFiles, Warning, WrittenScene, did_you_mean, nearest};
+use crate::study::{self, LENGTHS, Setting, ShortKeys, StudyError};
 use crate::tradeoff::{References, Stretch, names_of_table, predicted};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -27,9 +28,7 @@ const FEWEST_ROWS: u64 = 64;
 pub struct Request {
     pub(super) arguments: Arguments,
     /// The scene before anything is varied.
-    pub(super) base: Scene,
-    /// What was shortened in it.
-    notices: Vec<Warning>,
+    pub(super) base: Checked,
     /// The key along rows, and the numbers of the grid.
     pub(super) along: Along,
     /// The key of rows; none for a single row.
@@ -71,13 +70,13 @@ impl Request {
     /// Each of `vary` is a key with a range, `key=low..high/points`, or with values, `key=value,value,…`. One of them makes a
     /// row, two a map: `time.step`, or else the second, is varied along rows. Without any the time step is. With
     /// `steps` the scene has so many, to which its equilibration is shortened where it does not fit, as
-    /// [`scene::load_for`] does it; an override of
+    /// [`crate::scene::WrittenScene::for_steps`] does it; an override of
     /// `time.steps` is such a number too.
     ///
     /// # Errors
     /// [`StudyError::Arguments`] with all mistakes at once, [`StudyError::Scene`] where no scene of the map is accepted.
     pub fn load(source: &str, set: &[String], steps: Option<u64>, vary: &[String]) -> Result<Self, StudyError> {
-        let scene = WrittenScene::read(source, set, steps)?;
+        let scene = study::written_scene(source, set, steps)?;
         let (state_files, vary) = (StateFiles::of(&scene.name), vary.to_vec());
         Self::new(Arguments { scene, vary, state_files, tolerance: 0.05, bisections: 3, ..Arguments::default() })
     }
@@ -101,7 +100,7 @@ impl Request {
         if arguments.vary.len() > 2 {
             mistakes.push(format!("{} keys are varied; accepted: one for a row, two for a map", arguments.vary.len()));
         }
-        let (base, notices) = arguments.scene.with([], &arguments.state_files, StepCheck::Allow)?;
+        let base = arguments.scene.check_among(&arguments.state_files, StepCheck::Allow)?;
         arguments.state_files.note(&base);
         if ranges.is_empty() && mistakes.is_empty() {
             let ([low, high], points) = USUAL;
@@ -117,7 +116,7 @@ impl Request {
             return Err(StudyError::mistake(format!("`{}` is varied along rows, {why}", range.key)));
         };
         let along = Along { key: range.key, values, spacing: range.spacing };
-        let mut request = Self { arguments, base, notices, along, rows: ranges.pop() };
+        let mut request = Self { arguments, base, along, rows: ranges.pop() };
         // Keys that say what file particles start from, or how.
         let starts_vary = request.keys().iter().any(|key| *key == "state" || key.starts_with("state."));
         // A key that is misspelt, say: no scene at all is a mistake, some that are none are a result.
@@ -165,7 +164,7 @@ impl Request {
     /// # Errors
     /// [`StudyError::Arguments`] names those that no run has, and those that there is nothing to compare with.
     pub fn with_measures(mut self, measures: &[String], references: References) -> Result<Self, StudyError> {
-        let columns = run::quantities(&Model::new(&self.base));
+        let columns = run::quantities(self.base.model());
         let known: Vec<&str> = columns.into_iter().chain(names_of_table(&self.base)).collect();
         let mut mistakes = Vec::new();
         for measure in measures.iter().map(String::as_str).chain(references.measures()) {
@@ -188,7 +187,7 @@ impl Request {
         let Arguments { measures, references, .. } = &self.arguments;
         let mut all = measures.clone();
         if all.is_empty() {
-            let columns = run::quantities(&Model::new(&self.base));
+            let columns = run::quantities(self.base.model());
             let compared = Quantity::columns_shown_in(Unit::Temperature).filter(|name| columns.contains(name));
             let usual = compared.chain(names_of_table(&self.base));
             all.extend(usual.filter(|name| predicted(name, &self.base).is_some()).map(str::to_owned));
@@ -201,7 +200,7 @@ impl Request {
     /// What was shortened in the scene to suit the number of steps.
     #[must_use]
     pub fn notices(&self) -> &[Warning] {
-        &self.notices
+        self.base.notices()
     }
 
     /// The title of the scene.
@@ -258,26 +257,28 @@ impl Request {
     }
 
     /// A scene of the map, with the length that the base has.
-    pub(super) fn varied(&self, row: usize, value: f64) -> Result<Scene, SceneError> {
+    pub(super) fn varied(&self, row: usize, value: f64) -> Result<Checked, SceneError> {
         let along = Setting { key: self.along.key.clone(), value: number_of(value) };
-        let settings = self.setting(row).into_iter().chain([along]).map(|setting| setting.argument());
+        let settings: Vec<String> =
+            self.setting(row).into_iter().chain([along]).map(|setting| setting.argument()).collect();
         let Arguments { scene, state_files, .. } = &self.arguments;
-        Ok(scene.with(settings, state_files, StepCheck::Allow)?.0)
+        scene.clone().with(&settings).check_among(state_files, StepCheck::Allow)
     }
 
     /// A scene of the map, over the common stretch of time.
-    pub(super) fn scene(&self, row: usize, value: f64) -> Result<Scene, SceneError> {
-        let mut found = self.varied(row, value)?;
+    pub(super) fn scene(&self, row: usize, value: f64) -> Result<Checked, SceneError> {
+        let found = self.varied(row, value)?;
         let stretch = Stretch::of(&self.base);
         let step = found.time.step;
         // However long the steps, there are enough of them to see what becomes of the scene.
         let averaged = (stretch.averaged / step).ceil().max(FEWEST_STEPS) as u64;
         let before = if stretch.equilibration > 0.0 { FEWEST_STEPS } else { 0.0 };
-        found.time.equilibration = (stretch.equilibration / step).round().max(before) as u64;
-        found.time.steps = found.time.equilibration.saturating_add(averaged);
         let every = (self.base.output.energies.every as f64 * self.base.time.step / step).round() as u64;
-        found.output.energies.every = every.clamp(1, (averaged / FEWEST_ROWS).max(1));
-        Ok(found)
+        Ok(found.changed(|scene| {
+            scene.time.equilibration = (stretch.equilibration / step).round().max(before) as u64;
+            scene.time.steps = scene.time.equilibration.saturating_add(averaged);
+            scene.output.energies.every = every.clamp(1, (averaged / FEWEST_ROWS).max(1));
+        }))
     }
 
     /// What tells this map from others: its scenes, and what is right.
@@ -292,7 +293,7 @@ impl Request {
 fn check_values(scene: &WrittenScene, ranges: &[Range]) -> Result<(), StudyError> {
     let mistake = |key: &str, value: &Value| {
         let setting = Setting { key: key.to_owned(), value: value.clone() }.argument();
-        let problem = scene::misshapen(&scene.name, &scene.text, &scene.overrides([setting]))?;
+        let problem = scene.clone().with(&[setting]).misshapen()?;
         Some(format!("`--vary {key}=…`: {problem}"))
     };
     let of_range = |range: &Range| {
@@ -339,7 +340,7 @@ mod tests {
     #[test]
     fn all_runs_cover_the_time_of_the_scene_with_enough_steps() {
         let map = request(&["time.step=1e-3..10/9"]).unwrap();
-        let time = |scene: &Scene| (scene.time.steps - scene.time.equilibration) as f64 * scene.time.step;
+        let time = |scene: &Checked| (scene.time.steps - scene.time.equilibration) as f64 * scene.time.step;
         let wanted = time(&map.base);
         for value in &map.along.values {
             let scene = map.scene(0, *value).unwrap();

@@ -3,10 +3,10 @@
 use super::bounds::bounds;
 use super::cell::{Cell, evaluate, is_of_the_scene};
 use super::summary::{MOST_EDGES, StabilitySummary};
+use crate::families::Checked;
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::numbers::short;
 use crate::run::{self, RunError};
-use crate::scene::{Output, Scene};
 use crate::study::{self, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun, at_once};
 use std::fmt;
 use std::time::Instant;
@@ -51,7 +51,7 @@ impl StudyRun<StabilitySummary> {
         let (bisections, points) = (self.request.arguments.bisections as usize, self.request.along.values.len());
         let more = (MOST_EDGES * bisections) as f64 / points.max(1) as f64;
         let scenes = waiting.iter().filter_map(|(row, value)| self.request.scene(*row, *value).ok());
-        let scenes: Vec<Scene> = scenes.collect();
+        let scenes: Vec<Checked> = scenes.collect();
         let seconds = self.expected(&scenes, &gpu).map(|seconds| (1.0 + more) * seconds);
         self.refuse_long(seconds.unwrap_or_default())?;
         let place = self.open_place()?;
@@ -87,10 +87,9 @@ impl StudyRun<StabilitySummary> {
     }
 
     /// Seconds that scenes take at the speed of the scene as it is; none where its first steps fail.
-    fn expected(&self, scenes: &[Scene], gpu: &Gpu) -> Option<f64> {
-        let mut base = self.request.base.clone();
+    fn expected(&self, scenes: &[Checked], gpu: &Gpu) -> Option<f64> {
         // Scenes of a map are measured in memory.
-        base.output = Output { energies: base.output.energies, ..Output::default() };
+        let base = self.request.base.clone().changed(|scene| scene.output = scene.output.energies_alone());
         let seconds = run::expected_time(&base, gpu).ok()?.seconds / base.time.steps.max(1) as f64;
         Some(seconds * scenes.iter().map(|scene| scene.time.steps as f64).sum::<f64>())
     }

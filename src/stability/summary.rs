@@ -195,7 +195,7 @@ impl Record for StabilitySummary {
 
     fn style(&self, request: &Request, overrides: &[String]) -> Result<PlotStyle, SceneError> {
         let Arguments { scene, state_files, .. } = &request.arguments;
-        scene.style(&request.base, [], overrides, state_files, StepCheck::Allow)
+        study::style(scene, &request.base, overrides, state_files, StepCheck::Allow)
     }
 }
 

@@ -4,9 +4,9 @@ use super::error::{Mistake, StudyError};
 use super::lists::each_once;
 use super::naming::{self, ShortKeys};
 use super::variation::{Setting, Variation, settings};
-use super::written_scene::WrittenScene;
+use crate::families::Checked;
 use crate::families::StepCheck;
-use crate::scene::{self, Scene, SceneError, StateFiles, Warning};
+use crate::scene::{self, SceneError, StateFiles, WrittenScene};
 use serde_json::Value;
 
 /// More variants than this are taken for a slip.
@@ -41,9 +41,7 @@ pub struct Variant {
     /// What distinguishes it.
     pub settings: Vec<Setting>,
     /// The scene, with every default filled in.
-    pub scene: Scene,
-    /// What was shortened in it to suit the number of steps.
-    pub notices: Vec<Warning>,
+    pub scene: Checked,
     /// Why a run of it alone would be refused: its time step is beyond what any scheme is stable with. Only where that is allowed.
     pub(crate) refusal: Option<String>,
     /// Number of the value of each variation; empty for a variant that is none of the combinations.
@@ -56,7 +54,7 @@ impl Sweep {
     /// Each of `vary` is a key with its values, `key=value,value,…` (see [`Variation::parse`]); there is a variant for
     /// every combination, the last key varying fastest. Each of `also` is one more variant, with settings
     /// `key=value,key=value,…` of its own. The overrides `set` apply to all of them, first. With `steps` all variants run for
-    /// so many, as [`scene::load_for`] does it.
+    /// so many, as [`WrittenScene::for_steps`] does it.
     ///
     /// # Errors
     /// [`StudyError::Arguments`] or [`StudyError::Variants`] with all mistakes at once; [`StudyError::Scene`] when there is no
@@ -76,9 +74,8 @@ impl Sweep {
         vary: &[String],
         also: &[String],
     ) -> Result<Self, StudyError> {
-        let (name, text) = scene::read(source)?;
-        let files = StateFiles::of(&name);
-        let scene = WrittenScene { name, text, set: set.to_vec(), steps };
+        let scene = WrittenScene::read(source)?.with(set).for_steps(steps);
+        let files = StateFiles::of(&scene.name);
         Self::from_arguments(scene, vary, also, files, StepCheck::Refuse)
     }
 
@@ -173,11 +170,11 @@ impl Sweep {
         let mut variants = Vec::new();
         let mut mistakes: Vec<Mistake> = Vec::new();
         for ((settings, places), variant) in all.into_iter().zip(names) {
-            let overrides = self.scene.overrides(settings.iter().map(Setting::argument));
             let sets_steps = settings.iter().any(|setting| ["time", "time.steps"].contains(&setting.key.as_str()));
-            let WrittenScene { name, text, steps, .. } = &self.scene;
-            let steps = steps.filter(|_| !sets_steps);
-            let read = |step| scene::parse_with(&self.files, name, text, &overrides, steps, step);
+            let own: Vec<String> = settings.iter().map(Setting::argument).collect();
+            let mut written = self.scene.clone().with(&own);
+            written.steps = written.steps.filter(|_| !sets_steps);
+            let read = |step| written.check_among(&self.files, step);
             let (found, refusal) = match (read(StepCheck::Refuse), step) {
                 (Err(SceneError::Invalid { problems, .. }), StepCheck::Allow) => {
                     (read(StepCheck::Allow), problems.first().map(ToString::to_string))
@@ -185,7 +182,7 @@ impl Sweep {
                 (found, _) => (found, None),
             };
             match found {
-                Ok((scene, notices)) => {
+                Ok(scene) => {
                     self.files.note(&scene);
                     // Values of one key differ, but a further variant may be one of the combinations.
                     let twin = variants.iter().find(|known: &&Variant| places.is_empty() && known.scene == scene);
@@ -195,7 +192,7 @@ impl Sweep {
                         continue;
                     }
                     let label = short.label(&settings);
-                    variants.push(Variant { name: variant, label, settings, scene, notices, refusal, places });
+                    variants.push(Variant { name: variant, label, settings, scene, refusal, places });
                 }
                 Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => return Err(error.into()),
                 Err(error) => {

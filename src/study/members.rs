@@ -4,10 +4,11 @@ use super::concurrency::at_once;
 use super::error::StudyError;
 use super::record::Record;
 use super::run::{Observer, StudyEvent, StudyRun};
+use crate::families::Checked;
 use crate::gpu::AdapterChoice;
 use crate::output::{Id, OutputError, RunDirectory, Summary, files, of_one_run};
 use crate::run::{Event, Progress, RunError, Simulation};
-use crate::scene::{Scene, Warning};
+use crate::scene::Scene;
 use std::path::Path;
 
 /// A run of a study.
@@ -17,11 +18,9 @@ pub(crate) struct Member {
     /// Name of its directory.
     pub name: String,
     /// Its scene, with the step to end with.
-    pub scene: Scene,
+    pub scene: Checked,
     /// Its id.
     pub id: Id,
-    /// What was done to the scene.
-    pub notices: Vec<Warning>,
 }
 
 /// The summary of the run of a scene in its directory, if it reached its last step and left all of its files; `reference` is the file
@@ -50,8 +49,7 @@ impl Member {
         }
         if !directory.join(files::CHECKPOINT).exists() {
             // What is found without a checkpoint is the beginning of this very run.
-            let simulation = Simulation::start(self.scene.clone(), directory, true);
-            return Ok(simulation.with_id(self.id).noting(&self.notices));
+            return Ok(Simulation::start(self.scene.clone(), directory, true).with_id(self.id));
         }
         let simulation = Simulation::resume(directory, Some(steps))?;
         if simulation.first_step() > steps {

@@ -40,4 +40,4 @@ pub use shard::Shard;
 pub(crate) use shard_places::{RECORD as SHARD_RECORD, claim as claim_shard, claim_study, name_in_study};
 pub use variation::{Setting, Variation};
 pub(crate) use variation::{numbers, settings};
-pub(crate) use written_scene::WrittenScene;
+pub(crate) use written_scene::{style, written_scene};

@@ -4,13 +4,13 @@ use super::concurrency::default_jobs;
 use super::directory;
 use super::error::StudyError;
 use super::record::{self, Record};
-use crate::families::Model;
+use crate::families::Checked;
 use crate::gpu::{AdapterChoice, AdapterDescription, Gpu, Requirements};
 use crate::output::{OutputError, RunDirectory, write_atomically};
 use crate::plan::{Hardware, Options};
 use crate::plot::Plotter;
 use crate::run::{self, Interrupt, Progress, RunError};
-use crate::scene::{PlotStyle, Scene};
+use crate::scene::PlotStyle;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -221,10 +221,9 @@ impl<R: Record> StudyRun<R> {
     }
 
     /// How many of so many runs are under way at once, of which this scene is the largest.
-    pub(crate) fn jobs_for(&self, scene: &Scene, runs: usize, gpu: &Gpu) -> usize {
+    pub(crate) fn jobs_for(&self, scene: &Checked, runs: usize, gpu: &Gpu) -> usize {
         let largest = || {
-            let (time, hardware) = (&scene.time, Hardware::from(gpu));
-            let plan = run::plan(&Model::new(scene), time.equilibration, &scene.output, hardware, Options::default());
+            let plan = run::plan(scene, Hardware::from(gpu), Options::default());
             plan.particles as f64 * plan.operations_per_particle
         };
         self.jobs.unwrap_or_else(|| default_jobs(gpu.description(), largest(), runs)).clamp(1, runs.max(1))
@@ -238,8 +237,8 @@ pub(crate) fn in_hours(seconds: f64) -> String {
 }
 
 /// The scene of the most particles.
-pub(crate) fn largest<'a>(scenes: impl Iterator<Item = &'a Scene>) -> Option<&'a Scene> {
-    scenes.max_by_key(|scene| Model::new(scene).particle_count())
+pub(crate) fn largest<'a>(scenes: impl Iterator<Item = &'a Checked>) -> Option<&'a Checked> {
+    scenes.max_by_key(|scene| scene.model().particle_count())
 }
 
 /// Draws the pictures of the study in a directory again from what it left, with changes to the look given as overrides of the scene

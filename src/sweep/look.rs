@@ -1,6 +1,5 @@
 //! What the plots of a sweep show.
 
-use crate::families::Model;
 use crate::run;
 use crate::study::{StudyError, Sweep, Variant, each_once};
 use serde::{Deserialize, Serialize};
@@ -20,7 +19,7 @@ impl Look {
     /// # Errors
     /// [`StudyError::Arguments`] names the first.
     pub(super) fn check(&self, sweep: &Sweep) -> Result<(), StudyError> {
-        let measured = |variant: &Variant| run::quantities(&Model::new(&variant.scene));
+        let measured = |variant: &Variant| run::quantities(variant.scene.model());
         let accepted: Vec<&str> = each_once(sweep.variants().iter().flat_map(measured));
         let unknown = self.quantities.iter().find(|wanted| !accepted.contains(&wanted.as_str()));
         let mistake = |wanted| format!("there is no quantity `{wanted}` to plot; accepted: {}", accepted.join(", "));

@@ -3,10 +3,9 @@
 use super::averages::averages;
 use super::look::Look;
 use super::summary::SweepSummary;
-use crate::families::Model;
+use crate::families::Checked;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::run::{self, RunError};
-use crate::scene::Scene;
 use crate::study::{Member, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun, Variant};
 
 /// Particles times steps that no adapter takes more than some minutes for.
@@ -85,13 +84,13 @@ impl StudyRun<SweepSummary> {
     /// The variant of the most particles of some.
     fn largest(&self, numbers: &[usize]) -> Option<&Variant> {
         let variants = numbers.iter().map(|number| &self.request.variants()[*number]);
-        variants.max_by_key(|variant| Model::new(&variant.scene).particle_count())
+        variants.max_by_key(|variant| variant.scene.model().particle_count())
     }
 
     /// Seconds that variants take one after another with their pictures, in proportion to the largest, of which steps are timed; none where all are short
     /// or that one fails.
     fn expected(&self, waiting: &[usize], gpu: &Gpu) -> Option<f64> {
-        let work = |scene: &Scene| Model::new(scene).particle_count() as f64 * scene.time.steps as f64;
+        let work = |scene: &Checked| scene.model().particle_count() as f64 * scene.time.steps as f64;
         let all: f64 = waiting.iter().map(|number| work(&self.request.variants()[*number].scene)).sum();
         let largest = &self.largest(waiting).filter(|_| all > WORTH_TIMING)?.scene;
         let expected = run::expected_time(largest, gpu).ok()?;
@@ -110,7 +109,7 @@ impl StudyRun<SweepSummary> {
         let member = |entry: &usize| {
             let variant = self.request.variants()[*entry].clone();
             let id = self.summary.variants[*entry].run_id;
-            Member { entry: *entry, name: variant.name, scene: variant.scene, id, notices: variant.notices }
+            Member { entry: *entry, name: variant.name, scene: variant.scene, id }
         };
         let members: Vec<Member> = waiting.iter().map(member).collect();
         let mut failures = Vec::new();

@@ -7,8 +7,8 @@ use super::{files, plots, table};
 use crate::families::StepCheck;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, RunDirectory};
-use crate::scene::{PlotStyle, SceneError, StateFiles};
-use crate::study::{self, Charts, Kind, Record, SWEEP, Setting, StudyError, Sweep, Variation, WrittenScene};
+use crate::scene::{PlotStyle, SceneError, StateFiles, WrittenScene};
+use crate::study::{self, Charts, Kind, Record, SWEEP, Setting, StudyError, Sweep, Variation};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::convert::Infallible;
@@ -158,8 +158,8 @@ impl Record for SweepSummary {
     /// That of the first variant.
     fn style(&self, sweep: &Sweep, overrides: &[String]) -> Result<PlotStyle, SceneError> {
         let Some(first) = sweep.variants().first() else { return Ok(PlotStyle::default()) };
-        let own = first.settings.iter().map(Setting::argument);
-        sweep.scene.style(&first.scene, own, overrides, &sweep.files, StepCheck::Refuse)
+        let own: Vec<String> = first.settings.iter().map(Setting::argument).collect();
+        study::style(&sweep.scene.clone().with(&own), &first.scene, overrides, &sweep.files, StepCheck::Refuse)
     }
 
     fn progress(&self) -> String {

@@ -1,9 +1,9 @@
 //! What came out of one variant of a sweep.
 
 use super::files;
+use crate::families::Checked;
 use crate::output::summary::Unequilibrated;
 use crate::output::{Id, Summary};
-use crate::scene::Scene;
 use crate::study::{self, Setting, Variant};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -105,7 +105,7 @@ impl VariantSummary {
     }
 
     /// Takes over what its run in a directory says, if it is finished.
-    pub(super) fn record(&mut self, directory: &Path, scene: &Scene) {
+    pub(super) fn record(&mut self, directory: &Path, scene: &Checked) {
         if let Some(run) = study::finished(directory, scene, self.run_id, files::SUMMARY) {
             self.finish(&run);
         }

@@ -1,11 +1,10 @@
 //! What a step costs: all choices timed in turns, round by round, in one process.
 
 use crate::engine::{Engine, EngineError};
-use crate::families::Model;
+use crate::families::Checked;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::plan::{Hardware, Options, Plan};
 use crate::run::{self, RunError};
-use crate::scene::Scene;
 use crate::state::State;
 use crate::study::StudyError;
 use serde::{Deserialize, Serialize};
@@ -37,7 +36,7 @@ pub struct Cost {
 /// A choice to be timed: its name, its scene, and a state that it has come to.
 pub(super) struct Timed<'a> {
     pub name: &'a str,
-    pub scene: &'a Scene,
+    pub scene: &'a Checked,
     pub state: State,
 }
 
@@ -178,7 +177,7 @@ pub(super) fn is_unstable(error: &RunError) -> bool {
 
 fn steps_of(choice: &Timed<'_>, hardware: Hardware, options: Options) -> Plan {
     let scene = choice.scene;
-    run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, hardware, options).without_reports()
+    run::plan(scene, hardware, options).without_reports()
 }
 
 #[cfg(test)]
@@ -199,7 +198,7 @@ mod tests {
             "time.step=0.002",
         ];
         let scene = scene::load("dpd-fluid", &set.map(str::to_owned)).unwrap();
-        let mut state = families::initial_state(&scene, &Model::new(&scene));
+        let mut state = families::initial_state(&scene);
         for position in &mut state.positions {
             position[0] = (position[0] >> 6).wrapping_sub(1 << 25);
         }

@@ -1,9 +1,9 @@
 //! How far what a run draws is from that of a finer run, and from what is exact: fields on nodes, and the radial distribution function.
 
 use super::measures::Measured;
-use crate::families::{Model, PictureKind};
+use crate::families::{Checked, PictureKind};
 use crate::output::{RunDirectory, files as run_files, read_npy, read_table};
-use crate::scene::{AnalysisId, FieldQuantity, Scene};
+use crate::scene::{AnalysisId, FieldQuantity};
 use crate::study::{StudyError, by_key, each_once};
 
 /// How the names of these measures end.
@@ -80,35 +80,34 @@ fn measured(name: &str, end: &str, value: f64, standard_error: Option<f64>) -> M
 const FLOW: [FieldQuantity; 3] = [FieldQuantity::Depth, FieldQuantity::VelocityX, FieldQuantity::VelocityY];
 
 /// The fields that are compared at the end of a scene: those that it draws, its depth and its velocity.
-pub(super) fn compared(scene: &Scene, model: &Model) -> Vec<FieldQuantity> {
-    if model.picture() != PictureKind::Fields {
+pub(super) fn compared(scene: &Checked) -> Vec<FieldQuantity> {
+    if scene.model().picture() != PictureKind::Fields {
         return Vec::new();
     }
     each_once(scene.output.fields.clone().unwrap_or_default().quantities.into_iter().chain(FLOW))
 }
 
 /// The scene, which leaves all fields that are compared.
-pub(super) fn leaving_compared(mut scene: Scene) -> Scene {
-    let quantities = compared(&scene, &Model::new(&scene));
-    if !quantities.is_empty() {
-        scene.output.fields.get_or_insert_default().quantities = quantities;
+pub(super) fn leaving_compared(scene: Checked) -> Checked {
+    let quantities = compared(&scene);
+    if quantities.is_empty() {
+        return scene;
     }
-    scene
+    scene.changed(|scene| scene.output.fields.get_or_insert_default().quantities = quantities)
 }
 
 /// The names of the distances of a scene from an exact solution, if it has one.
-pub(super) fn names_from_exact(scene: &Scene, model: &Model) -> Vec<String> {
-    let is_known = |field: &FieldQuantity| model.physics().steady_field(*field, scene, model).is_some();
-    names(compared(scene, model).into_iter().filter(is_known), FROM_EXACT)
+pub(super) fn names_from_exact(scene: &Checked) -> Vec<String> {
+    let is_known = |field: &FieldQuantity| scene.model().physics().steady_field(*field, scene).is_some();
+    names(compared(scene).into_iter().filter(is_known), FROM_EXACT)
 }
 
 /// The distances of the fields that a run has drawn from those of the steady flow that it starts with, measured as those from a
 /// finer run.
-pub(super) fn from_exact(scene: &Scene, run: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
-    let model = Model::new(scene);
+pub(super) fn from_exact(scene: &Checked, run: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
     let mut fields = Vec::new();
-    for field in compared(scene, &model) {
-        let Some(exact) = model.physics().steady_field(field, scene, &model) else { continue };
+    for field in compared(scene) {
+        let Some(exact) = scene.model().physics().steady_field(field, scene) else { continue };
         let own = read_npy(&run.file(&run_files::field(field.stem(), None, "npy")))?;
         let exact = (own.0.clone(), exact);
         fields.push((field.stem(), on_common_nodes(&own, &exact)));

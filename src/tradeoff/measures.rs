@@ -1,10 +1,10 @@
 //! What is measured of a choice.
 
 use super::fields;
-use crate::families::{Model, column};
+use crate::families::Checked;
+use crate::families::column;
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::run;
-use crate::scene::Scene;
 use crate::study::StudyError;
 use crate::sweep::numbers_of;
 use crate::table::Table;
@@ -66,7 +66,11 @@ impl Measured {
 }
 
 /// Everything that a finished run says by itself.
-pub(super) fn of_run(summary: &Summary, scene: &Scene, directory: &RunDirectory) -> Result<Vec<Measured>, StudyError> {
+pub(super) fn of_run(
+    summary: &Summary,
+    scene: &Checked,
+    directory: &RunDirectory,
+) -> Result<Vec<Measured>, StudyError> {
     let numbers = numbers_of(&summary.means, &summary.results).into_iter().filter(|found| found.value.is_finite());
     let mut measured: Vec<Measured> =
         numbers.map(|found| Measured::mean(found.name, found.value, found.error, found.from_few_samples)).collect();
@@ -79,23 +83,23 @@ pub(super) fn of_run(summary: &Summary, scene: &Scene, directory: &RunDirectory)
 }
 
 /// What a table of energies says beside the means of its columns, named as [`names_of_table`] says.
-pub(crate) fn of_table(table: &Table, scene: &Scene) -> Vec<Measured> {
+pub(crate) fn of_table(table: &Table, scene: &Checked) -> Vec<Measured> {
     let drift = if drifts(scene) { energy_drift(table) } else { None };
     drift.into_iter().chain(limited_exchange_share(table, scene)).collect()
 }
 
 /// The names of what the table of energies of a scene says beside the means of its columns.
-pub(crate) fn names_of_table(scene: &Scene) -> Vec<&'static str> {
-    let is_limited = run::quantities(&Model::new(scene)).contains(&column::LIMITED_EXCHANGES);
+pub(crate) fn names_of_table(scene: &Checked) -> Vec<&'static str> {
+    let is_limited = run::quantities(scene.model()).contains(&column::LIMITED_EXCHANGES);
     let there = [(ENERGY_DRIFT, drifts(scene)), (LIMITED_EXCHANGES, is_limited)];
     there.into_iter().filter(|(_, there)| *there).map(|(name, _)| name).collect()
 }
 
-fn limited_exchange_share(table: &Table, scene: &Scene) -> Option<Measured> {
+fn limited_exchange_share(table: &Table, scene: &Checked) -> Option<Measured> {
     let [cut, times] = [column::LIMITED_EXCHANGES, "time"].map(|name| table.column(name));
     let change = |values: Vec<f64>| Some(values.last()? - values.first()?);
     let (cut, steps) = (change(cut?)?, change(times?)? / scene.time.step);
-    let faces = FACES_A_CELL * Model::new(scene).particle_count() as f64;
+    let faces = FACES_A_CELL * scene.model().particle_count() as f64;
     let share = || Measured::from_one_sample(LIMITED_EXCHANGES, cut / (faces * steps), Some(0.0));
     (steps > 0.0 && faces > 0.0).then(share)
 }
@@ -112,21 +116,21 @@ fn energy_drift(table: &Table) -> Option<Measured> {
 }
 
 /// Whether the energy of a scene would be constant if its equations of motion were solved exactly, so that its drift is an error.
-fn drifts(scene: &Scene) -> bool {
-    let model = Model::new(scene);
-    let columns = run::quantities(&model);
-    columns.contains(&"total_energy") && model.physics().is_conservative(&model)
+fn drifts(scene: &Checked) -> bool {
+    let model = scene.model();
+    let columns = run::quantities(model);
+    columns.contains(&"total_energy") && model.physics().is_conservative(model)
 }
 
 /// The names of what a scene measures, as far as they are known before it has run: columns of its table of energies and those of this
 /// module. What an analysis finds is named `ANALYSIS.NUMBER`.
-pub(super) fn names(scene: &Scene) -> Vec<String> {
-    let model = Model::new(scene);
-    let columns = run::quantities(&model);
-    let loops = model.physics().material_loops(&model).is_some_and(|found| !found.loops.is_empty());
+pub(super) fn names(scene: &Checked) -> Vec<String> {
+    let model = scene.model();
+    let columns = run::quantities(model);
+    let loops = model.physics().material_loops(model).is_some_and(|found| !found.loops.is_empty());
     let further = names_of_table(scene).into_iter().chain(loops.then_some(CIRCULATION_DRIFT));
     let known = columns.iter().copied().chain(further).map(str::to_owned);
-    known.chain(fields::names_from_exact(scene, &model)).collect()
+    known.chain(fields::names_from_exact(scene)).collect()
 }
 
 /// Whether a measure without unit says how large an error is, as a part of something: a drift, a distance or a share.

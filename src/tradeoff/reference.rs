@@ -2,8 +2,7 @@
 
 use super::fields::{DISTANCE, FROM_EXACT};
 use super::measures::{CIRCULATION_DRIFT, ENERGY_DRIFT, LIMITED_EXCHANGES, Measured};
-use crate::families::{self, ExactMean, KeptQuantity, Model, column};
-use crate::scene::Scene;
+use crate::families::{self, Checked, ExactMean, KeptQuantity, Model, column};
 use crate::state::State;
 use serde::{Deserialize, Serialize};
 
@@ -96,7 +95,7 @@ impl References {
     }
 
     /// The one of a measure, else what the measure has if equations of motion are solved exactly, where that is known.
-    pub(crate) fn known(&self, measure: &str, scene: &Scene) -> Option<Reference> {
+    pub(crate) fn known(&self, measure: &str, scene: &Checked) -> Option<Reference> {
         self.find(measure).cloned().or_else(|| predicted(measure, scene))
     }
 
@@ -107,28 +106,29 @@ impl References {
 }
 
 /// The value that a measure has if equations of motion are solved exactly, where that is known.
-pub(crate) fn predicted(measure: &str, scene: &Scene) -> Option<Reference> {
-    let model = Model::new(scene);
+pub(crate) fn predicted(measure: &str, scene: &Checked) -> Option<Reference> {
+    let model = scene.model();
     let (value, law) = match measure {
         ENERGY_DRIFT => (0.0, "the energy of the exact motion is constant"),
         CIRCULATION_DRIFT => (0.0, "a loop that moves with the flow keeps its circulation"),
         LIMITED_EXCHANGES => (0.0, "a limit that never acts changes nothing"),
-        "temperature" | "configurational_temperature" if model.physics().has_thermostat(&model) => {
+        "temperature" | "configurational_temperature" if model.physics().has_thermostat(model) => {
             (scene.temperature, "the temperature of the bath")
         }
         _ if measure.ends_with(DISTANCE) => (0.0, "no distance from the finer run"),
         _ if measure.ends_with(FROM_EXACT) => (0.0, "no distance from the exact flow, which is steady"),
         _ if column::axis_of_momentum(measure).is_some() => {
-            (kept_momentum(measure, scene, &model)?, "the total momentum at the start, which is constant")
+            (kept_momentum(measure, scene)?, "the total momentum at the start, which is constant")
         }
-        _ => (exact_mean(measure, &model)?.continuous, "the mean of the exact motion in equilibrium"),
+        _ => (exact_mean(measure, model)?.continuous, "the mean of the exact motion in equilibrium"),
     };
     let source = Source::Predicted(law.to_owned());
     Some(Reference { measure: measure.to_owned(), value, uncertainty: Some(0.0), source })
 }
 
 /// A component of the total momentum that a scene starts with, if it keeps it.
-fn kept_momentum(measure: &str, scene: &Scene, model: &Model) -> Option<f64> {
+fn kept_momentum(measure: &str, scene: &Checked) -> Option<f64> {
+    let model = scene.model();
     let axis = column::axis_of_momentum(measure)?;
     // What is kept does not depend on the state; its sums do.
     let is_kept = |state: &State| {
@@ -136,7 +136,7 @@ fn kept_momentum(measure: &str, scene: &Scene, model: &Model) -> Option<f64> {
         kept.filter(|sum| sum.quantity == KeptQuantity::MOMENTUM).nth(axis).map(|sum| sum.total as f64 * sum.unit)
     };
     is_kept(&State::default())?;
-    is_kept(&families::initial_state(scene, model))
+    is_kept(&families::initial_state(scene))
 }
 
 /// The exact mean of a column in equilibrium, where it is known.
@@ -145,8 +145,8 @@ fn exact_mean(measure: &str, model: &Model) -> Option<ExactMean> {
 }
 
 /// The value that the scheme of a scene gives a measure with its time step, noise apart, where that is known exactly.
-pub(super) fn of_scheme(measure: &str, scene: &Scene) -> Option<f64> {
-    exact_mean(measure, &Model::new(scene))?.discrete
+pub(super) fn of_scheme(measure: &str, scene: &Checked) -> Option<f64> {
+    exact_mean(measure, scene.model())?.discrete
 }
 
 /// The reference that the first of these runs gives. Its own bias is taken to be what its time step, halved once, has changed, noise included:
@@ -211,7 +211,7 @@ mod tests {
             scene::load(name, &set.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>()).unwrap()
         };
         let still = load("shallow-water-equilibrium", &[]);
-        let value = |measure: &str, scene: &Scene| predicted(measure, scene).map(|found| found.value);
+        let value = |measure: &str, scene: &Checked| predicted(measure, scene).map(|found| found.value);
         assert_eq!(value("temperature", &still), Some(0.04));
         // kT λ/c₀² with λ = π²/4 and c₀ = 2π: ε = 1 makes λ (c₀/4)² here.
         let square = value("bath_square", &still).unwrap();

@@ -4,10 +4,11 @@ use super::length::Length;
 use super::reference::{Reference, References};
 use super::target::Target;
 use super::{fields, measures};
-use crate::families::{Model, StepCheck};
+use crate::families::Checked;
+use crate::families::StepCheck;
 use crate::run;
-use crate::scene::{AnalysisId, Scene, SceneError, StateFiles, Warning, did_you_mean, nearest};
-use crate::study::{LENGTHS, Setting, StudyError, Sweep, Variation, WrittenScene, each_once, settings};
+use crate::scene::{AnalysisId, SceneError, StateFiles, Warning, WrittenScene, did_you_mean, nearest};
+use crate::study::{self, LENGTHS, Setting, StudyError, Sweep, Variation, each_once, settings};
 use serde::{Deserialize, Serialize};
 
 /// Names of the runs that give references.
@@ -21,9 +22,7 @@ pub struct Request {
     pub(super) arguments: Arguments,
     pub(super) sweep: Sweep,
     /// The scene before anything is varied.
-    pub(super) base: Scene,
-    /// What was shortened in it.
-    notices: Vec<Warning>,
+    pub(super) base: Checked,
 }
 
 /// A request as it is written into the summary, and read from there.
@@ -56,8 +55,9 @@ pub(super) struct Arguments {
 
 impl Arguments {
     /// The scene with further overrides; its step may be too large, for what becomes of it is a result.
-    pub(super) fn scene(&self, own: impl IntoIterator<Item = String>) -> Result<Scene, SceneError> {
-        Ok(self.scene.with(own, &self.state_files, StepCheck::Allow)?.0)
+    pub(super) fn scene(&self, own: impl IntoIterator<Item = String>) -> Result<Checked, SceneError> {
+        let own: Vec<String> = own.into_iter().collect();
+        self.scene.clone().with(&own).check_among(&self.state_files, StepCheck::Allow)
     }
 }
 
@@ -65,7 +65,7 @@ impl Request {
     /// Varies the scene in a file, or a built-in one, as [`Sweep::load`] does, but for time steps that cannot be
     /// stable: they are run, too. With
     /// `steps` the scene has so many, to which its equilibration is shortened where it does not fit, as
-    /// [`crate::scene::load_for`] does it; an override of `time.steps` is such a number too.
+    /// [`crate::scene::WrittenScene::for_steps`] does it; an override of `time.steps` is such a number too.
     ///
     /// # Errors
     /// [`StudyError::Variants`] or [`StudyError::Arguments`] with all mistakes at once; [`StudyError::Scene`] when there is no such scene.
@@ -76,7 +76,7 @@ impl Request {
         vary: &[String],
         also: &[String],
     ) -> Result<Self, StudyError> {
-        let scene = WrittenScene::read(source, set, steps)?;
+        let scene = study::written_scene(source, set, steps)?;
         let (state_files, vary, also) = (StateFiles::of(&scene.name), vary.to_vec(), also.to_vec());
         Self::new(Arguments { scene, vary, also, state_files, ..Arguments::default() })
     }
@@ -98,9 +98,9 @@ impl Request {
             return Err(StudyError::mistake(mistake));
         }
         arguments.state_files = sweep.files.clone();
-        let (base, notices) = arguments.scene.with([], &arguments.state_files, StepCheck::Allow)?;
+        let base = arguments.scene.check_among(&arguments.state_files, StepCheck::Allow)?;
         arguments.state_files.note(&base);
-        Ok(Self { arguments, sweep, base, notices })
+        Ok(Self { arguments, sweep, base })
     }
 
     /// The same for so long.
@@ -179,7 +179,7 @@ impl Request {
 
     /// The run that references are taken from, and those that say how good they are: one with twice its step, and one that is finer
     /// still where that is asked for.
-    pub(super) fn finer_scenes(&self) -> Result<Vec<(&'static str, Scene)>, StudyError> {
+    pub(super) fn finer_scenes(&self) -> Result<Vec<(&'static str, Checked)>, StudyError> {
         let smallest =
             self.sweep.variants().iter().map(|variant| variant.scene.time.step).fold(self.base.time.step, f64::min);
         let asked = |argument: &Option<String>| -> Vec<Setting> {
@@ -207,7 +207,7 @@ impl Request {
     /// What was shortened in the scene to suit the number of steps.
     #[must_use]
     pub fn notices(&self) -> &[Warning] {
-        &self.notices
+        self.base.notices()
     }
 
     /// The title of the scene.
@@ -224,7 +224,7 @@ impl Request {
 
     /// Keys among those varied that change what is simulated, and not only how it is computed.
     pub(super) fn physical_keys(&self) -> Vec<&str> {
-        let refines = Model::new(&self.base).physics().is_resolved_by_particles();
+        let refines = self.base.model().physics().is_resolved_by_particles();
         let is_physical = |key: &&str| {
             let last = key.rsplit('.').next().unwrap_or_default();
             if refines && last == "count" {
@@ -239,11 +239,10 @@ impl Request {
 
     /// Looks for names of measures that no run has.
     fn check_names<'a>(&self, option: &str, wanted: impl Iterator<Item = &'a str>) -> Result<(), StudyError> {
-        let model = Model::new(&self.base);
-        let asked = run::asked_analyses(&self.base, &model);
+        let asked = run::asked_analyses(&self.base);
         let found = asked.iter().flat_map(|asked| asked.found.iter().map(|number| (asked.id.name(), number)));
         let found = found.map(|(analysis, number)| format!("{analysis}.{number}"));
-        let fields = fields::names(fields::compared(&self.base, &model).into_iter(), fields::DISTANCE);
+        let fields = fields::names(fields::compared(&self.base).into_iter(), fields::DISTANCE);
         let curve = AnalysisId::RadialDistribution.name();
         let has_curve = asked.iter().any(|asked| asked.id.name() == curve);
         let curve = has_curve.then(|| format!("{curve}{}", fields::DISTANCE));
@@ -343,7 +342,8 @@ mod tests {
         assert_eq!(steps(&still), [0.005, 0.01, 0.005]);
         let scenes = still.finer_scenes().unwrap();
         assert_eq!(scenes.iter().map(|(name, _)| *name).collect::<Vec<_>>(), still.finer_names());
-        let same_but_for = |scene: &Scene| Scene { integrator: scenes[0].1.integrator.clone(), ..scene.clone() };
+        let same_but_for =
+            |scene: &Checked| scene.clone().changed(|scene| scene.integrator = scenes[0].1.integrator.clone());
         assert_ne!(scenes[2].1, scenes[0].1);
         assert_eq!(same_but_for(&scenes[2].1), scenes[0].1);
         assert_eq!(steps(&request.clone().with_finer(finer, Some("time.step=0.0025")).unwrap()), [0.005, 0.01, 0.0025]);

@@ -7,11 +7,11 @@ use super::stretch::Stretch;
 use super::summary::{Choice, ChoiceState, Float64Stretch, TradeoffSummary, Wanted};
 use super::target::{Target, Verdict};
 use super::{advice, fields, files};
+use crate::families::Checked;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::numbers::with_error;
 use crate::output::{Id, RunDirectory, Summary, checkpoint, files as run_files};
 use crate::run::{self, RunError};
-use crate::scene::Scene;
 use crate::self_test;
 use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun};
 use std::fmt;
@@ -133,7 +133,7 @@ impl StudyRun<TradeoffSummary> {
     }
 
     /// All runs: the choices, then those that references are taken from where some measure needs them.
-    fn runs(&self, stretch: &Stretch) -> Result<Vec<(String, Scene)>, StudyError> {
+    fn runs(&self, stretch: &Stretch) -> Result<Vec<(String, Checked)>, StudyError> {
         let finer = self.request.finer_scenes()?;
         let choices = self.request.sweep.variants().iter().map(|variant| (variant.name.as_str(), &variant.scene));
         let run =
@@ -142,31 +142,31 @@ impl StudyRun<TradeoffSummary> {
     }
 
     /// The choice whose run an entry shares: one that references are taken from may be a choice, too.
-    fn twin(&self, runs: &[(String, Scene)], index: usize) -> Option<usize> {
+    fn twin(&self, runs: &[(String, Checked)], index: usize) -> Option<usize> {
         let choices = self.summary.choices.len();
         (0..choices).find(|twin| index >= choices && runs[*twin].1 == runs[index].1)
     }
 
     /// The runs that have to come to the end of the stretch: not those that became unstable, nor those that another
     /// entry has.
-    fn members(&mut self, runs: &[(String, Scene)]) -> Vec<Member> {
+    fn members(&mut self, runs: &[(String, Checked)]) -> Vec<Member> {
         let stretch = self.summary.stretch;
         let mut members = Vec::new();
         for (entry, (name, scene)) in runs.iter().enumerate() {
             if self.twin(runs, entry).is_some() || self.entry(entry).state == ChoiceState::Unstable {
                 continue;
             }
-            let mut scene = scene.clone();
-            scene.time.steps = stretch.steps(&scene);
+            let steps = stretch.steps(scene);
+            let scene = scene.clone().changed(|scene| scene.time.steps = steps);
             // The id stays that of the version of the program that began the run.
             let id = *self.entry(entry).run_id.get_or_insert_with(|| Id::of_run(&scene));
-            members.push(Member { entry, name: name.clone(), id, scene, notices: Vec::new() });
+            members.push(Member { entry, name: name.clone(), id, scene });
         }
         members
     }
 
     /// Those of them that have not come there yet.
-    fn waiting(&mut self, runs: &[(String, Scene)]) -> Vec<Member> {
+    fn waiting(&mut self, runs: &[(String, Checked)]) -> Vec<Member> {
         let mut members = self.members(runs);
         // What stands in the place of a new study is not of it.
         let is_begun = !self.is_new() || self.summary.adapter.is_some();
@@ -222,7 +222,7 @@ impl StudyRun<TradeoffSummary> {
     /// Brings all runs to the end of the stretch; what they cost is measured later, in turns.
     fn advance(
         &mut self,
-        runs: &[(String, Scene)],
+        runs: &[(String, Checked)],
         jobs: usize,
         adapter: &AdapterChoice,
         observer: &mut Observer<'_, TradeoffSummary>,
@@ -362,7 +362,7 @@ impl StudyRun<TradeoffSummary> {
     }
 
     /// Times the steps of all choices that came to their end, in turns.
-    fn time(&mut self, runs: &[(String, Scene)], adapter: &AdapterChoice) -> Result<(), StudyError> {
+    fn time(&mut self, runs: &[(String, Checked)], adapter: &AdapterChoice) -> Result<(), StudyError> {
         let (mut finished, mut timed) = (Vec::new(), Vec::new());
         for (index, ((name, scene), choice)) in runs.iter().zip(&self.summary.choices).enumerate() {
             if choice.state == ChoiceState::Finished {

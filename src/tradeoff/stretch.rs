@@ -1,6 +1,7 @@
 //! The same stretch of simulated time for every variant, whatever its time step.
 
-use crate::scene::{self, Scene, SceneError};
+use crate::families::Checked;
+use crate::scene::{Scene, SceneError};
 use crate::study::StudyError;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -55,7 +56,7 @@ impl Stretch {
     ///
     /// # Errors
     /// [`StudyError::Variants`] where that is no scene: a window of an analysis that does not fit, say.
-    pub(super) fn applied(&self, name: &str, variant: &Scene) -> Result<Scene, StudyError> {
+    pub(super) fn applied(&self, name: &str, variant: &Checked) -> Result<Checked, StudyError> {
         let wrong = |source: SceneError| StudyError::of_variant(name, source);
         let mismatch = |error: serde_json::Error| {
             wrong(SceneError::SchemaMismatch { name: name.to_owned(), message: error.to_string() })
@@ -73,7 +74,7 @@ impl Stretch {
         scene.time.equilibration = (self.equilibration / variant.time.step).round() as u64;
         scene.time.steps = self.steps(&scene);
         scene.kept = variant.kept.clone();
-        scene::checked(name, &scene).map_err(wrong)
+        scene.check_kept(name).map_err(wrong)
     }
 }
 
@@ -103,12 +104,12 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    fn scene(step: &str) -> Scene {
+    fn scene(step: &str) -> Checked {
         let set = [
             format!("time.step={step}"),
             r#"output={"energies":{"every":20},"radial_distribution":{"every":40,"range":2}}"#.to_owned(),
         ];
-        scene::load("dpd-fluid", &set).unwrap()
+        crate::scene::load("dpd-fluid", &set).unwrap()
     }
 
     #[test]
@@ -123,7 +124,7 @@ mod tests {
             let row = every as f64 * found.time.step;
             assert!(time >= all - 1e-9 && time < all + row + 1e-9, "{step}: {time}");
             assert_eq!(found.output.energies.every, every, "{step}");
-            assert_eq!(found.output.radial_distribution.unwrap().every, 2 * every, "{step}");
+            assert_eq!(found.output.radial_distribution.as_ref().unwrap().every, 2 * every, "{step}");
         }
         let sampled = |set: &str| {
             let set = [
@@ -131,8 +132,8 @@ mod tests {
                 format!("time.step={set}"),
                 r#"output.stress={"every":1,"window":50}"#.to_owned(),
             ];
-            let found = stretch.applied("variant", &scene::load("dpd-fluid", &set).unwrap()).unwrap();
-            found.output.stress.map(|stress| (stress.every, stress.window))
+            let found = stretch.applied("variant", &crate::scene::load("dpd-fluid", &set).unwrap()).unwrap();
+            found.output.stress.as_ref().map(|stress| (stress.every, stress.window))
         };
         assert_eq!(["0.04", "0.01"].map(sampled), [Some((1, Some(50))), Some((1, Some(200)))], "of every step");
         let longer = Stretch { averaged: 2.0 * stretch.averaged, ..stretch };

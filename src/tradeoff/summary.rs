@@ -12,7 +12,7 @@ use super::{advice, charts, files, table};
 use crate::families::StepCheck;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, RunDirectory};
-use crate::scene::{self, PlotStyle, SceneError};
+use crate::scene::{PlotStyle, SceneError, WrittenScene};
 use crate::study::{self, ASKS_ELSE, Charts, Kind, Record, Setting, StudyError, TRADEOFF, Variant};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -196,10 +196,10 @@ impl TradeoffSummary {
         self.choices.iter().find(|choice| choice.name == *name)
     }
 
-    /// The scene of a choice: its name in messages, its text, and the overrides that make the choice.
-    pub(crate) fn scene_of(&self, choice: &Choice) -> (&str, &str, Vec<String>) {
-        let scene = &self.arguments.scene;
-        (&scene.name, &scene.text, scene.overrides(choice.settings.iter().map(Setting::argument)))
+    /// The scene of a choice, with the overrides that make the choice.
+    pub(crate) fn scene_of(&self, choice: &Choice) -> WrittenScene {
+        let settings: Vec<String> = choice.settings.iter().map(Setting::argument).collect();
+        self.arguments.scene.clone().with(&settings)
     }
 
     /// Choices that came to their end.
@@ -230,8 +230,8 @@ impl TradeoffSummary {
     pub fn chosen_scene(&self) -> Result<Option<String>, StudyError> {
         let Some(choice) = self.choice() else { return Ok(None) };
         let Arguments { scene, state_files, .. } = &self.arguments;
-        let overrides = scene.overrides(self.lines_of(choice).iter().map(Setting::argument));
-        Ok(Some(scene::with_overrides(state_files, &scene.name, &scene.text, &overrides)?))
+        let settings: Vec<String> = self.lines_of(choice).iter().map(Setting::argument).collect();
+        Ok(Some(scene.clone().with(&settings).resolved(state_files)?))
     }
 
     /// Reads the summary in the directory of a tradeoff.
@@ -326,6 +326,6 @@ impl Record for TradeoffSummary {
 
     fn style(&self, request: &Request, overrides: &[String]) -> Result<PlotStyle, SceneError> {
         let Arguments { scene, state_files, .. } = &request.arguments;
-        scene.style(&request.base, [], overrides, state_files, StepCheck::Allow)
+        study::style(scene, &request.base, overrides, state_files, StepCheck::Allow)
     }
 }

@@ -12,7 +12,7 @@ use mesoscope::families::combinations::{
 };
 use mesoscope::plan::{Division, Options};
 use mesoscope::run;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rand::seq::SliceRandom;
@@ -220,7 +220,7 @@ fn compare(pair: [Feature; 2]) -> Outcome {
         assert!(feature.place(&scene).is_some(), "{feature:?} is not in the scene of {pair:?}");
     }
     let (model, state) = start(&scene);
-    let plan = run::plan(&model, 0, &scene.output, hardware(), Options::default());
+    let plan = run::plan(&scene, hardware(), Options::default());
     if plan.storage_buffers > gpu().device().limits().max_storage_buffers_per_shader_stage {
         return Outcome::TooLarge;
     }
@@ -240,7 +240,7 @@ fn compare(pair: [Feature; 2]) -> Outcome {
 }
 
 /// What two ranks give, with bonds that are expected to be longer as long as some are too long.
-fn divided(scene: &Scene) -> Bytes {
+fn divided(scene: &Checked) -> Bytes {
     let (_, state) = start(scene);
     let mut options = Options::default();
     loop {

@@ -6,10 +6,9 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use mesoscope::families::Model;
 use mesoscope::plan::{Hardware, Options};
 use mesoscope::run::plan;
-use mesoscope::scene;
+use mesoscope::scene::{self, WrittenScene};
 use mesoscope::sweep::Sweep;
 use serde_json::Value;
 
@@ -197,7 +196,7 @@ fn every_fence_says_what_becomes_of_it() {
     let known = ["console", "sh", "json", "rust", "rust,no_run", "python", "text"];
     for document in documents() {
         for Block { place, kind, .. } in document.blocks() {
-            let fragment = kind.strip_prefix("json over ").is_some_and(|name| scene::read(name).is_ok());
+            let fragment = kind.strip_prefix("json over ").is_some_and(|name| WrittenScene::read(name).is_ok());
             assert!(fragment || known.contains(&kind.as_str()), "{place}: `{kind}` is none of {known:?}");
         }
     }
@@ -366,7 +365,8 @@ fn check_command(command: &[String], place: &str) {
     let steps = values(command, "--steps").first().map(|steps| steps.parse().unwrap());
     match command[0].as_str() {
         "run" | "check" => {
-            scene::load_for(&command[1], &set, steps).unwrap_or_else(|error| panic!("{place}: {error}"));
+            let scene = WrittenScene::read(&command[1]).unwrap().with(&set).for_steps(steps);
+            scene.check().unwrap_or_else(|error| panic!("{place}: {error}"));
         }
         "sweep" => {
             let (vary, also) = (values(command, "--vary"), values(command, "--also"));
@@ -384,7 +384,7 @@ fn scenes_and_their_parts_are_correct() {
         let text = match kind.strip_prefix("json over ") {
             None => text,
             Some(name) => {
-                let mut scene: Value = serde_json::from_str(&scene::read(name).unwrap().1).unwrap();
+                let mut scene: Value = serde_json::from_str(&WrittenScene::read(name).unwrap().text).unwrap();
                 let part: Value = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{place}: {error}"));
                 for (key, value) in part.as_object().unwrap() {
                     scene[key] = value.clone();
@@ -393,7 +393,7 @@ fn scenes_and_their_parts_are_correct() {
             }
         };
         let scene = scene::parse(&place, &text, &[]).unwrap_or_else(|error| panic!("{error}"));
-        let _ = plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default());
+        let _ = plan(&scene, Hardware::default(), Options::default());
     }
 }
 

@@ -82,13 +82,13 @@ fn a_trajectory_starts_the_same_molecules() {
     std::fs::write(place.path("next.json"), next.to_string()).unwrap();
     let [next, before] = [place.path("next.json"), place.path("scene.json")]
         .map(|path| scene::load(path.to_str().unwrap(), &[]).unwrap());
-    let bonds = |scene: &scene::Scene| {
-        let model = mesoscope::families::Model::new(scene);
+    let bonds = |scene: &scene::Checked| {
+        let model = scene.model();
         model.particles().bonds.as_ref().unwrap().iter().map(|bond| (bond.ends, bond.kind)).collect::<Vec<_>>()
     };
     assert_eq!(bonds(&next), bonds(&before));
-    let angles = |scene: &scene::Scene| {
-        let model = mesoscope::families::Model::new(scene);
+    let angles = |scene: &scene::Checked| {
+        let model = scene.model();
         model.particles().angles.as_ref().unwrap().iter().map(|angle| (angle.ends, angle.kind)).collect::<Vec<_>>()
     };
     assert_eq!(angles(&next).len(), 30);

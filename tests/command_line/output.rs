@@ -1,5 +1,6 @@
 //! Files of a run: what they hold, what they survive, and how their failures read.
 
+use crate::support::edited;
 use mesoscope::families::Model;
 use mesoscope::measure::statistics;
 use mesoscope::output::checkpoint::{self, CheckpointError, ContentError};
@@ -8,7 +9,7 @@ use mesoscope::output::{
     EnergiesFile, Extent, Id, OutputError, RunDirectory, Summary, TrajectoryWriter, files, read_table,
     write_atomically, write_table,
 };
-use mesoscope::scene::{Scene, TrajectoryFormat};
+use mesoscope::scene::{Checked, Scene, TrajectoryFormat};
 use mesoscope::state::State;
 use mesoscope::table::Table;
 use std::fs;
@@ -21,9 +22,9 @@ fn run_id() -> Id {
     Id::of_run(&scene(3))
 }
 
-fn scene(dimension: usize) -> Scene {
+fn scene(dimension: usize) -> Checked {
     let lengths = &[4.0, 5.0, 6.1][..dimension];
-    serde_json::from_value(serde_json::json!({
+    let scene: Scene = serde_json::from_value(serde_json::json!({
         "title": "two species",
         "space": { "box": lengths },
         "time": { "step": 0.01, "steps": 100 },
@@ -33,7 +34,8 @@ fn scene(dimension: usize) -> Scene {
             { "species": "heavy one", "count": 1, "mass": 4.0 },
         ],
     }))
-    .unwrap()
+    .unwrap();
+    scene.check().unwrap()
 }
 
 /// Three particles, at momenta that change with the step.
@@ -194,7 +196,7 @@ fn a_full_disk_is_reported_as_such() {
     assert!(is_full(&error), "{error}");
     assert!(error.to_string().starts_with("cannot write `/dev/full`: No space left"), "{error}");
 
-    let model = Model::new(&scene(3));
+    let model = scene(3).model().clone();
     let error = TrajectoryWriter::create(full, TrajectoryFormat::Gsd, &model, run_id()).unwrap_err();
     assert!(is_full(&error), "{error}");
     let mut trajectory = TrajectoryWriter::create(full, TrajectoryFormat::ExtendedXyz, &model, run_id()).unwrap();
@@ -282,7 +284,7 @@ fn resumed_energies_continue_after_the_step_and_keep_earlier_rows() {
 fn a_file_that_vanishes_is_missed() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::ENERGIES);
-    let model = Model::new(&scene(3));
+    let model = scene(3).model().clone();
     let states = [state(0, 3), state(5, 3)];
     let problems: [(&str, &dyn Fn()); 3] = [
         ("it was removed", &|| fs::remove_file(&path).unwrap()),
@@ -347,11 +349,12 @@ fn tables_say_which_line_is_wrong() {
 fn a_checkpoint_comes_back_to_the_last_bit() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::CHECKPOINT);
-    let mut scene = scene(3);
     // Numbers that a hasty parser misses by the last bit.
-    scene.time.step = 0.1 + 0.2;
-    scene.temperature = 1.234_567_890_123_456_7e-7;
-    scene.space.lengths = vec![14.0 / 3.0, 5.0 + f64::EPSILON, 900.719_925_474_099_3];
+    let scene = edited(&scene(3), |scene| {
+        scene.time.step = 0.1 + 0.2;
+        scene.temperature = 1.234_567_890_123_456_7e-7;
+        scene.space.lengths = vec![14.0 / 3.0, 5.0 + f64::EPSILON, 900.719_925_474_099_3];
+    });
     let sections = vec![("diffusion".to_owned(), vec![1, 2, 3]), ("größe".to_owned(), Vec::new())];
     let written = vec![(files::ENERGIES.to_owned(), Extent { bytes: u64::MAX, crc32: u32::MAX })];
     let mut state = state(99, 3);
@@ -366,8 +369,7 @@ fn a_checkpoint_comes_back_to_the_last_bit() {
         checkpoint::save(&path, run_id(), &loaded.scene, &loaded.state, &loaded.files, &loaded.sections).unwrap();
         assert_eq!(fs::read(&path).unwrap(), first);
     }
-    let mut nothing = scene.clone();
-    nothing.particles.clear();
+    let nothing = edited(&scene, |scene| scene.particles.clear());
     checkpoint::save(&path, run_id(), &nothing, &State::default(), &[], &[]).unwrap();
     assert_eq!(checkpoint::load(&path).unwrap().state, State::default());
     assert_eq!(listing(root.path()), [files::CHECKPOINT]);
@@ -474,6 +476,7 @@ fn gsd_holds_bonds_and_angles() {
     let path = root.path().join(files::TRAJECTORY_GSD);
     let scene = serde_json::from_value(serde_json::json!({
         "title": "line", "space": {"box": [50.0]}, "time": {"step": 0.1, "steps": 1}, "temperature": 1.0,
+        "integrator": {"type": "cotter-reich"},
         "particles": [{"species": "bead", "count": 6, "chain": {"beads": 3}}],
         "interactions": [
             {"type": "bonds", "pairs": [[5, 1]]},
@@ -482,9 +485,10 @@ fn gsd_holds_bonds_and_angles() {
         ],
     }));
     let scene: Scene = scene.unwrap();
-    let model = Model::new(&scene);
-    let start = mesoscope::families::initial_state(&scene, &model);
-    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
+    let scene = scene.check().unwrap();
+    let model = scene.model();
+    let start = mesoscope::families::initial_state(&scene);
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, model, run_id()).unwrap();
     let mut extents = Vec::new();
     for step in [0, 10, 20] {
         trajectory.append(&State { step, ..start.clone() }.into()).unwrap();
@@ -492,7 +496,7 @@ fn gsd_holds_bonds_and_angles() {
         extents.push(trajectory.extent());
     }
     drop(trajectory);
-    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, run_id(), extents[1]).unwrap());
+    drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, model, run_id(), extents[1]).unwrap());
 
     let mut file = gsd::open(&path);
     assert_eq!(file.frames().unwrap(), 2);
@@ -516,7 +520,7 @@ fn gsd_holds_bonds_and_angles() {
 fn gsd_holds_what_hoomd_expects() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::TRAJECTORY_GSD);
-    let model = Model::new(&scene(3));
+    let model = scene(3).model().clone();
     let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
     for step in [0, 10] {
         trajectory.append(&state(step, 3).into()).unwrap();
@@ -552,7 +556,7 @@ fn gsd_holds_what_hoomd_expects() {
     assert_eq!(velocities[2][0], (unit * f64::from(i32::MIN) / 4.0) as f32);
 
     let flat = root.path().join("flat.gsd");
-    let model = Model::new(&scene(2));
+    let model = scene(2).model().clone();
     let mut trajectory = TrajectoryWriter::create(&flat, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
     trajectory.append(&state(0, 2).into()).unwrap();
     trajectory.flush().unwrap();
@@ -576,7 +580,7 @@ fn write_frames(path: &Path, format: TrajectoryFormat, model: &Model, frames: u6
 #[test]
 fn trajectories_resume_at_the_step() {
     let root = tempfile::tempdir().unwrap();
-    let model = Model::new(&scene(3));
+    let model = scene(3).model().clone();
     for (format, name) in
         [(TrajectoryFormat::Gsd, files::TRAJECTORY_GSD), (TrajectoryFormat::ExtendedXyz, files::TRAJECTORY_XYZ)]
     {
@@ -614,9 +618,9 @@ fn trajectories_with_changing_masses_are_cut_back_to_the_byte() {
     let scene = r#"{"title": "t", "space": {"box": [9, 9]}, "time": {"step": 0.1, "steps": 1}, "temperature": 1,
         "particles": [{"species": "A", "count": 16}], "interactions": [{"type": "voronoi", "form": "paper"}]}"#;
     let scene = mesoscope::scene::parse("t", scene, &[]).unwrap();
-    let model = Model::new(&scene);
-    let start = mesoscope::families::initial_state(&scene, &model);
-    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, &model, run_id()).unwrap();
+    let model = scene.model();
+    let start = mesoscope::families::initial_state(&scene);
+    let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::Gsd, model, run_id()).unwrap();
     let mut written = Vec::new();
     for step in 0..9 {
         trajectory.append(&State { step, ..start.clone() }.into()).unwrap();
@@ -625,7 +629,7 @@ fn trajectories_with_changing_masses_are_cut_back_to_the_byte() {
     }
     drop(trajectory);
     for (extent, bytes) in written.iter().rev() {
-        drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, &model, run_id(), *extent).unwrap());
+        drop(TrajectoryWriter::resume(&path, TrajectoryFormat::Gsd, model, run_id(), *extent).unwrap());
         assert!(fs::read(&path).unwrap() == *bytes, "{extent:?}");
     }
 }
@@ -646,7 +650,7 @@ fn content_of(path: &Path) -> Vec<Frame> {
 #[test]
 fn damaged_trajectories_are_refused_and_left_alone() {
     let root = tempfile::tempdir().unwrap();
-    let model = Model::new(&scene(3));
+    let model = scene(3).model().clone();
     let path = root.path().join(files::TRAJECTORY_GSD);
     let extents = write_frames(&path, TrajectoryFormat::Gsd, &model, 3);
     let whole = fs::read(&path).unwrap();
@@ -697,7 +701,7 @@ fn damaged_trajectories_are_refused_and_left_alone() {
 fn extended_xyz_reads_as_documented_and_drops_an_unfinished_frame() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::TRAJECTORY_XYZ);
-    let model = Model::new(&scene(2));
+    let model = scene(2).model().clone();
     let mut trajectory = TrajectoryWriter::create(&path, TrajectoryFormat::ExtendedXyz, &model, run_id()).unwrap();
     trajectory.append(&state(0, 2).into()).unwrap();
     trajectory.flush().unwrap();
@@ -739,11 +743,13 @@ fn files_of_another_run_are_recognised() {
     let root = tempfile::tempdir().unwrap();
     let directory = RunDirectory::create(root.path(), false).unwrap();
     let (this, other) = (run_id(), Id::of_run(&scene(2)));
-    let model = Model::new(&scene(3));
+    let model = scene(3).model().clone();
     let write = |name: &str, id: Id| {
         let path = directory.file(name);
         match name {
-            files::SUMMARY => Summary::new(id, scene(3), AdapterSummary::default(), 3).save(&path).unwrap(),
+            files::SUMMARY => {
+                Summary::new(id, scene(3).into_scene(), AdapterSummary::default(), 3).save(&path).unwrap();
+            }
             files::CHECKPOINT => checkpoint::save(&path, id, &scene(3), &state(0, 3), &[], &[]).unwrap(),
             files::TRAJECTORY_GSD | files::TRAJECTORY_XYZ => {
                 let format =
@@ -791,17 +797,16 @@ fn files_of_another_run_are_recognised() {
 #[test]
 fn a_trajectory_of_nothing_is_fine() {
     let root = tempfile::tempdir().unwrap();
-    let mut empty = scene(3);
-    empty.particles.clear();
-    let model = Model::new(&empty);
+    let empty = edited(&scene(3), |scene| scene.particles.clear());
+    let model = empty.model();
     for format in [TrajectoryFormat::Gsd, TrajectoryFormat::ExtendedXyz] {
         let path = root.path().join("t");
-        let mut trajectory = TrajectoryWriter::create(&path, format, &model, run_id()).unwrap();
+        let mut trajectory = TrajectoryWriter::create(&path, format, model, run_id()).unwrap();
         trajectory.append(&State::default().into()).unwrap();
         trajectory.flush().unwrap();
         let written = trajectory.extent();
         drop(trajectory);
-        TrajectoryWriter::resume(&path, format, &model, run_id(), written).unwrap().flush().unwrap();
+        TrajectoryWriter::resume(&path, format, model, run_id(), written).unwrap().flush().unwrap();
     }
 }
 
@@ -810,7 +815,7 @@ fn the_summary_keeps_its_order_and_reads_back() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join(files::SUMMARY);
     let adapter = AdapterSummary { name: "llvmpipe".into(), driver: "Mesa 22.3".into(), backend: "Vulkan".into() };
-    let mut summary = Summary::new(run_id(), scene(3), adapter, 3);
+    let mut summary = Summary::new(run_id(), scene(3).into_scene(), adapter, 3);
     summary.set_duration(200, 100, 0.5);
     summary.add_mean("temperature", statistics::estimate(&[1.0, 1.2, 0.9]).as_ref());
     summary.add_mean("bath_energy", None);

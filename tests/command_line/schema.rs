@@ -46,7 +46,7 @@ fn shipped_scenes_survive_serialisation() {
         let scene = scene::load(name, &[]).unwrap();
         let written = serde_json::to_value(&scene).unwrap();
         assert!(validator.is_valid(&written), "{name}: the resolved scene satisfies the schema");
-        assert_eq!(serde_json::from_value::<Scene>(written.clone()).unwrap(), scene, "{name}");
+        assert_eq!(serde_json::from_value::<Scene>(written.clone()).unwrap(), *scene, "{name}");
         assert_eq!(scene::parse(name, &written.to_string(), &[]).unwrap(), scene, "{name}");
     }
 }

@@ -1,12 +1,13 @@
 //! States from files: what this program wrote is read back, what others write is what it says, and a run that began with a file
 //! goes on without it.
 
+use crate::support::edited;
 use std::fs;
 use std::path::Path;
 
 use mesoscope::families::reference::Reference;
 use mesoscope::output::{Id, TrajectoryWriter, checkpoint, files};
-use mesoscope::scene::{self, Integrator, KeptStart, Scene, TrajectoryFormat, Warning};
+use mesoscope::scene::{self, Checked, Integrator, KeptStart, TrajectoryFormat, Warning};
 use mesoscope::state::State;
 use mesoscope::state_file::GsdWriter;
 use serde_json::{Value, json};
@@ -56,10 +57,12 @@ fn with_state(scene: &Value, state: Value) -> Value {
 
 /// A scene in a directory, and what is not used of its file.
 #[track_caller]
-fn load(directory: &Path, scene: &Value) -> (Scene, Vec<Warning>) {
+fn load(directory: &Path, scene: &Value) -> (Checked, Vec<Warning>) {
     let path = directory.join("scene.json");
     fs::write(&path, scene.to_string()).unwrap();
-    scene::load_for(path.to_str().unwrap(), &[], None).unwrap_or_else(|error| panic!("{error}"))
+    let scene = scene::load(path.to_str().unwrap(), &[]).unwrap_or_else(|error| panic!("{error}"));
+    let notices = scene.notices().to_vec();
+    (scene, notices)
 }
 
 /// The largest difference of two states: of positions as parts of the box, of momenta as parts of the largest.
@@ -150,7 +153,7 @@ fn what_was_written_is_read_back() {
     assert_eq!(scene::parse(name.to_str().unwrap(), &text, &[]).unwrap(), scene);
 }
 
-fn changed_seed(text: &Value) -> Scene {
+fn changed_seed(text: &Value) -> Checked {
     scene::parse("melt", &text.to_string(), &["seed=6".to_owned()]).unwrap()
 }
 
@@ -471,10 +474,10 @@ fn a_sheared_run_goes_on_from_where_its_boundaries_are() {
     });
     assert!(crossing.count() > 1, "bonds cross the boundary");
     // Of a scheme that measures the configuration where the state is, not half a drift later.
-    let energy = |scene: &Scene, state: State| {
-        let scene = Scene { integrator: Integrator::CotterReich {}, ..scene.clone() };
-        let model = mesoscope::families::Model::new(&scene);
-        Reference::new(model, state).observe().unwrap().potential_energy
+    let energy = |scene: &Checked, state: State| {
+        let scene = edited(scene, |scene| scene.integrator = Integrator::CotterReich {});
+        let model = scene.model();
+        Reference::new(model.clone(), state).observe().unwrap().potential_energy
     };
     let expected = energy(&before.scene, before.state.clone());
     let directory = place.path("before").parent().unwrap().to_owned();
@@ -699,7 +702,7 @@ fn a_run_goes_on_without_its_file() {
     // What it keeps of the file can be damaged too.
     let found = checkpoint::load(&place.path("parts").join(files::CHECKPOINT)).unwrap();
     assert_eq!(found.scene.start().unwrap().particles(), 300);
-    let mut without = found.scene.clone();
+    let mut without = found.scene.clone().into_scene();
     without.kept = KeptStart::default();
     checkpoint::save(
         &place.path("parts").join(files::CHECKPOINT),

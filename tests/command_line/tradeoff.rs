@@ -706,7 +706,7 @@ fn analyses_find_what_they_say_beforehand() {
     ] {
         let set: Vec<String> = small.iter().chain(set).map(|set| (*set).to_owned()).collect();
         let scene = mesoscope::scene::load(scene, &set).unwrap();
-        let asked = mesoscope::run::asked_analyses(&scene, &mesoscope::families::Model::new(&scene));
+        let asked = mesoscope::run::asked_analyses(&scene);
         let place = place();
         let run = mesoscope::run::Simulation::start(scene.clone(), place.path("run"), false);
         let results = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap().summary.results;

@@ -1,6 +1,5 @@
 //! Voronoi DPD as its user meets it: files, bytes, messages and exit codes of the program.
 
-use mesoscope::families::Model;
 use mesoscope::output::{checkpoint, files};
 use mesoscope::scene::AnalysisId;
 use mesoscope::table::Table;
@@ -184,7 +183,7 @@ fn the_last_state_is_in_the_checkpoint() {
         .with("/interactions/0/initial_masses", json!("uniform-density"));
     place.run("out", &["--quiet"]);
     let checkpoint = checkpoint::load(&place.path("out").join(files::CHECKPOINT)).unwrap();
-    let model = Model::new(&checkpoint.scene);
+    let model = checkpoint.scene.model();
     let cells = model.voronoi().unwrap();
     let state = checkpoint.state;
     assert_eq!((state.step, state.len(), state.masses.len(), state.energies.len()), (40, 144, 144, 144));

@@ -2,13 +2,12 @@
 //! kernel of every family and on the plans of graphics cards and of software adapters.
 
 use mesoscope::engine::Engine;
-use mesoscope::families::Model;
 use mesoscope::families::shallow_water::WaterLayout;
 use mesoscope::families::voronoi::CellLayout;
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Hardware, Options, Traversal};
 use mesoscope::run;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::shaders::Array;
 use mesoscope::state::State;
 
@@ -33,7 +32,7 @@ const GAUSSIAN: &str = r#"noise={"distribution":"gaussian"}"#;
 /// A scene, and whether its pairs are listed.
 struct Case {
     name: String,
-    scene: Scene,
+    scene: Checked,
     listed: bool,
 }
 
@@ -162,7 +161,7 @@ fn losses(case: &Case, gpu: &Gpu, options: Options) -> Vec<String> {
     let options = Options { listed: case.listed, ..options };
     let (model, mut state) = start(&case.scene);
     let hardware = Hardware::from(gpu);
-    let plan = run::plan(&model, case.scene.time.equilibration, &case.scene.output, hardware, options);
+    let plan = run::plan(&case.scene, hardware, options);
     let mesh = plan.layout.of::<WaterLayout>().is_some();
     if !mesh {
         // A momentum that is not zero, so that its loss would show as well as its gain.
@@ -279,9 +278,8 @@ fn a_plain_compiler_changes_nothing_and_a_contracting_one_does() {
         let gpu = compiler.map(Compiler::gpu);
         let gpu = gpu.as_ref().unwrap_or_else(|| crate::support::gpu());
         let case = &fluids()[3];
-        let model = Model::new(&case.scene);
         let (_, state) = start(&case.scene);
-        let plan = run::plan(&model, 0, &case.scene.output, Hardware::from(gpu), Options::default());
+        let plan = run::plan(&case.scene, Hardware::from(gpu), Options::default());
         let mut engine = Engine::new(gpu, plan, &state).unwrap();
         engine.advance(20, 20).unwrap();
         engine.state().unwrap()

@@ -1,7 +1,7 @@
 //! Body forces and the account of what they give: the same bytes whatever changes that is not physics.
 
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use rand::SeedableRng as _;
 
 use crate::support::bytes::{self, same};
@@ -14,7 +14,7 @@ const FORCES: [&str; 2] = [
     r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"body-force","profile":"sinusoidal","axis":"x","waves":2,"force":[0.1,1,0]}]"#,
 ];
 
-fn scenes() -> Vec<(Scene, Options)> {
+fn scenes() -> Vec<(Checked, Options)> {
     let base = ["time.steps=1000", "time.step=0.02", "output.energies.every=3", MIXTURE];
     let listed = Options { listed: true, ..Options::default() };
     let mut scenes = Vec::new();

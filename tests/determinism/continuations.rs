@@ -4,23 +4,22 @@
 use std::path::Path;
 
 use mesoscope::engine::Engine;
-use mesoscope::families::Model;
 use mesoscope::output::{Id, TrajectoryWriter, checkpoint, files};
 use mesoscope::plan::Options;
-use mesoscope::scene::{self, Scene, TrajectoryFormat};
+use mesoscope::scene::{self, Checked, TrajectoryFormat};
 use mesoscope::state::State;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use crate::support::{
-    COTTER_REICH, EVERY_STEP, INTEGRATORS, PREDICTED, SPLITTING, STAGED, changed, engine, fluid, reference,
+    COTTER_REICH, EVERY_STEP, INTEGRATORS, PREDICTED, SPLITTING, STAGED, changed, edited, engine, fluid, reference,
     reference_of_particles, start,
 };
 
 const STEPS: u64 = 7;
 
 /// A scene in a directory that starts from `file` there, with the forces of another scene and changes given as `path=value`.
-fn continued(directory: &Path, scene: &Scene, file: &str, changes: &[&str]) -> Scene {
+fn continued(directory: &Path, scene: &Checked, file: &str, changes: &[&str]) -> Checked {
     let mut text = serde_json::to_value(scene).unwrap();
     for group in text["particles"].as_array_mut().unwrap() {
         group.as_object_mut().unwrap().retain(|key, _| key == "species" || key == "mass" || key == "fixed");
@@ -36,7 +35,7 @@ fn continued(directory: &Path, scene: &Scene, file: &str, changes: &[&str]) -> S
 }
 
 /// The checkpoint of a run of a scene in a directory.
-fn save(directory: &Path, scene: &Scene, state: &State) {
+fn save(directory: &Path, scene: &Checked, state: &State) {
     let path = directory.join("run").join(files::CHECKPOINT);
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
     checkpoint::save(&path, Id::of_run(scene), scene, state, &[], &[]).unwrap();
@@ -51,7 +50,7 @@ fn report(engine: &mut Engine<'_>) -> Vec<i64> {
 
 /// A run of a scene, and one that goes on with it: the same reports and states, on the device and in the reference.
 #[track_caller]
-fn goes_on(scene: &Scene) {
+fn goes_on(scene: &Checked) {
     let directory = TempDir::new().unwrap();
     let mut first = engine(scene, &start(scene).1, Options::default());
     first.advance(STEPS, STEPS).unwrap();
@@ -70,7 +69,7 @@ fn goes_on(scene: &Scene) {
     let (expected, found) = (first.state().unwrap(), second.state().unwrap());
     assert_eq!(found, State { step: 3, ..expected });
 
-    let mut twin = reference_of_particles(Model::new(scene), left);
+    let mut twin = reference_of_particles(scene.model().clone(), left);
     let mut next = reference_of_particles(model, state);
     assert_eq!(next.reported().momenta, twin.reported().momenta);
     twin.step(2);
@@ -98,12 +97,12 @@ const KINDS: &[(&str, &[&str])] = &[
 
 const SMALL: [&str; 2] = ["space.box=[3,3,3]", EVERY_STEP];
 
-fn small(changes: &[&str]) -> Scene {
+fn small(changes: &[&str]) -> Checked {
     fluid(&[&SMALL[..], changes].concat())
 }
 
 /// Particles by themselves: baths, tethers and a random force.
-fn single(interactions: &str) -> Scene {
+fn single(interactions: &str) -> Checked {
     let text = format!(
         r#"{{"title": "test", "space": {{"box": [9, 9, 9]}}, "time": {{"step": 0.05, "steps": 1}}, "temperature": 1.5,
         "particles": [{{"species": "A", "count": 20, "mass": 3}}], "interactions": [{interactions}],
@@ -218,8 +217,7 @@ fn frames_are_of_one_time_and_are_written_again() {
         assert!(sheared || (kinetic / row.kinetic_energy - 1.0).abs() < 1e-6, "{kinetic} {}", row.kinetic_energy);
         if sheared {
             // Whether an analysis takes velocities without the flow or not.
-            let output = mesoscope::scene::Output { profiles: None, ..scene.output.clone() };
-            let plain = Scene { output, ..scene };
+            let plain = edited(&scene, |scene| scene.output.profiles = None);
             let mut device = engine(&plain, &state, Options::default());
             device.advance(STEPS, STEPS).unwrap();
             let whole = device.frame().unwrap();
@@ -284,7 +282,7 @@ fn other_noise_follows_from_every_file() {
     );
     std::fs::write(path("two.data"), data).unwrap();
     save(directory.path(), &scene, run.state());
-    let seed = |file: &str, changes: &[&str]| Model::new(&continued(directory.path(), &scene, file, changes)).seed;
+    let seed = |file: &str, changes: &[&str]| continued(directory.path(), &scene, file, changes).model().seed;
     let mut seeds = vec![scene.seed, seed("two.data", &[]), seed("run", &["time.step=0.02"])];
     for file in ["trajectory.gsd", "trajectory.xyz"] {
         seeds.extend([0, 1].map(|frame| seed(file, &[&format!("state.frame={frame}")])));
@@ -301,7 +299,7 @@ fn other_noise_follows_from_every_file() {
     let (model, state) = start(&after);
     save(directory.path(), &after, &state);
     let kept = checkpoint::load(&path("run").join(files::CHECKPOINT)).unwrap();
-    assert_eq!(Model::new(&kept.scene).seed, model.seed);
+    assert_eq!(kept.scene.model().seed, model.seed);
 }
 
 /// Free particles in a Langevin bath, and a run that goes on with them: velocities of the two runs are not correlated at the same times,
@@ -316,7 +314,7 @@ fn noise_is_not_repeated() {
     );
     let directory = TempDir::new().unwrap();
     // Momenta after 0, 1, 2 and 5 units of time, the sum of all changes of position, and the state at the end.
-    let run = |scene: &Scene| {
+    let run = |scene: &Checked| {
         let (model, state) = start(scene);
         let units = model.units;
         let mut run = reference_of_particles(model, state);
@@ -340,7 +338,7 @@ fn noise_is_not_repeated() {
     save(directory.path(), &scene, &state);
     for (changes, exact) in [(&[][..], true), (&["interactions.0.friction=1.0000001"], false)] {
         let after = continued(directory.path(), &scene, "run", changes);
-        assert_eq!(Model::new(&after).steps_before > 0, exact);
+        assert_eq!(after.model().steps_before > 0, exact);
         let (second, others, _) = run(&after);
         for (one, other) in velocities.iter().zip(&others) {
             let product = |a: &[[i32; 3]], b: &[[i32; 3]]| {

@@ -1,11 +1,10 @@
 //! Couplings that add their impulses up: the same bytes whatever changes that is not physics, and the exact laws.
 
 use mesoscope::engine::EngineError;
-use mesoscope::families::Model;
 use mesoscope::families::particles::CoupledLayout;
 use mesoscope::output::{Id, checkpoint};
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use rand::SeedableRng as _;
 
 use crate::support::bytes::{self, Bytes, harvest, same};
@@ -22,7 +21,7 @@ const EVERYTHING: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction
 const DIFFUSION: usize = 2;
 const COUPLED: &str = r#"integrator.type="cotter-reich""#;
 
-fn sampled(changes: &[&str]) -> Scene {
+fn sampled(changes: &[&str]) -> Checked {
     let samplers = [
         r#"output.radial_distribution={"every":4,"range":2.0,"bins":40}"#,
         r#"output.diffusion={"every":2,"window":8}"#,
@@ -33,7 +32,7 @@ fn sampled(changes: &[&str]) -> Scene {
 }
 
 /// Scenes that between them have every kind of memory.
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<Checked> {
     vec![
         sampled(&[MEMORY]),
         sampled(&[MIXTURE, MIXTURE_MEMORY, "space.box=[9,7]"]),
@@ -41,7 +40,7 @@ fn scenes() -> Vec<Scene> {
     ]
 }
 
-fn run(scene: &Scene, options: Options, batch: u64) -> Bytes {
+fn run(scene: &Checked, options: Options, batch: u64) -> Bytes {
     bytes::run(scene, options, STEPS, batch)
 }
 
@@ -132,10 +131,10 @@ fn a_full_list_is_told_and_not_cut() {
     let crowd = r#"particles=[{"species":"A","count":300},{"species":"A","count":100,
         "chain":{"beads":100,"spacing":0.02}}]"#;
     let scene = sampled(&[MEMORY, "space.box=[40,40]", crowd, "interactions.0.repulsion=0.1"]);
-    let (model, state) = start(&scene);
+    let (_, state) = start(&scene);
     let mut options = Options::default();
     let capacity = |options| {
-        let plan = mesoscope::run::plan(&model, 0, &scene.output, mesoscope::plan::Hardware::default(), options);
+        let plan = mesoscope::run::plan(&scene, mesoscope::plan::Hardware::default(), options);
         plan.layout.of::<CoupledLayout>().unwrap().list.unwrap().capacity
     };
     let mut capacities = vec![capacity(options)];
@@ -158,7 +157,7 @@ fn a_full_list_is_told_and_not_cut() {
 #[test]
 fn the_margin_of_a_list_is_no_wider_than_the_box_allows() {
     let scene = sampled(&[MEMORY, "space.box=[2.2,5,5]", "output.radial_distribution.range=1"]);
-    let model = Model::new(&scene);
+    let model = scene.model();
     let skin = model.particles().pair_force.as_ref().unwrap().skin;
     assert!((skin - 0.1).abs() < 1e-12, "{skin}");
     let bytes = run(&scene, Options::default(), 8);
@@ -169,7 +168,7 @@ fn the_margin_of_a_list_is_no_wider_than_the_box_allows() {
 #[test]
 fn folded_dispatches_give_the_same_bytes() {
     let scene = fluid(&["space.box=[28,28,28]", COUPLED]);
-    assert!(Model::new(&scene).particle_count() > 65_535);
+    assert!(scene.model().particle_count() > 65_535);
     let run = |workgroup_size| {
         let options = Options { listed: true, workgroup_size: Some(workgroup_size), ..Options::default() };
         bytes::run(&scene, options, 2, 2)

@@ -1,7 +1,7 @@
 //! Molecules are what their bonds say: those of one species in a row are chains, to the last bit.
 
 use mesoscope::plan::Options;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use serde_json::{Value, json};
 
 use crate::support::bytes;
@@ -9,7 +9,7 @@ use crate::support::{engine, start};
 
 const STEPS: u64 = 24;
 
-fn scene(particles: &Value, molecules: &Value) -> Scene {
+fn scene(particles: &Value, molecules: &Value) -> Checked {
     let mut scene = json!({
         "title": "the same twice",
         "seed": 11,
@@ -45,7 +45,7 @@ fn molecules_in_a_row_are_chains() {
         let chains =
             scene(&json!([{"species": "A", "count": 300, "chain": {"beads": 5, "closed": closed}}]), &Value::Null);
         let (_, state) = start(&molecules);
-        let end = |scene: &Scene| {
+        let end = |scene: &Checked| {
             let mut engine = engine(scene, &state, Options::default());
             engine.advance(STEPS, 8).unwrap();
             (engine.state().unwrap(), engine.finish().unwrap())

@@ -2,7 +2,7 @@
 //! lost.
 
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use rand::SeedableRng as _;
 
 use crate::support::bytes;
@@ -14,7 +14,7 @@ const PAIRS: &str = r#"interactions.0.pairs=[{"between":["A","B"],"cutoff":1.2,"
     {"between":["B","B"],"cutoff":0.7}]"#;
 
 /// Steps of both kinds, with what has memory among them.
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<Checked> {
     let base = ["time.steps=1000", "time.step=0.02", "output.energies.every=3", MIXTURE, PAIRS];
     let memory = r#"interactions.0.bath={"type":"memory","rate":3}"#;
     let changes = [[STAGED, "space.box=[5,5,5]"], [PREDICTED, "space.box=[12,9]"], [COTTER_REICH, memory]];

@@ -6,20 +6,20 @@ use std::collections::HashSet;
 use mesoscope::engine::{Engine, EngineError, Sample};
 use mesoscope::noise;
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::State;
 use rand::SeedableRng as _;
 
 use crate::support::bytes::{self, Bytes, harvest};
 use crate::support::{
-    COTTER_REICH, GROOT_WARREN, INTEGRATORS, MIXTURE, MIXTURE_FORCE, PREDICTED, SPLITTING, engine, fluid, reference,
-    start, traversals,
+    COTTER_REICH, GROOT_WARREN, INTEGRATORS, MIXTURE, MIXTURE_FORCE, PREDICTED, SPLITTING, edited, engine, fluid,
+    reference, start, traversals,
 };
 
 const STEPS: u64 = 24;
 const TWO_DIMENSIONS: &str = "space.box=[12,9]";
 
-fn sampled(changes: &[&str]) -> Scene {
+fn sampled(changes: &[&str]) -> Checked {
     let every_sampler = [
         "time.steps=1000",
         "output.energies.every=3",
@@ -30,12 +30,12 @@ fn sampled(changes: &[&str]) -> Scene {
     fluid(&[&every_sampler[..], changes].concat())
 }
 
-fn run(scene: &Scene, options: Options, batch: u64) -> Bytes {
+fn run(scene: &Checked, options: Options, batch: u64) -> Bytes {
     bytes::run(scene, options, STEPS, batch)
 }
 
 /// Scenes that between them have every kind of particle, table and noise.
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<Checked> {
     vec![
         sampled(&[GROOT_WARREN]),
         sampled(&[SPLITTING, MIXTURE, MIXTURE_FORCE]),
@@ -95,7 +95,7 @@ fn all_ways() -> impl Iterator<Item = [usize; 6]> {
     })
 }
 
-fn gives_the_bytes_of(plain: &Bytes, scene: &Scene, ways: impl Iterator<Item = [usize; 6]>) {
+fn gives_the_bytes_of(plain: &Bytes, scene: &Checked, ways: impl Iterator<Item = [usize; 6]>) {
     for options in ways.map(way) {
         assert!(*plain == run(scene, options, 8), "{options:?}");
     }
@@ -220,7 +220,7 @@ fn momentum_is_constant_to_the_last_bit_for_a_hundred_thousand_steps() {
 }
 
 /// One step from the same particles under another seed or at another step.
-fn one_step(scene: &Scene, engine: &mut Engine<'_>, start: &State, step: u64) -> State {
+fn one_step(scene: &Checked, engine: &mut Engine<'_>, start: &State, step: u64) -> State {
     let state = State { step, ..start.clone() };
     engine.upload(&state).unwrap();
     engine.advance(1, 1).unwrap();
@@ -239,8 +239,7 @@ fn every_word_of_seed_and_step_counts() {
     let words = [1_u64, 2, 1 << 32, (1 << 32) + 1, 2 << 32, 1 << 63, u64::MAX - 1];
     let mut seen = HashSet::new();
     for seed in words {
-        let mut scene = fluid(&[GROOT_WARREN]);
-        scene.seed = seed;
+        let scene = edited(&fluid(&[GROOT_WARREN]), |scene| scene.seed = seed);
         let mut engine = engine(&scene, &start, Options::default());
         for step in words {
             let momenta = one_step(&scene, &mut engine, &start, step).momenta;

@@ -3,16 +3,15 @@
 use std::fs;
 use std::path::Path;
 
-use mesoscope::families::Model;
 use mesoscope::output::files;
 use mesoscope::plan::{Hardware, Options, Storage, Traversal};
 use mesoscope::run;
 use mesoscope::run::Simulation;
-use mesoscope::scene::Scene;
+use mesoscope::scene::{Checked, Scene};
 use mesoscope::shaders::{Array, Constant};
 use mesoscope::state::State;
 
-use crate::support::{adapter, cells, engine, fluid, gpu, start, water};
+use crate::support::{adapter, cells, edited, engine, fluid, gpu, start, water};
 
 const TRAJECTORY: &str = r#"output.trajectory={"every":1000}"#;
 
@@ -26,7 +25,7 @@ fn unwrapped(positions: &[[u32; 3]], images: &[[i32; 3]]) -> Vec<[i64; 3]> {
 }
 
 /// Scenes of every layout, with particles that go round a small box, and ways to store and visit them.
-fn scenes() -> Vec<(&'static str, Scene, Vec<Options>)> {
+fn scenes() -> Vec<(&'static str, Checked, Vec<Options>)> {
     let small = ["space.box=[3,2.5,2.2]", "temperature=2", TRAJECTORY];
     let flat = ["space.box=[4,3]", "temperature=2", TRAJECTORY];
     let tracers = r#"particles=[
@@ -153,10 +152,9 @@ fn free_particles_go_straight_on() {
 #[test]
 fn only_what_asks_for_images_pays_for_them() {
     for (name, scene, options) in scenes() {
-        let mut without = scene.clone();
-        without.output.trajectory = None;
+        let without = edited(&scene, |scene| scene.output.trajectory = None);
         for options in options {
-            let plan = |scene: &Scene| run::plan(&Model::new(scene), 0, &scene.output, Hardware::default(), options);
+            let plan = |scene: &Checked| run::plan(scene, Hardware::default(), options);
             let [with, without] = [plan(&scene), plan(&without)];
             // A report of split steps keeps the momenta of a frame.
             let split = with.has_buffer(Array::ReportedMomenta);
@@ -177,7 +175,7 @@ fn only_what_asks_for_images_pays_for_them() {
     let every = |edge: u32| {
         let edge = format!("space.box=[{edge},{edge},{edge}]");
         let scene = fluid(&[edge.as_str(), TRAJECTORY]);
-        run::plan(&Model::new(&scene), 0, &scene.output, Hardware::default(), Options::default()).paths.every
+        run::plan(&scene, Hardware::default(), Options::default()).paths.every
     };
     assert_eq!([2, 4, 5, 20].map(every), [1, 1, 2, 9]);
 }
@@ -203,7 +201,7 @@ fn molecules_are_whole() {
     }
 }
 
-fn run(scene: Scene, directory: &Path) {
+fn run(scene: Checked, directory: &Path) {
     Simulation::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap();
 }
 
@@ -214,21 +212,19 @@ fn a_resumed_trajectory_has_the_bytes_of_a_whole_one() {
         fluid(&["space.box=[3,2.5,2.2]", "temperature=2"]),
         cells(64, &["time.step=0.02", r#"interactions.0.form="consistent""#]),
     ];
-    for (mut scene, format) in
-        scenes.iter().flat_map(|scene| ["gsd", "extended-xyz"].map(|format| (scene.clone(), format)))
-    {
-        scene.output.trajectory = serde_json::from_value(serde_json::json!({"every": 25, "format": format})).unwrap();
-        scene.time.steps = 200;
-        (scene.output.plot.width, scene.output.plot.height) = (320, Some(240));
-        (scene.output.snapshot.width, scene.output.snapshot.height) = (Some(64), Some(64));
+    for (scene, format) in scenes.iter().flat_map(|scene| ["gsd", "extended-xyz"].map(|format| (scene, format))) {
+        let scene = edited(scene, |Scene { time, output, .. }| {
+            output.trajectory = serde_json::from_value(serde_json::json!({"every": 25, "format": format})).unwrap();
+            time.steps = 200;
+            (output.plot.width, output.plot.height) = (320, Some(240));
+            (output.snapshot.width, output.snapshot.height) = (Some(64), Some(64));
+        });
         let name = if format == "gsd" { files::TRAJECTORY_GSD } else { files::TRAJECTORY_XYZ };
         let root = tempfile::tempdir().unwrap();
         let [whole, parts] = ["whole", "parts"].map(|name| root.path().join(name));
         run(scene.clone(), &whole);
         let bytes = |directory: &Path| fs::read(directory.join(name)).unwrap();
-        let mut half = scene.clone();
-        half.time.steps = 85;
-        run(half, &parts);
+        run(edited(&scene, |scene| scene.time.steps = 85), &parts);
         let checkpoint = fs::read(parts.join(files::CHECKPOINT)).unwrap();
         let resume = |steps| Simulation::resume(&parts, Some(steps)).unwrap().execute(&adapter(), &mut |_| {}).unwrap();
         resume(200);

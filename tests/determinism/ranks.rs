@@ -4,7 +4,7 @@ use mesoscope::engine::{Shown, Stepper as _};
 use mesoscope::plan::{Division, Hardware, Options, Part, Plan, Traversal};
 use mesoscope::ranks::Team;
 use mesoscope::run;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::State;
 
 use crate::support::bytes::{self, Bytes, harvest, same};
@@ -61,16 +61,15 @@ fn cases() -> Vec<(Vec<&'static str>, Vec<[u32; 3]>)> {
     ]
 }
 
-fn scene(changes: &[&str]) -> Scene {
+fn scene(changes: &[&str]) -> Checked {
     fluid(&[&["time.steps=1000", EVERY_THIRD], changes].concat())
 }
 
-pub fn team(scene: &Scene, division: Division, options: Options, state: &State) -> Team<'static> {
-    let (model, _) = start(scene);
-    run::team((scene, &model), gpu(), &adapter(), (division, false), options, state).expect("ranks")
+pub fn team(scene: &Checked, division: Division, options: Options, state: &State) -> Team<'static> {
+    run::team(scene, gpu(), &adapter(), (division, false), options, state).expect("ranks")
 }
 
-fn divided(scene: &Scene, parts: [u32; 3], batch: u64, options: Options) -> Bytes {
+fn divided(scene: &Checked, parts: [u32; 3], batch: u64, options: Options) -> Bytes {
     let (_, state) = start(scene);
     let options = Options { particles_in_message: (batch == 1).then_some(100), ..options };
     let mut team = team(scene, Division { parts }, options, &state);
@@ -80,10 +79,10 @@ fn divided(scene: &Scene, parts: [u32; 3], batch: u64, options: Options) -> Byte
 }
 
 /// Whether the device of the tests takes the plan of a rank: with walls or shear, plans for any GPU need more buffers.
-pub fn fits(scene: &Scene) -> bool {
+pub fn fits(scene: &Checked) -> bool {
     let part = Some(Part { division: Division { parts: [2, 1, 1] }, rank: 0 });
     let options = Options { part, ..Options::default() };
-    let plan = run::plan(&start(scene).0, 0, &scene.output, hardware(), options);
+    let plan = run::plan(scene, hardware(), options);
     plan.storage_buffers <= gpu().device().limits().max_storage_buffers_per_shader_stage
 }
 
@@ -127,10 +126,10 @@ fn by_particles() -> Options {
 }
 
 /// The plan of the last rank, on any adapter.
-fn plan_of_part(scene: &Scene, parts: [u32; 3], options: Options) -> Plan {
+fn plan_of_part(scene: &Checked, parts: [u32; 3], options: Options) -> Plan {
     let division = Division { parts };
     let part = Some(Part { division, rank: division.ranks() - 1 });
-    run::plan(&start(scene).0, 0, &scene.output, Hardware::default(), Options { part, ..options })
+    run::plan(scene, Hardware::default(), Options { part, ..options })
 }
 
 /// The first rank measures the particles of all, which are more than it has room for in its own part.
@@ -241,7 +240,7 @@ fn exchanges_overlap_where_there_is_something_to_do() {
 
 /// That what was saved by ranks of one division goes on with the bytes of one rank, by ranks of another and alone.
 #[track_caller]
-pub fn continues(scene: &Scene, [first, second]: [[u32; 3]; 2]) {
+pub fn continues(scene: &Checked, [first, second]: [[u32; 3]; 2]) {
     const FIRST: u64 = 11;
     let alone = bytes::run(scene, Options::default(), STEPS, 8);
     let (_, state) = start(scene);
@@ -283,7 +282,7 @@ fn pairs_are_counted_once() {
 /// is.
 #[test]
 fn ranks_know_more_at_the_steps_at_which_distances_are_counted() {
-    let shared = |scene: &Scene| {
+    let shared = |scene: &Checked| {
         let (_, state) = start(scene);
         let mut team = team(scene, Division { parts: [1, 1, 6] }, Options::default(), &state);
         team.advance(STEPS, 8).unwrap();

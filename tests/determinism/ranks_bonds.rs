@@ -2,7 +2,7 @@
 
 use mesoscope::engine::{EngineError, Stepper as _};
 use mesoscope::plan::{Division, Options};
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 
 use super::ranks::{EVERY_THIRD, FOLLOWED, STEPS, continues, fits, team};
 use crate::support::bytes::{self, Bytes, same};
@@ -34,13 +34,13 @@ fn interactions(list: &[&str]) -> String {
     format!("interactions=[{}]", list.join(","))
 }
 
-fn scene(changes: &[&str], list: &[&str]) -> Scene {
+fn scene(changes: &[&str], list: &[&str]) -> Checked {
     fluid(&[&["time.steps=1000", "time.step=0.02", EVERY_THIRD, &interactions(list)], changes].concat())
 }
 
 /// Scenes with every integrator, with what each can be divided into. In the narrow parts bonds reach beyond the next one, in others
 /// round the box, so that a rank knows all of it.
-fn cases() -> Vec<(Scene, Vec<[u32; 3]>)> {
+fn cases() -> Vec<(Checked, Vec<[u32; 3]>)> {
     let bonded = [PAIRS, SPRINGS];
     let stiff = [PAIRS, SPRINGS, ANGLES];
     vec![
@@ -85,7 +85,7 @@ fn cases() -> Vec<(Scene, Vec<[u32; 3]>)> {
 }
 
 /// What ranks give, with bonds that are expected to be longer as long as some are too long.
-fn divided(scene: &Scene, parts: [u32; 3], batch: u64) -> (Bytes, u32) {
+fn divided(scene: &Checked, parts: [u32; 3], batch: u64) -> (Bytes, u32) {
     let (_, state) = start(scene);
     // States pass in several messages.
     let mut options = Options { particles_in_message: Some(100), ..Options::default() };

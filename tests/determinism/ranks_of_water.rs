@@ -1,11 +1,11 @@
 //! Shallow water on several ranks: the same bytes as one.
 
 use mesoscope::engine::{EngineError, Stepper};
-use mesoscope::families::{Instability, Model};
+use mesoscope::families::Instability;
 use mesoscope::plan::{Division, Failure, FailureKind, Options, Rows, Storage};
 use mesoscope::ranks::Team;
 use mesoscope::run::{self, Ranks};
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::shaders::Array;
 use mesoscope::state::State;
 
@@ -51,7 +51,7 @@ fn cases() -> Vec<(Vec<&'static str>, Vec<u32>)> {
     ]
 }
 
-fn scene(changes: &[&str]) -> Scene {
+fn scene(changes: &[&str]) -> Checked {
     water(&[&["time.steps=1000", "output.energies.every=3"], changes].concat())
 }
 
@@ -60,7 +60,7 @@ fn slabs(count: u32) -> Division {
 }
 
 /// The slab of each particle with mass.
-fn owners(scene: &Scene, state: &State, count: u32) -> Vec<u32> {
+fn owners(scene: &Checked, state: &State, count: u32) -> Vec<u32> {
     let (model, _) = start(scene);
     let water = model.shallow_water().unwrap();
     let rows = Rows { count: water.mesh[1], centred: water.spline_order == 2 };
@@ -69,7 +69,7 @@ fn owners(scene: &Scene, state: &State, count: u32) -> Vec<u32> {
     state.positions.iter().take(water.carriers as usize).map(|position| owner(position).unwrap()).collect()
 }
 
-fn divided(scene: &Scene, count: u32, options: Options, batch: u64) -> Bytes {
+fn divided(scene: &Checked, count: u32, options: Options, batch: u64) -> Bytes {
     let (_, state) = start(scene);
     let mut team = team(scene, slabs(count), options, &state);
     team.advance(STEPS, batch).unwrap();
@@ -145,10 +145,10 @@ fn watched_ranks_have_the_surface_of_one() {
 }
 
 /// How a run fails, and what is told of it.
-fn failure(scene: &Scene, mut stepper: impl Stepper) -> (Failure, String) {
+fn failure(scene: &Checked, mut stepper: impl Stepper) -> (Failure, String) {
     match stepper.advance(100, 8).and_then(|()| stepper.finish()) {
         Err(EngineError::Unstable(failure)) => {
-            let told = Instability::new(&failure, stepper.plan(), &Model::new(scene)).to_string();
+            let told = Instability::new(&failure, stepper.plan(), scene.model()).to_string();
             (failure, told)
         }
         other => panic!("{other:?}"),
@@ -187,9 +187,9 @@ fn crowded_slabs_get_more_room() {
     let scene = scene(&[r#"particles=[
         {"species":"water","count":512,"placement":{"type":"lattice"},"velocities":{"type":"thermal"}},
         {"species":"water","count":12000,"placement":{"type":"circle","center":[3,1],"radius":0.7}}]"#]);
-    let (model, state) = start(&scene);
+    let (_, state) = start(&scene);
     let ended = run::team(
-        (&scene, &model),
+        &scene,
         crate::support::gpu(),
         &crate::support::adapter(),
         (slabs(3), false),
@@ -208,7 +208,7 @@ fn crowded_slabs_get_more_room() {
 #[test]
 fn what_hinders_is_told() {
     let scene = scene(&[]);
-    let divide = |asked| run::divide(&scene, &Model::new(&scene), asked);
+    let divide = |asked| run::divide(&scene, asked);
     assert_eq!(divide(Ranks::Count(5)).unwrap(), slabs(5));
     assert_eq!(divide(Ranks::Count(16)).unwrap(), slabs(16));
     for (asked, expected) in [

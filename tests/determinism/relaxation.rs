@@ -2,7 +2,7 @@
 
 use mesoscope::output::{Id, checkpoint};
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use rand::SeedableRng as _;
 
 use crate::support::bytes::{self, harvest, same};
@@ -10,7 +10,7 @@ use crate::support::{MIXTURE, SPLITTING, engine, fluid, start};
 
 const STEPS: u64 = 24;
 
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<Checked> {
     let langevin = r#"{"type":"langevin","friction":2,"species":[{"name":"A","friction":30}]}"#;
     let force = r#""every":4,"window":2"#;
     let forces =

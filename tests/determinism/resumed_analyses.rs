@@ -5,7 +5,7 @@ use mesoscope::output::checkpoint::{self, Checkpoint};
 use mesoscope::output::{Summary, files};
 use mesoscope::plan::Division;
 use mesoscope::run::{Event, Interrupt, Outcome, RunError, Simulation};
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use crate::support::{GROOT_WARREN, PREDICTED, SPLITTING, adapter, cells, fluid, 
 const STEPS: u64 = 42;
 
 /// A scene with plots as small as can be, checkpoints and steps as above, and changes.
-fn small(scene: &Scene, changes: &[&str]) -> Scene {
+fn small(scene: &Checked, changes: &[&str]) -> Checked {
     let own = [
         &format!("time.steps={STEPS}") as &str,
         // A run that stops after every step can be interrupted after any.
@@ -27,12 +27,12 @@ fn small(scene: &Scene, changes: &[&str]) -> Scene {
     scene::parse("test", &serde_json::to_string(scene).unwrap(), &changes).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn run(scene: &Scene, directory: &Path) -> Outcome {
+fn run(scene: &Checked, directory: &Path) -> Outcome {
     Simulation::start(scene.clone(), directory, true).execute(&adapter(), &mut |_| {}).unwrap()
 }
 
 /// Runs a scene in slabs until it is interrupted at a step after the first.
-fn run_until(scene: &Scene, directory: &Path, step: u64, slabs: u32) {
+fn run_until(scene: &Checked, directory: &Path, step: u64, slabs: u32) {
     let interrupt = Interrupt::default();
     let run = Simulation::start(scene.clone(), directory, true).until(&interrupt).on_ranks(Some(of_slabs(slabs)));
     let stopped = run.execute(&adapter(), &mut |event| match event {
@@ -80,7 +80,7 @@ fn contents(directory: &Path) -> BTreeMap<String, Vec<u8>> {
 
 /// That a scene leaves the same files if it is interrupted at each of these steps.
 #[track_caller]
-fn goes_on(scene: &Scene, steps: &[u64]) {
+fn goes_on(scene: &Checked, steps: &[u64]) {
     let directory = tempfile::tempdir().unwrap();
     let whole = directory.path().join("whole");
     let summary = run(scene, &whole).summary;

@@ -4,17 +4,16 @@
 use std::collections::HashSet;
 
 use mesoscope::engine::{EngineError, Sample};
-use mesoscope::families::Model;
 use mesoscope::families::reference::ShallowWaterReference;
 use mesoscope::output::{Id, checkpoint};
 use mesoscope::plan::{Options, Storage, TIDYING, Traversal};
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::shaders::Array;
 use mesoscope::state::State;
 use rand::SeedableRng as _;
 
 use crate::support::bytes::{self, Bytes};
-use crate::support::{ROTATE, WHITE, engine, gpu, in_eights, largest_difference, start, water};
+use crate::support::{ROTATE, WHITE, edited, engine, gpu, in_eights, largest_difference, start, water};
 
 const STEPS: u64 = 12;
 const BATCH: u64 = 5;
@@ -39,12 +38,12 @@ const TRACERS: &str = r#"particles=[
     {"species":"loop","count":96,"tracer":true,"placement":{"type":"circle","center":[0.5,3],"radius":1},
      "velocities":{"type":"geostrophic"}}]"#;
 
-fn sampled(changes: &[&str]) -> Scene {
+fn sampled(changes: &[&str]) -> Checked {
     water(&[&["time.steps=1000", "output.energies.every=3"], changes].concat())
 }
 
 /// Scenes that between them have every integrator, spline, bath, solver, kind of noise and kind of particle.
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<Checked> {
     vec![
         sampled(&[]),
         sampled(&[ROTATE, MEMORY, WARM, TRACERS, CHEBYSHEV, "interactions.0.mesh=[24,12]"]),
@@ -59,7 +58,7 @@ fn scenes() -> Vec<Scene> {
     ]
 }
 
-fn run(scene: &Scene, options: Options, batch: u64) -> Bytes {
+fn run(scene: &Checked, options: Options, batch: u64) -> Bytes {
     bytes::run(scene, options, STEPS, batch)
 }
 
@@ -123,8 +122,7 @@ fn a_rerun_and_batches_of_any_size_give_the_same_bytes() {
         let watched = bytes::watched(&scene, options, STEPS);
         assert!(steps == watched, "watched at every step, {storage:?}: {:?}", scene.interactions);
         // How often it is sampled changes no state.
-        let mut seldom = scene.clone();
-        seldom.output.energies.every = 7;
+        let seldom = edited(&scene, |scene| scene.output.energies.every = 7);
         let seldom = run(&seldom, in_eights(), BATCH);
         assert!(steps.state == seldom.state && steps.reported == seldom.reported, "sampled seldom");
     }
@@ -171,7 +169,7 @@ fn sorted_water_is_put_in_order_of_cells_now_and_then() {
 }
 
 /// A state as a checkpoint brings it back.
-fn through_a_checkpoint(scene: &Scene, state: &State) -> State {
+fn through_a_checkpoint(scene: &Checked, state: &State) -> State {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("checkpoint.bin");
     checkpoint::save(&path, Id::of_run(scene), scene, state, &[], &[]).unwrap();
@@ -247,7 +245,7 @@ fn the_mass_on_the_mesh_is_constant_for_twenty_thousand_steps() {
 // ---- The clock and the noise
 
 /// Bath variables and masses of the step before, as at a step that is not the first.
-fn under_way(scene: &Scene) -> State {
+fn under_way(scene: &Checked) -> State {
     let (_, state) = start(scene);
     let mut engine = engine(scene, &state, in_eights());
     engine.advance(2, 2).unwrap();
@@ -262,7 +260,7 @@ fn the_clock_goes_past_any_power_of_two() {
             for storage in [Storage::Bins, Storage::Sorted] {
                 let state = State { step: first, ..middle.clone() };
                 let mut device = engine(&scene, &state, Options { storage: Some(storage), ..in_eights() });
-                let mut reference = ShallowWaterReference::new(Model::new(&scene), state).unwrap();
+                let mut reference = ShallowWaterReference::new(scene.model().clone(), state).unwrap();
                 device.advance(4, 3).unwrap();
                 reference.run(4).unwrap();
                 let found = device.state().unwrap();
@@ -287,18 +285,18 @@ fn every_word_of_seed_and_step_counts() {
     let words = [1_u64, 2, 1 << 32, (1 << 32) + 1, 2 << 32, 1 << 63, u64::MAX - 1];
     for generator in ["pcg4d", "threefry2x32-20"] {
         let generator = format!(r#"noise={{"generator":"{generator}"}}"#);
-        let mut scene = sampled(&[MEMORY, WARM, &generator]);
+        let scene = sampled(&[MEMORY, WARM, &generator]);
         let middle = under_way(&scene);
         let mut seen = HashSet::new();
         for seed in words {
-            scene.seed = seed;
+            let scene = edited(&scene, |scene| scene.seed = seed);
             let mut device = engine(&scene, &middle, in_eights());
             for step in words {
                 let state = State { step, ..middle.clone() };
                 device.upload(&state).unwrap();
                 device.advance(1, 1).unwrap();
                 let found = device.state().unwrap();
-                let mut reference = ShallowWaterReference::new(Model::new(&scene), state).unwrap();
+                let mut reference = ShallowWaterReference::new(scene.model().clone(), state).unwrap();
                 reference.step().unwrap();
                 let expected = reference.state();
                 for (node, (a, b)) in found.node_bath.iter().zip(&expected.node_bath).enumerate() {

@@ -1,7 +1,7 @@
 //! Boundaries that shear: the same bytes whatever changes that is not physics.
 
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use rand::SeedableRng as _;
 
 use crate::support::bytes::{self, same};
@@ -14,12 +14,12 @@ const SPACES: [&str; 2] = [
     r#"space={"box":[7,4,3],"shear":{"rate":-0.8,"gradient":"y"}}"#,
 ];
 
-fn scene(number: usize, every: &str) -> Scene {
+fn scene(number: usize, every: &str) -> Checked {
     let base = ["time.steps=1000", "time.step=0.02", every, SHEARED[number], SPACES[number % 2]];
     fluid(&[&base[..], if number < 2 { &[] } else { &[MIXTURE] }].concat())
 }
 
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<Checked> {
     (0..SHEARED.len()).map(|number| scene(number, "output.energies.every=3")).collect()
 }
 

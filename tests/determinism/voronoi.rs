@@ -2,7 +2,7 @@
 
 use mesoscope::plan::Options;
 use mesoscope::run;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::shaders::Constant;
 use rand::SeedableRng as _;
 
@@ -12,7 +12,7 @@ use crate::support::{cells, engine, hardware, start};
 const STEPS: u64 = 24;
 
 /// Scenes that between them have every kind of sum: a solver in one workgroup and in many, energies, mass exchange.
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<Checked> {
     let sampled = [
         "output.energies.every=3",
         "time.step=0.01",
@@ -33,7 +33,7 @@ fn scenes() -> Vec<Scene> {
     more.into_iter().map(|(count, changes)| cells(count, &[&sampled[..], changes].concat())).collect()
 }
 
-fn bytes_of(scene: &Scene, options: Options, batch: u64) -> Bytes {
+fn bytes_of(scene: &Checked, options: Options, batch: u64) -> Bytes {
     bytes::run(scene, options, STEPS, batch)
 }
 
@@ -55,8 +55,8 @@ fn storage_order_gives_the_same_bytes() {
 
 /// The number of sums in a row that do not depend on the last upload, which come first: exchanges are counted since
 /// then, and the solver remembered.
-fn lasting_sums(scene: &Scene) -> usize {
-    let plan = run::plan(&start(scene).0, 0, &scene.output, hardware(), Options::default());
+fn lasting_sums(scene: &Checked) -> usize {
+    let plan = run::plan(scene, hardware(), Options::default());
     let counted = plan.constants.iter().find(|(name, _)| *name == Constant::SumLimitedExchanges);
     counted.map_or(usize::MAX, |(_, place)| *place as usize)
 }

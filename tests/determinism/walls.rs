@@ -1,7 +1,7 @@
 //! Walls and the account of what they absorb: the same bytes whatever changes that is not physics.
 
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use rand::SeedableRng as _;
 
 use crate::support::bytes::{self, same};
@@ -24,7 +24,7 @@ const LAYERED: [&str; 2] = [
         {"species":"C","number_density":3,"placement":{"type":"behind-walls","axis":"x","wall":"upper","thickness":1}}]"#,
 ];
 
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<Checked> {
     let base = ["time.steps=1000", "time.step=0.02", "output.energies.every=3", DRIVEN];
     // Either kind of walls with layers and without.
     let scene = |(number, integrator): (usize, &&str)| {

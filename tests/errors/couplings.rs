@@ -36,7 +36,7 @@ fn the_base_is_right_and_has_nothing_to_be_warned_of() {
 #[test]
 fn scenes_of_couplings_have_an_integrator_of_their_own() {
     use mesoscope::scene::Integrator;
-    let integrator = |overrides: &[&str]| CHAINS.parse(overrides).unwrap().integrator;
+    let integrator = |overrides: &[&str]| CHAINS.parse(overrides).unwrap().integrator.clone();
     // Bonds and angles without a bath are no couplings of their own, and beside pairs what remembers nothing is none.
     for beside in [&[][..], &["interactions.1.friction=1"], &[r#"interactions.2={"type":"langevin","friction":1}"#]] {
         assert!(matches!(integrator(beside), Integrator::Splitting { relaxation: Some(_) }), "{beside:?}");

@@ -3,6 +3,7 @@
 //!
 //! Every case follows from a seed. A few run with all tests; `make validate` runs thousands.
 
+use crate::support::edited;
 use std::fs;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -10,11 +11,10 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Instant;
 
-use mesoscope::families::Model;
 use mesoscope::gpu::{AdapterChoice, prepare_environment};
 use mesoscope::output::{Id, checkpoint, files};
 use mesoscope::run::{Interrupt, RunError, Simulation};
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::sweep::{self, SweepSummary, VariantState, VariantSummary};
 use rand::rngs::StdRng;
 use rand::seq::IndexedRandom as _;
@@ -25,7 +25,7 @@ use crate::cost::{MEMORY, PATIENCE, measured};
 use crate::support::program::{Place, assert_same, bytes, command, listing, results, succeeds, text};
 
 /// A small scene of every kind of state: a name, the built-in scene, and what makes it small.
-fn families() -> Vec<(&'static str, Scene)> {
+fn families() -> Vec<(&'static str, Checked)> {
     let output = r#"output={"energies":{"every":3},"trajectory":{"every":10},"checkpoint":{"every":20},
         "radial_distribution":{"every":4,"range":1.2},"plot":{"width":640,"height":480},
         "snapshot":{"every":25,"width":100,"height":80}}"#;
@@ -84,10 +84,9 @@ type Files = Vec<(String, Vec<u8>)>;
 /// A run of every family that has come half-way.
 fn half_way(place: &Path) -> Vec<(&'static str, Files)> {
     prepare_environment();
-    let run = |(name, scene): (&'static str, Scene)| {
+    let run = |(name, scene): (&'static str, Checked)| {
         let directory = place.join(name);
-        let mut half = scene.clone();
-        half.time.steps = 30;
+        let half = edited(&scene, |scene| scene.time.steps = 30);
         Simulation::start(half, &directory, false).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
         fs::remove_file(directory.join(files::SUMMARY)).unwrap();
         let files = listing(&directory).into_iter().map(|name| (name.clone(), bytes(&directory.join(&name))));
@@ -287,7 +286,7 @@ fn shipped_scenes_come_back_from_checkpoints() {
     let place = tempfile::tempdir().unwrap();
     for builtin in scene::builtin() {
         let scene = scene::load(builtin.name, &[]).unwrap();
-        let state = mesoscope::families::initial_state(&scene, &Model::new(&scene));
+        let state = mesoscope::families::initial_state(&scene);
         checkpoint::save(&place.path().join(files::CHECKPOINT), Id::of_run(&scene), &scene, &state, &[], &[]).unwrap();
         let resumed = Simulation::resume(place.path(), None);
         let resumed = resumed.unwrap_or_else(|error| panic!("{}: {error}", builtin.name));
@@ -303,8 +302,7 @@ fn flip_tables(seed: u64, each: usize) {
     for (name, scene) in families().into_iter().filter(|(name, _)| ["fluid", "noise"].contains(name)) {
         let (whole, directory) = (place.path().join(name), place.path().join("run"));
         let run = |steps: u64| {
-            let mut scene = scene.clone();
-            scene.time.steps = steps;
+            let scene = edited(&scene, |scene| scene.time.steps = steps);
             Simulation::start(scene, &whole, true).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
         };
         run(50);

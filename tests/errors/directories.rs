@@ -9,14 +9,14 @@ use mesoscope::gpu::{AdapterChoice, prepare_environment};
 use mesoscope::output::{OutputError, RunDirectory, files};
 use mesoscope::plan::Division;
 use mesoscope::run::{self, RunError, Simulation};
-use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::scene::{self, Checked, SceneError, WrittenScene};
 use mesoscope::state_file::GsdWriter;
 use serde_json::{Value, json};
 
 use crate::cost::{MEMORY, PATIENCE, measured};
 
 /// A few particles with everything that a run may leave.
-fn small() -> Scene {
+fn small() -> Checked {
     let set = [
         "space.box=[3,3,3]",
         r#"time={"step":0.02,"steps":20}"#,
@@ -125,7 +125,7 @@ fn sizes_are_weighed_before_they_are_believed() {
         fs::File::options().write(true).open(&path).unwrap().set_len(length).unwrap();
     };
     let scene = place.path().join("scene.json");
-    fs::write(&scene, scene::read("dpd-fluid").unwrap().1).unwrap();
+    fs::write(&scene, WrittenScene::read("dpd-fluid").unwrap().text).unwrap();
     let read = |frame: i64| {
         let state = format!(r#"state={{"file":"start","frame":{frame},"velocities":"thermal"}}"#);
         let set = [&state, r#"particles=[{"species":"fluid"}]"#, r#"space={"box":[9,9,9]}"#, "output={}"];
@@ -182,8 +182,8 @@ fn ranks_are_weighed_by_their_parts() {
 #[test]
 fn molecules_that_no_adapter_holds_are_refused_at_once() {
     let set = ["molecules.0.count=9000000", "space.box=[320,320,320]"].map(str::to_owned);
-    let refuse = |_: &Scene| Err(SceneError::TooManyParticles { reason: "the adapter is small".to_owned() });
-    let (found, cost) = measured(|| scene::load_fitting("diblock-copolymer", &set, None, &refuse));
+    let refuse = |_: &Checked| Err(SceneError::TooManyParticles { reason: "the adapter is small".to_owned() });
+    let (found, cost) = measured(|| WrittenScene::read("diblock-copolymer").unwrap().with(&set).check_fitting(&refuse));
     assert_eq!(found.unwrap().unwrap_err().to_string(), "the adapter is small");
     assert!(cost.memory < MEMORY, "{}", cost.memory);
 }

@@ -4,7 +4,6 @@
 use std::sync::mpsc;
 use std::time::Duration;
 
-use mesoscope::families::Model;
 use mesoscope::plan::{self, Hardware, Options};
 use mesoscope::run;
 use mesoscope::run::Sizes;
@@ -36,14 +35,13 @@ fn answer(text: &str) -> Answer {
             return Answer::Refused;
         }
     };
-    let model = Model::new(&scene);
     assert!(mesoscope::families::warnings(&scene).iter().all(|warning| !warning.message.is_empty()));
     let hardware = Hardware { subgroup_size: Some(8), serial_memory: true };
     for hardware in [Hardware::default(), hardware] {
-        let plan = run::plan(&model, scene.time.equilibration, &scene.output, hardware, Options::default());
+        let plan = run::plan(&scene, hardware, Options::default());
         assert!(plan.bytes() >= plan.largest_buffer());
         // Whatever it says, it must not overflow.
-        let _ = Sizes::of(&scene, &model, &plan);
+        let _ = Sizes::of(&scene, &plan);
         if plan::check_precision(&scene, &plan).is_err() {
             return Answer::Refused;
         }

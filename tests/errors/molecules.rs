@@ -32,7 +32,7 @@ fn the_base_is_right() {
     let counts: Vec<_> = scene.particles.iter().map(|group| group.count).collect();
     assert_eq!(counts, [Some(40), Some(80), Some(672)]);
     assert_eq!(SURFACTANT.warnings(&[]), Vec::<String>::new());
-    let model = mesoscope::families::Model::new(&scene);
+    let model = scene.model();
     let particles = model.particles();
     assert_eq!(particles.bonds.as_ref().map(Bonds::count), Some(80));
     assert_eq!(particles.angles.as_ref().map(Angles::count), Some(40));

@@ -11,7 +11,7 @@ use mesoscope::plan::{Division, Options, Part};
 use mesoscope::ranks::threads::{self, Links, Peers, Threads};
 use mesoscope::ranks::{Channel, Processes, Team, computes_alike, serve, sharing};
 use mesoscope::run::{self, Event, Outcome, RunError, Simulation};
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use tempfile::TempDir;
 
 use crate::support::program::{results, text};
@@ -19,7 +19,7 @@ use crate::support::{GROOT_WARREN, adapter, fluid, gpu, hardware, start};
 
 const TWO: Division = Division { parts: [1, 1, 2] };
 
-fn scene() -> Scene {
+fn scene() -> Checked {
     let output = r#"output={"energies":{"every":3},"checkpoint":{"every":10},"plot":{"width":320,"height":240}}"#;
     fluid(&[GROOT_WARREN, "space.box=[4,4,9]", "time.steps=30", output])
 }
@@ -232,7 +232,7 @@ fn team(arithmetic: u32, mixed: bool, panics: bool) -> Result<Team<'static>, Eng
     let (_, state) = start(&scene);
     let engine = move |rank, peers: Peers| {
         let options = Options { part: Some(Part { division: TWO, rank }), ..Options::default() };
-        let plan = run::plan(&start(&scene).0, 0, &scene.output, hardware(), options);
+        let plan = run::plan(&scene, hardware(), options);
         Engine::of_part(gpu(), plan, Box::new(peers)).unwrap()
     };
     let introduction = |arithmetic| RankReport {

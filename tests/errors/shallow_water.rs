@@ -1,7 +1,6 @@
 //! Wrong scenes of shallow water: each mistake with its place, what was found and what is accepted; and what is allowed but
 //! deserves a warning.
 
-use mesoscope::families::Model;
 use mesoscope::scene;
 use serde_json::{Value, json};
 
@@ -429,7 +428,7 @@ fn a_loop_of_too_few_points() {
 fn a_time_step_beyond_the_limit() {
     // Without the turn of `gyro` p grows with dt².
     let rotate = r#"integrator={"type":"rotate"}"#;
-    let model = Model::new(&WATER.accepted(&[rotate, "time.step=1"]));
+    let model = WATER.accepted(&[rotate, "time.step=1"]).model().clone();
     let share = model.shallow_water().unwrap().stability(&model.integrator, [6.0, 6.0], 1.0);
     let step = |p: f64| format!("time.step={}", (p / share).sqrt());
     assert!(WATER.warnings(&[rotate, &step(0.51)]).is_empty());

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use mesoscope::output::{Id, checkpoint, files};
 use mesoscope::run::Simulation;
-use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::scene::{self, Checked, SceneError};
 use mesoscope::state_file::GsdWriter;
 use rand::rngs::StdRng;
 use rand::{RngExt as _, SeedableRng as _};
@@ -112,7 +112,7 @@ impl Place {
         self.0.path()
     }
 
-    fn load(&self, file: &str, changes: &[(&str, Value)]) -> Result<Scene, SceneError> {
+    fn load(&self, file: &str, changes: &[(&str, Value)]) -> Result<Checked, SceneError> {
         let scene = self.path().join("scene.json");
         fs::write(&scene, text(file, changes)).unwrap();
         scene::load(scene.to_str().unwrap(), &[])
@@ -147,7 +147,7 @@ fn replaced(text: &str, part: &str, with: &str) -> String {
 fn right_files_are_accepted() {
     for (content, particles, lengths) in [(LAMMPS, 4, [4.0, 5.0, 6.0]), (XYZ, 3, [4.0, 5.0, 6.0])] {
         let scene = Place::of("init", content).load("init", &[]).unwrap();
-        let model = mesoscope::families::Model::new(&scene);
+        let model = scene.model();
         assert_eq!((model.particle_count(), scene.space.lengths.as_slice()), (particles, lengths.as_slice()));
     }
 }
@@ -273,10 +273,9 @@ fn gsd_that_ends_too_early() {
 /// Runs of other families have more than a file of particles can say.
 #[test]
 fn states_of_foreign_runs() {
-    let run = |scene: Scene| {
+    let run = |scene: Checked| {
         let place = Place::of("other", "");
-        let model = mesoscope::families::Model::new(&scene);
-        let state = mesoscope::families::initial_state(&scene, &model);
+        let state = mesoscope::families::initial_state(&scene);
         fs::create_dir(place.path().join("run")).unwrap();
         let path = place.path().join("run").join(files::CHECKPOINT);
         checkpoint::save(&path, Id::of_run(&scene), &scene, &state, &[], &[]).unwrap();
@@ -502,7 +501,8 @@ fn masses_of_lammps() {
         let place = Place::of("init", content);
         let scene = place.path().join("scene.json");
         fs::write(&scene, text("init", &[("/particles", groups)])).unwrap();
-        let (_, notices) = scene::load_for(scene.to_str().unwrap(), &[], None).unwrap();
+        let scene = scene::load(scene.to_str().unwrap(), &[]).unwrap();
+        let notices = scene.notices();
         notices.iter().map(ToString::to_string).filter(|notice| notice.contains("mass")).collect::<Vec<_>>()
     };
     let without = replaced(LAMMPS, "Masses\n\n1 1.5\n2 2\n\n", "");
@@ -543,14 +543,14 @@ fn styles_of_lammps_are_not_guessed() {
         let style = style.map(|style| ("/state/atom_style", json!(style)));
         let changes: Vec<_> = [thermal.clone()].into_iter().chain(style).collect();
         fs::write(place.path().join("scene.json"), text("init", &changes)).unwrap();
-        match scene::load_for(place.path().join("scene.json").to_str().unwrap(), &[], None) {
-            Ok((scene, notices)) => {
-                let model = mesoscope::families::Model::new(&scene);
-                let state = mesoscope::families::initial_state(&scene, &model);
+        match scene::load(place.path().join("scene.json").to_str().unwrap(), &[]) {
+            Ok(scene) => {
+                let state = mesoscope::families::initial_state(&scene);
                 let unit = 1_u32 << 29;
                 assert_eq!(state.positions, [1, 2, 3, 4].map(|place| [place * unit; 3]), "{content}");
                 assert_eq!(state.species, [0, 1, 0, 1], "{content}");
-                let notices = notices.iter().map(ToString::to_string).filter(|notice| notice.contains("not used"));
+                let notices =
+                    scene.notices().iter().map(ToString::to_string).filter(|notice| notice.contains("not used"));
                 Ok(notices.collect::<Vec<_>>())
             }
             Err(SceneError::Invalid { problems, .. }) => Err(problems.iter().map(ToString::to_string).collect()),
@@ -653,7 +653,7 @@ fn positions_outside_are_wrapped() {
     let kept = [[0, 3, 0], [0, 0, 0], [0, 0, 1], [5, 0, 0]];
     for (lines, images) in [(lines, counted), (turned, kept)] {
         let scene = Place::of("init", atoms("Atoms # atomic", lines)).load("init", &wrap(whole.clone())).unwrap();
-        let state = mesoscope::families::initial_state(&scene, &mesoscope::families::Model::new(&scene));
+        let state = mesoscope::families::initial_state(&scene);
         let unit = 1_u32 << 28;
         let expected = [[2, 2, 2], [1, 4, 4], [6, 6, 8], [8, 8, 8]];
         assert_eq!(state.positions, expected.map(|place| place.map(|part: u32| part * unit)));
@@ -683,8 +683,7 @@ fn types_of_a_file_are_mapped() {
         let place = Place::of("init", content);
         let scene = place.load("init", &[("/particles", groups.clone()), thermal.clone()]);
         scene.map(|scene| {
-            let model = mesoscope::families::Model::new(&scene);
-            let rows = model.composition(&scene);
+            let rows = scene.composition();
             // The resolved scene says it again, and is the same.
             let text = serde_json::to_string(&scene).unwrap();
             fs::write(place.path().join("again.json"), text).unwrap();
@@ -798,7 +797,7 @@ fn atomic_numbers() {
     for names in [["C", "200"], ["6", "200"]] {
         let groups = json!([{"species": names[1]}, {"species": names[0]}]);
         let loaded = Place::of("init", numbered).load("init", &[("/particles", groups), thermal.clone()]).unwrap();
-        let state = mesoscope::families::initial_state(&loaded, &mesoscope::families::Model::new(&loaded));
+        let state = mesoscope::families::initial_state(&loaded);
         assert_eq!(state.species, [1, 0], "{names:?}");
     }
     refused(
@@ -1031,7 +1030,7 @@ fn what_does_not_go_with_a_file() {
         &[("/state/checksum", json!("12345678"))],
         &[&format!(
             "state.checksum: found \"12345678\", and \"{}\" of `init`; accepted: the file as it was, or no `checksum`",
-            Place::of("init", XYZ).load("init", &[]).unwrap().state.unwrap().checksum.unwrap()
+            Place::of("init", XYZ).load("init", &[]).unwrap().into_scene().state.unwrap().checksum.unwrap()
         )],
     );
     let place = Place::of("init", XYZ);
@@ -1137,7 +1136,7 @@ fn frames_of_gsd() {
     let sheared =
         [("/space", json!({"box": [4, 5, 6], "shear": {"rate": 1, "gradient": "y"}})), ("/interactions", json!([]))];
     let loaded = place.load("init.gsd", &sheared).unwrap();
-    assert!((loaded.space.shear.unwrap().displacement - 1.25).abs() < 1e-12);
+    assert!((loaded.space.shear.as_ref().unwrap().displacement - 1.25).abs() < 1e-12);
     let mut file = GsdWriter::create(&path, "test", "other", (1, 4)).unwrap();
     file.end_frame();
     file.sync().unwrap();
@@ -1159,8 +1158,8 @@ fn a_file_of_gsd_5() {
         let bonds = json!({"type": "bonds", "potential": {"type": "harmonic", "stiffness": 4}});
         let changes = [("/state/frame", json!(frame)), ("/output", output), ("/interactions/-", bonds)];
         let scene = place.load("five.gsd", &changes).unwrap();
-        let model = mesoscope::families::Model::new(&scene);
-        let state = mesoscope::families::initial_state(&scene, &model);
+        let model = scene.model();
+        let state = mesoscope::families::initial_state(&scene);
         assert_eq!(scene.space.lengths, [4.0, 5.0, 6.0]);
         assert_eq!(state.species, [0, 1, 0, 1, 0, 1]);
         assert_eq!(model.species.iter().map(|species| species.mass).collect::<Vec<_>>(), [1.5, 1.0]);
@@ -1236,8 +1235,8 @@ fn damaged_files_are_answered(cases: u64) {
                 }
                 Err(error) => panic!("{error}"),
             };
-            let model = mesoscope::families::Model::new(&scene);
-            mesoscope::families::initial_state(&scene, &model).len() as u64 == model.particle_count()
+            let model = scene.model();
+            mesoscope::families::initial_state(&scene).len() as u64 == model.particle_count()
         });
         let answer = answer.unwrap_or_else(|_| panic!("case {case} of {format} panics"));
         assert!(cost.time < PATIENCE && cost.memory < MEMORY, "case {case}: {:?}, {} bytes", cost.time, cost.memory);

@@ -3,7 +3,7 @@
 
 use mesoscope::families::Model;
 use mesoscope::families::initial_state;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::state::State;
 use mesoscope::tessellation::Tessellation;
 use serde_json::{Value, json};
@@ -123,7 +123,7 @@ fn one_viscosity() {
         "interactions[0]: both `viscosity` and `shear_viscosity` are given; accepted: one of `viscosity`, of the law of \
          friction, and `shear_viscosity`, of the network of cells",
     );
-    let viscosity = |scene: &Scene| Model::new(scene).voronoi().unwrap().viscosity;
+    let viscosity = |scene: &Checked| scene.model().voronoi().unwrap().viscosity;
     assert_eq!(viscosity(&CELLS.accepted(&[])), 1.0);
     assert_eq!(viscosity(&CELLS.accepted(&["interactions.0.viscosity=3"])), 3.0);
     assert_eq!(viscosity(&CELLS.accepted(&["interactions.0.viscosity=0"])), 0.0);
@@ -333,9 +333,7 @@ fn fluids_that_the_model_does_not_describe_well() {
 
 fn start(overrides: &[&str]) -> (Model, State) {
     let scene = CELLS.accepted(overrides);
-    let model = Model::new(&scene);
-    let state = initial_state(&scene, &model);
-    (model, state)
+    (scene.model().clone(), initial_state(&scene))
 }
 
 const LARGE: [&str; 2] = ["space.box=[40,80]", "particles.0.count=3200"];

@@ -1,12 +1,11 @@
 //! Scenes from absolute zero to great heat, for each kind of force: integer momenta have room for what the forces do, however
 //! cold it is, and resolve it.
 
-use mesoscope::families::Model;
 use mesoscope::families::reference::{Reference, Unstable};
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use serde_json::{Value, json};
 
-use crate::support::{Device, Implementation as _};
+use crate::support::{Device, Implementation as _, edited};
 
 const TEMPERATURES: [f64; 9] = [0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2];
 
@@ -41,7 +40,7 @@ fn cases() -> Vec<(&'static str, Value, f64)> {
     ]
 }
 
-fn scene_of(interactions: &Value, temperature: f64) -> Scene {
+fn scene_of(interactions: &Value, temperature: f64) -> Checked {
     let text = json!({
         "title": "cold", "seed": 5, "space": {"box": [8, 8, 8]}, "time": {"step": 0.01, "steps": 80}, "temperature": temperature,
         "particles": [{"species": "A", "count": 120, "chain": {"beads": 12}}], "interactions": interactions,
@@ -57,11 +56,11 @@ fn largest_of(momenta: &[[i32; 3]]) -> u32 {
 /// finite length apart, and then it is that until there.
 fn largest(interactions: &Value, temperature: f64) -> (u32, f64) {
     let scene = scene_of(interactions, temperature);
-    let model = Model::new(&scene);
+    let model = scene.model();
     let unit = model.units.momentum;
-    let state = mesoscope::families::initial_state(&scene, &model);
+    let state = mesoscope::families::initial_state(&scene);
     let mut most = largest_of(&state.momenta);
-    let mut run = Reference::new(model, state);
+    let mut run = Reference::new(model.clone(), state);
     for _ in 0..80 {
         match run.step() {
             Ok(()) => {}
@@ -95,7 +94,7 @@ fn momenta_fit_and_are_resolved_at_any_temperature() {
 fn heat_rules_the_unit_where_it_is_larger_than_what_forces_do() {
     for (name, interactions, _) in cases().into_iter().filter(|(name, ..)| *name != "coloured noise") {
         for temperature in [1.0, 4.0, 100.0] {
-            let unit = Model::new(&scene_of(&interactions, temperature)).units.momentum;
+            let unit = scene_of(&interactions, temperature).model().units.momentum;
             assert_eq!(unit, (temperature.sqrt().log2().ceil() - 24.0).exp2(), "{name}");
         }
     }
@@ -190,10 +189,10 @@ fn springs_start_as_far_from_rest_as_the_scene_says() {
         for temperature in [0.0, 1e-8] {
             text["temperature"] = json!(temperature);
             let scene = scene::parse("springs", &text.to_string(), &[]).unwrap();
-            let model = Model::new(&scene);
-            let state = mesoscope::families::initial_state(&scene, &model);
+            let model = scene.model();
+            let state = mesoscope::families::initial_state(&scene);
             let unit = model.units.momentum;
-            let mut run = Reference::new(model, state);
+            let mut run = Reference::new(model.clone(), state);
             let mut units = 0;
             for _ in 0..120 {
                 run.step().unwrap();
@@ -213,9 +212,9 @@ fn springs_start_as_far_from_rest_as_the_scene_says() {
         }
         // At a temperature of one its momenta are resolved as those of any other scene, unless the springs make far more.
         // In steps that they need not be able to take.
-        let mut scene = scene::parse("springs", &text.to_string(), &[]).unwrap();
-        scene.temperature = 1.0;
-        let model = Model::new(&scene);
+        let scene = scene::parse("springs", &text.to_string(), &[]).unwrap();
+        let scene = edited(&scene, |scene| scene.temperature = 1.0);
+        let model = scene.model();
         let heaviest = model.species.iter().map(|species| species.mass).fold(0.0, f64::max);
         let thermal = (heaviest.sqrt().log2().ceil() - 24.0).exp2();
         assert!(model.units.momentum == thermal || most > 48.0 * thermal * 2_f64.powi(24), "{name}");

@@ -1,12 +1,11 @@
 //! Built-in functions that err as much as WGSL lets them: a run is right, or ends with an error. It never goes wrong in silence.
 
 use mesoscope::engine::Engine;
-use mesoscope::families::Model;
 use mesoscope::gpu::Gpu;
 use mesoscope::measure::observables_of;
 use mesoscope::plan::{Hardware, Options};
 use mesoscope::run;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::self_test::{self, Verdict};
 use mesoscope::state::State;
 
@@ -26,7 +25,7 @@ const DEVIATIONS: [Deviation; 3] = [Deviation::Up, Deviation::Down, Deviation::E
 /// reports may be off: five standard deviations and what the time step makes.
 struct Case {
     name: &'static str,
-    scene: Scene,
+    scene: Checked,
     steps: u64,
     temperature: f64,
     tolerance: f64,
@@ -69,8 +68,8 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-fn engine<'a>(gpu: &'a Gpu, scene: &Scene, state: &State) -> Engine<'a> {
-    let plan = run::plan(&Model::new(scene), 0, &scene.output, Hardware::from(gpu), Options::default());
+fn engine<'a>(gpu: &'a Gpu, scene: &Checked, state: &State) -> Engine<'a> {
+    let plan = run::plan(scene, Hardware::from(gpu), Options::default());
     Engine::new(gpu, plan, state).unwrap()
 }
 

@@ -9,7 +9,7 @@ use mesoscope::families::reference::{Reference, ShallowWaterReference, VoronoiRe
 use mesoscope::gpu::{Gpu, Requirements};
 use mesoscope::measure::Observables;
 use mesoscope::plan::{Options, Plan, Storage};
-use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::scene::{self, Checked, SceneError};
 use mesoscope::state::State;
 use serde_json::{Value, json};
 use std::time::Instant;
@@ -183,10 +183,9 @@ impl Kind {
     }
 
     /// A scene of this kind with changes, or why it is refused.
-    fn scene(self, changes: &[String]) -> Result<Scene, SceneError> {
+    fn scene(self, changes: &[String]) -> Result<Checked, SceneError> {
         let scene = scene::parse("extreme", &self.document().to_string(), changes)?;
-        let model = Model::new(&scene);
-        let plan = mesoscope::run::plan(&model, 0, &scene.output, hardware(), Options::default());
+        let plan = mesoscope::run::plan(&scene, hardware(), Options::default());
         mesoscope::plan::check_precision(&scene, &plan)?;
         Ok(scene)
     }
@@ -257,7 +256,7 @@ fn expect(problems: &mut Problems, kind: Kind, changes: &[String], outcome: Outc
 }
 
 /// Some steps without a failure, and what has to hold after any.
-fn sound(problems: &mut Problems, scene: &Scene, what: &str) {
+fn sound(problems: &mut Problems, scene: &Checked, what: &str) {
     let (model, state) = start(scene);
     let mut device = device(scene, &state);
     match device.advance(10, 10).and_then(|()| device.state()) {
@@ -269,16 +268,16 @@ fn sound(problems: &mut Problems, scene: &Scene, what: &str) {
 }
 
 /// A device with room for a crowd, which a run makes when there is one.
-fn device(scene: &Scene, state: &State) -> Engine<'static> {
+fn device(scene: &Checked, state: &State) -> Engine<'static> {
     engine(scene, state, Options { list_growth: 6, storage: Some(Storage::Sorted), ..Options::default() })
 }
 
 const STEPS: u64 = 3;
 
 /// Compares steps of a device, to which a state has been uploaded, with those of the reference.
-fn compare(problems: &mut Problems, kind: Kind, scene: &Scene, device: &mut Engine<'_>, state: &State, what: &str) {
-    let model = Model::new(scene);
-    let mut reference = kind.reference(&model, state);
+fn compare(problems: &mut Problems, kind: Kind, scene: &Checked, device: &mut Engine<'_>, state: &State, what: &str) {
+    let model = scene.model();
+    let mut reference = kind.reference(model, state);
     let lightest = model.species.iter().map(|species| species.mass).fold(f64::INFINITY, f64::min).min(1.0);
     let drift = model.time_step * model.units.momentum / lightest / model.units.shortest_length() * 2_f64.powi(32);
     let mut found = state.clone();
@@ -296,12 +295,12 @@ fn compare(problems: &mut Problems, kind: Kind, scene: &Scene, device: &mut Engi
         let moved = allowed + (allowed as f64 * step as f64 * drift) as i64;
         check(problems, momentum <= allowed, || format!("{what}: {momentum} units of momentum after step {step}"));
         check(problems, position <= moved, || format!("{what}: {position} units of position after step {step}"));
-        conserved(problems, &model, &found, state, what);
+        conserved(problems, model, &found, state, what);
     }
     match series(device, scene).pop() {
         Some(row) => {
             let resolved = model.units.momentum.powi(2) / lightest * 1e3 + f64::MIN_POSITIVE;
-            measured_alike(problems, &row, &kind.reference(&model, &found).observe(), resolved, what);
+            measured_alike(problems, &row, &kind.reference(model, &found).observe(), resolved, what);
         }
         None => problems.push(format!("{what}: no sample")),
     }
@@ -477,7 +476,7 @@ fn as_many_particles_as_an_adapter_holds_take_a_step() {
         let options = Options { list_growth, storage: Some(Storage::Sorted), ..Options::default() };
         let plan_of = |count: u64| {
             let scene = scene_of(count);
-            mesoscope::run::plan(&Model::new(&scene), 0, &scene.output, hardware(), options)
+            mesoscope::run::plan(&scene, hardware(), options)
         };
         let open = |plan: &Plan| {
             let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);

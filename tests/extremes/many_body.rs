@@ -2,7 +2,7 @@
 
 use mesoscope::engine::EngineError;
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 
 use crate::support::{INTEGRATORS, engine, fluid, observables, reference_of_particles, same_energies, start};
 
@@ -13,12 +13,12 @@ fn listed(positions: &str) -> String {
     format!(r#"particles=[{{"species":"A","placement":{{"type":"listed","positions":[{positions}]}}}}]"#)
 }
 
-fn scene(changes: &[&str]) -> Scene {
+fn scene(changes: &[&str]) -> Checked {
     fluid(&[&[FORCE][..], &REPORTS, changes].concat())
 }
 
 /// Some steps, of which the last is compared with the reference of the same state.
-fn agree(scene: &Scene, steps: u64) {
+fn agree(scene: &Checked, steps: u64) {
     let (model, state) = start(scene);
     let mut engine = engine(scene, &state, Options::default());
     engine.advance(steps, steps).unwrap();

@@ -1,16 +1,16 @@
 //! The ends of every range a scene can reach: right, or refused with the reason, and never silent.
 
 use mesoscope::engine::EngineError;
+use mesoscope::families::Instability;
 use mesoscope::families::reference::Reference;
-use mesoscope::families::{Instability, Model};
 use mesoscope::plan::{self, Options, Traversal};
 use mesoscope::run;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::shaders::Constant;
 use mesoscope::state::State;
 
 use crate::support::{
-    COTTER_REICH, EVERY_STEP, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, STAGED, engine, fluid, hardware,
+    COTTER_REICH, EVERY_STEP, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, STAGED, edited, engine, fluid, hardware,
     largest_difference, observables, reference, same_observables, series, start, step_in_words, traversals,
 };
 
@@ -274,7 +274,7 @@ fn friction_from_none_to_too_much() {
 
 /// The run fails as unstable within one batch, says when, and suggests a smaller step that is not zero. With one of the ways to
 /// visit pairs: another one for the next `number`.
-fn unstable(number: usize, scene: &Scene, batch: u64) {
+fn unstable(number: usize, scene: &Checked, batch: u64) {
     let (model, state) = start(scene);
     let traversals = traversals();
     let mut engine = engine(scene, &state, options(traversals[number % traversals.len()]));
@@ -304,14 +304,12 @@ fn unstable(number: usize, scene: &Scene, batch: u64) {
 fn an_exploding_time_step_is_caught_within_a_batch() {
     for (number, integrator) in INTEGRATORS.iter().enumerate() {
         // Refused, but for a program that goes on without a check.
-        let mut scene = fluid(&[integrator]);
-        scene.time.step = [0.5, 0.9][number % 2];
+        let scene = edited(&fluid(&[integrator]), |scene| scene.time.step = [0.5, 0.9][number % 2]);
         unstable(number / 2, &scene, 50);
     }
     // The same of a step that would be fine, for a particle that is too fast.
     let fast = listed("[[1,1,1],[3,3,3]]", "[[200,0,0],[0,0,0]]");
-    let mut scene = fluid(&[GROOT_WARREN, &fast, "time.step=0.004"]);
-    scene.time.step = 0.04;
+    let scene = edited(&fluid(&[GROOT_WARREN, &fast, "time.step=0.004"]), |scene| scene.time.step = 0.04);
     (0..2).for_each(|number| unstable(number, &scene, 4));
 }
 
@@ -574,7 +572,7 @@ fn sixteen_species() {
 // ---- Crowding
 
 /// A scene whose particles all lie in the first cells along x.
-fn crowd(particles: u64) -> (Scene, State) {
+fn crowd(particles: u64) -> (Checked, State) {
     let scene = fluid(&[GROOT_WARREN, "space.box=[16,8,8]", "time.step=0.002", &count(particles)]);
     let (_, mut state) = start(&scene);
     for position in &mut state.positions {
@@ -584,14 +582,14 @@ fn crowd(particles: u64) -> (Scene, State) {
 }
 
 /// Particles in the first and the last cell along x, which need copies.
-fn copies(scene: &Scene, state: &State) -> u64 {
+fn copies(scene: &Checked, state: &State) -> u64 {
     let cells = u64::from(planned(scene, Options::default()).cells[0]);
     let end = |x: u32| [0, cells - 1].contains(&((u64::from(x) * cells) >> 32));
     state.positions.iter().filter(|position| end(position[0])).count() as u64
 }
 
-fn planned(scene: &Scene, options: Options) -> plan::Plan {
-    run::plan(&Model::new(scene), 0, &scene.output, hardware(), options)
+fn planned(scene: &Checked, options: Options) -> plan::Plan {
+    run::plan(scene, hardware(), options)
 }
 
 #[test]

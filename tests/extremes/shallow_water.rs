@@ -2,15 +2,16 @@
 
 use mesoscope::engine::{Engine, EngineError};
 use mesoscope::families::reference::{ShallowWaterReference, Unstable};
-use mesoscope::families::{Instability, Model, ShallowWater};
+use mesoscope::families::{Instability, ShallowWater};
 use mesoscope::gpu::AdapterKind;
 use mesoscope::plan::{Options, Storage, Traversal};
-use mesoscope::scene::Scene;
+use mesoscope::scene::{Checked, Interaction, Velocities};
 use mesoscope::shaders::Array;
 use mesoscope::state::State;
 
 use crate::support::{
-    EVERY_STEP, GYRO, ROTATE, WHITE, engine, gpu, in_eights, largest_difference, series, start, step_in_words, water,
+    EVERY_STEP, GYRO, ROTATE, WHITE, edited, engine, gpu, in_eights, largest_difference, series, start, step_in_words,
+    water,
 };
 
 const WARM: &str = "temperature=4e-4";
@@ -22,8 +23,8 @@ fn stored(storage: Storage) -> Options {
     Options { storage: Some(storage), ..in_eights() }
 }
 
-fn shallow_water(scene: &Scene) -> ShallowWater {
-    Model::new(scene).shallow_water().unwrap().clone()
+fn shallow_water(scene: &Checked) -> ShallowWater {
+    scene.model().shallow_water().unwrap().clone()
 }
 
 /// Particles at given places with given velocities.
@@ -35,12 +36,12 @@ fn listed(positions: &[[f64; 2]], velocities: &[[f64; 2]]) -> String {
 
 /// Steps device and reference side by side from a state: velocities within so many integer units a step, positions as
 /// far as those carry, and observables to single precision.
-fn agrees_from(scene: &Scene, state: &State, steps: u64, units: i64) {
+fn agrees_from(scene: &Checked, state: &State, steps: u64, units: i64) {
     agrees_in(&STORAGES, scene, state, steps, units);
 }
 
 /// The same in some ways to store particles.
-fn agrees_in(storages: &[Storage], scene: &Scene, state: &State, steps: u64, units: i64) {
+fn agrees_in(storages: &[Storage], scene: &Checked, state: &State, steps: u64, units: i64) {
     let (model, _) = start(scene);
     let shortest = model.units.lengths[0].min(model.units.lengths[1]);
     let drift = model.time_step * model.units.momentum / shortest * 2_f64.powi(32);
@@ -101,7 +102,7 @@ fn agrees_in_turn(number: usize, changes: &[&str], steps: u64, units: i64) {
 }
 
 /// The failure of a run from a state, after so many steps in one batch.
-fn failure(scene: &Scene, state: &State, options: Options, batch: u64) -> Result<Instability, EngineError> {
+fn failure(scene: &Checked, state: &State, options: Options, batch: u64) -> Result<Instability, EngineError> {
     let mut engine = engine(scene, state, options);
     match engine.advance(batch, batch).and_then(|()| engine.finish().map(drop)) {
         Err(error) => {
@@ -117,9 +118,9 @@ fn failure(scene: &Scene, state: &State, options: Options, batch: u64) -> Result
 }
 
 /// What an unstable run says.
-fn explained(error: EngineError, engine: &Engine<'_>, scene: &Scene) -> Result<Instability, EngineError> {
+fn explained(error: EngineError, engine: &Engine<'_>, scene: &Checked) -> Result<Instability, EngineError> {
     match error {
-        EngineError::Unstable(failure) => Ok(Instability::new(&failure, engine.plan(), &Model::new(scene))),
+        EngineError::Unstable(failure) => Ok(Instability::new(&failure, engine.plan(), scene.model())),
         other => Err(other),
     }
 }
@@ -490,9 +491,8 @@ fn a_path_of_half_the_box_is_caught() {
     let (model, mut state) = start(&scene);
     for (speed, fails) in [(1.9, false), (2.1, true)] {
         let unit = model.units.momentum * 1024.0;
-        let mut fast = scene.clone();
-        fast.particles[0].velocities =
-            mesoscope::scene::Velocities::Listed { velocities: vec![vec![0.0, speed], vec![0.0, 0.0]] };
+        let velocities = Velocities::Listed { velocities: vec![vec![0.0, speed], vec![0.0, 0.0]] };
+        let fast = edited(&scene, |scene| scene.particles[0].velocities = velocities);
         let (model, listed) = start(&fast);
         assert!(model.units.momentum >= unit);
         state.momenta.clone_from(&listed.momenta);
@@ -590,7 +590,7 @@ fn a_negative_depth_is_caught_with_place_and_step_and_only_the_spectral_symbol_m
 // ---- Crowds
 
 /// All particles of a scene in a part of one cell, or around one node.
-fn crowd(scene: &Scene, around: [u32; 2]) -> State {
+fn crowd(scene: &Checked, around: [u32; 2]) -> State {
     let (_, mut state) = start(scene);
     for position in &mut state.positions {
         *position = [around[0].wrapping_add(position[0] >> 5), around[1].wrapping_add(position[1] >> 5), 0];
@@ -603,7 +603,7 @@ fn a_crowd_in_one_cell_is_refused_by_bins_and_right_when_sorted() {
     let scene = water(&["interactions.0.mesh=[8,8]", "particles.0.count=3000", "time.step=1e-5", EVERY_STEP]);
     let state = crowd(&scene, [3 << 29, 5 << 29]);
     let mut sorted = engine(&scene, &state, stored(Storage::Sorted));
-    let mut reference = ShallowWaterReference::new(Model::new(&scene), state.clone()).unwrap();
+    let mut reference = ShallowWaterReference::new(scene.model().clone(), state.clone()).unwrap();
     sorted.advance(2, 2).unwrap();
     reference.run(2).unwrap();
     let (velocity, position) = largest_difference(&sorted.state().unwrap(), reference.state());
@@ -656,14 +656,14 @@ fn a_crowd_that_gathers_overflows_a_bin_at_the_same_step_in_any_batch() {
         "time.step=0.25",
         "interactions.0.smoothing.length=6",
     ]);
-    let mut scene = scene;
     let (model, state) = start(&scene);
     let centre = model.units.fraction([3.2, 3.1, 0.0]);
     let velocities = state.positions.iter().map(|position| {
         let [x, y, _] = model.units.displacement(centre, *position);
         vec![x / 16.0, y / 16.0]
     });
-    scene.particles[0].velocities = mesoscope::scene::Velocities::Listed { velocities: velocities.collect() };
+    let velocities = Velocities::Listed { velocities: velocities.collect() };
+    let scene = edited(&scene, |scene| scene.particles[0].velocities = velocities);
     let (_, state) = start(&scene);
     let crowded = |batch: u64| {
         let mut bins = engine(&scene, &state, stored(Storage::Bins));
@@ -700,10 +700,11 @@ fn more_mass_than_fits_is_caught() {
         (on_nodes, 1, "(3, 5), where x = 1.1781 and y = 1.9635"),
         (between, 2, "(3, 5), where x = 1.1781 and y = 1.9635"),
     ] {
-        let mut scene = scene.clone();
-        if let mesoscope::scene::Interaction::ShallowWater(water) = &mut scene.interactions[0] {
-            water.spline_order = order;
-        }
+        let scene = edited(&scene, |scene| {
+            if let Interaction::ShallowWater(water) = &mut scene.interactions[0] {
+                water.spline_order = order;
+            }
+        });
         for first in [0, 9] {
             let state = State { step: first, ..crowd(&scene, around) };
             let error = failure(&scene, &state, stored(Storage::Sorted), 4).unwrap();

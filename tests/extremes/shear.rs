@@ -2,7 +2,7 @@
 
 use mesoscope::engine::EngineError;
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::State;
 
 use crate::support::{GROOT_WARREN, PREDICTED, SPLITTING, STAGED, engine, fluid, start};
@@ -14,7 +14,7 @@ fn sheared(rate: f64) -> String {
 }
 
 /// Runs some steps from a state, and gives the last.
-fn run(scene: &Scene, state: &State, steps: u64) -> State {
+fn run(scene: &Checked, state: &State, steps: u64) -> State {
     let mut engine = engine(scene, state, Options::default());
     engine.advance(steps, 8).unwrap();
     let last = engine.state().unwrap();

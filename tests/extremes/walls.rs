@@ -2,7 +2,7 @@
 
 use mesoscope::engine::EngineError;
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::State;
 
 use crate::support::{GROOT_WARREN, INTEGRATORS, engine, fluid, start};
@@ -12,7 +12,7 @@ const CAVITY: &str = r#"space={"box":[4,4,4],"walls":{"x":{},"y":{"reflection":"
 const DUCT: &str = r#"space={"box":[4,4,4],"walls":{"x":{"lower_velocity":[0,0,-2]},"y":{"reflection":"specular"}}}"#;
 
 /// Particles behind a wall that are not frozen there.
-fn behind(scene: &Scene, state: &State) -> usize {
+fn behind(scene: &Checked, state: &State) -> usize {
     let model = start(scene).0;
     let ends = model.units.ends();
     let is_behind = |(position, species): &(&[u32; 3], &u32)| {
@@ -22,7 +22,7 @@ fn behind(scene: &Scene, state: &State) -> usize {
 }
 
 /// Runs some steps, of which each is looked at, and gives the last state.
-fn steps(scene: &Scene, count: u64) -> State {
+fn steps(scene: &Checked, count: u64) -> State {
     let (_, state) = start(scene);
     assert_eq!(behind(scene, &state), 0, "at the start");
     let mut engine = engine(scene, &state, Options::default());

@@ -9,16 +9,16 @@ use mesoscope::measure::histogram::{gaussian_mean, maxwell_mean};
 use mesoscope::output::read_table;
 use mesoscope::plan::Options;
 use mesoscope::run::{Outcome, Simulation};
-use mesoscope::scene::{self, AnalysisId, CorrelatedQuantity, CountedQuantity, Integrator, Scene, SceneError};
+use mesoscope::scene::{self, AnalysisId, Checked, CorrelatedQuantity, CountedQuantity, Integrator, SceneError};
 use mesoscope::shaders::{Array, Constant};
 use mesoscope::table::Table;
 use serde_json::{Value, json};
 
 use crate::support::{
-    COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, adapter, changed, engine, fluid, start,
+    COTTER_REICH, GROOT_WARREN, INTEGRATORS, PREDICTED, SPLITTING, adapter, changed, edited, engine, fluid, start,
 };
 
-fn run(scene: Scene, directory: &Path) -> Outcome {
+fn run(scene: Checked, directory: &Path) -> Outcome {
     Simulation::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap()
 }
 
@@ -32,7 +32,7 @@ fn table(directory: &Path, name: &str) -> Table {
 }
 
 /// Thermal velocities and no force.
-fn gas(changes: &[&str]) -> Scene {
+fn gas(changes: &[&str]) -> Checked {
     fluid(&[&["interactions=[]", "particles.0.count=400", "particles.0.number_density=null"], changes].concat())
 }
 
@@ -184,7 +184,7 @@ fn particles_spread_evenly_have_a_radial_distribution_of_one() {
 
 /// The last sample of the first analysis on the device after some steps, and a reference with the particles as the
 /// analysis sees them.
-fn last_sample_and_reference(scene: &Scene, steps: u64) -> (Vec<i64>, Reference) {
+fn last_sample_and_reference(scene: &Checked, steps: u64) -> (Vec<i64>, Reference) {
     let (model, state) = start(scene);
     let mut measured = engine(scene, &state, Options::default());
     measured.advance(steps, 4).unwrap();
@@ -192,8 +192,7 @@ fn last_sample_and_reference(scene: &Scene, steps: u64) -> (Vec<i64>, Reference)
     let found = samples.iter().rfind(|sample| sample.sampler == 1).unwrap();
     assert_eq!(found.step, steps);
     // A state is read before the step is reported.
-    let mut silent = scene.clone();
-    silent.output = fluid(&["output.energies.every=1000"]).output;
+    let silent = edited(scene, |scene| scene.output = fluid(&["output.energies.every=1000"]).into_scene().output);
     let mut silent = engine(&silent, &state, Options::default());
     silent.advance(steps, 4).unwrap();
     let mut reference = Reference::new(model.clone(), silent.state().unwrap());
@@ -314,7 +313,7 @@ fn sizes_of_molecules() {
         let measured = *sum as f64 * quantum;
         assert!(expected.is_none_or(|expected| (measured / expected - 1.0).abs() < 1e-4), "{measured}, {expected:?}");
     }
-    let groups = Model::new(&scene).particles().chain_groups.clone();
+    let groups = scene.model().particles().chain_groups.clone();
     let kinds: Vec<_> = groups.iter().map(|group| (group.name.as_str(), group.chains, group.linear)).collect();
     assert_eq!(kinds, [("A + 4 B", 20, false), ("4 B", 30, true)]);
 }
@@ -502,14 +501,14 @@ fn forces_of_a_conservative_fluid_have_the_squares_of_the_observables() {
             r#"output.autocorrelations=[{"quantity":"force","every":5,"window":2}]"#,
             r#"output.histograms=[{"quantity":"acceleration","every":5}]"#,
         ]);
-        let model = Model::new(&scene);
+        let model = scene.model();
         let (_, state) = start(&scene);
         let mut engine = engine(&scene, &state, Options::default());
         engine.advance(200, 50).unwrap();
         let samples = engine.finish().unwrap();
         let of = |index: usize| samples.iter().filter(move |sample| sample.sampler == index);
         let squares: Vec<f64> = of(0)
-            .map(|sample| mesoscope::measure::observables_of(sample, engine.plan(), &model).gradient_squared)
+            .map(|sample| mesoscope::measure::observables_of(sample, engine.plan(), model).gradient_squared)
             .collect();
         let plan = engine.plan();
         let quantum = plan.force_unit.powi(2) * 8.0; // 2^(⌈log₂ 375⌉ - 6)

@@ -6,17 +6,17 @@
 use mesoscope::engine::Engine;
 use mesoscope::families::{ColouredNoise, Model};
 use mesoscope::plan::Options;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::state::{Reported, State};
 
-use crate::support::{Device, Implementation, Measured, built_in, changed, engine, start};
+use crate::support::{Device, Implementation, Measured, built_in, changed, edited, engine, start};
 
 const STATIONARY: [&str; 3] = ["kangaroo", "kangaroo-exponential", "short"];
 /// Standard errors that a mean of many may be off: one in 150 000 is more than 4.5.
 const DEVIATIONS: f64 = 4.5;
 
 /// Particles at rest in a box that nothing but a coloured noise of strength 2 and time 0.05 acts on, with changes.
-fn free(process: &str, changes: &[&str]) -> Scene {
+fn free(process: &str, changes: &[&str]) -> Checked {
     let text = r#"{
         "title": "test", "space": {"box": [50, 50]}, "time": {"step": 0.01, "steps": 1}, "temperature": 0,
         "particles": [{"species": "A", "count": 20000}],
@@ -30,19 +30,19 @@ fn noise_of(model: &Model) -> ColouredNoise {
 }
 
 /// The first steps of a scene on the device.
-fn run(scene: &Scene) -> (Model, State, Engine<'static>) {
+fn run(scene: &Checked) -> (Model, State, Engine<'static>) {
     let (model, state) = start(scene);
     let engine = engine(scene, &state, Options::default());
     (model, state, engine)
 }
 
 /// Force on every particle, averaged over every one of the first steps.
-fn forces(scene: &Scene, steps: usize) -> Vec<Vec<[f64; 3]>> {
+fn forces(scene: &Checked, steps: usize) -> Vec<Vec<[f64; 3]>> {
     forces_at(scene, &(0..steps as u64).collect::<Vec<_>>())
 }
 
 /// The same of some steps only.
-fn forces_at(scene: &Scene, steps: &[u64]) -> Vec<Vec<[f64; 3]>> {
+fn forces_at(scene: &Checked, steps: &[u64]) -> Vec<Vec<[f64; 3]>> {
     let (model, start, mut engine) = run(scene);
     let mut before = Reported::from(start);
     let forces = steps.iter().map(|&step| {
@@ -302,7 +302,7 @@ fn by_hand(model: &Model, id: u32, elapsed: f64) -> (u32, [f64; 3], f64, [f64; 3
 }
 
 /// Every particle's process after some steps against [`by_hand`].
-fn check_jumps(scene: &Scene, steps: u64) -> u64 {
+fn check_jumps(scene: &Checked, steps: u64) -> u64 {
     let (model, _, mut engine) = run(scene);
     engine.advance(steps, 10).unwrap();
     let state = engine.state().unwrap();
@@ -384,7 +384,7 @@ fn forces_that_outlast_any_run_lose_nothing() {
 }
 
 /// A gas of pairs with friction under noise.
-fn gas(changes: &[&str]) -> Scene {
+fn gas(changes: &[&str]) -> Checked {
     built_in("coloured-noise", changes)
 }
 
@@ -415,8 +415,7 @@ fn reruns_restarts_reports_and_storage_change_no_bit() {
         watched.advance(1, 1).unwrap();
         assert_eq!(watched.state().unwrap(), expected, "{process}, with reports");
 
-        let mut other = scene.clone();
-        other.seed += 1;
+        let other = edited(&scene, |scene| scene.seed += 1);
         let (_, _, mut other) = run(&other);
         other.advance(60, 60).unwrap();
         assert_ne!(other.state().unwrap().holds, expected.holds);
@@ -439,7 +438,7 @@ fn without_strength_nothing_moves() {
 fn temperatures_are_about_the_centre_of_mass() {
     // The printed process drives all particles alike.
     let scene = free("literal", &["time.step=0.02", "output.energies.every=1"]);
-    let model = Model::new(&scene);
+    let model = scene.model();
     let mut device = Device::new(&scene);
     device.step(400);
     let row = device.observe();
@@ -491,7 +490,7 @@ fn what_cannot_be_computed_is_refused_with_the_reason() {
 #[test]
 fn warnings_tell_of_the_printed_process_and_of_rounding() {
     let text =
-        |scene: &Scene| -> String { mesoscope::families::warnings(scene).iter().map(ToString::to_string).collect() };
+        |scene: &Checked| -> String { mesoscope::families::warnings(scene).iter().map(ToString::to_string).collect() };
     assert!(!text(&gas(&[])).contains("interactions[1]"), "{}", text(&gas(&[])));
     let printed = text(&gas(&["interactions.1.process=literal"]));
     assert!(printed.contains("interactions[1].process") && printed.contains("no stationary state"), "{printed}");
@@ -507,7 +506,7 @@ fn two_couplings_to_noise_keep_their_own_random_numbers() {
     for generator in ["noise.generator=pcg4d", "noise.generator=threefry2x32-20"] {
         let alone = free("kangaroo", &["particles.0.count=300", generator, "temperature=1"]);
         let both = free("kangaroo", &["particles.0.count=300", generator, "temperature=1", langevin]);
-        let holds = |scene: &Scene| {
+        let holds = |scene: &Checked| {
             let (_, _, mut engine) = run(scene);
             engine.advance(30, 30).unwrap();
             let state = engine.state().unwrap();
@@ -587,7 +586,7 @@ fn standard_dissipative_particles_beside_it() {
         device.step((2.0 / time_step) as u64);
         temperatures.push(device.observe().kinetic_temperature());
         let reported = device.reported();
-        let unit = Model::new(&gas(&[integrator, dpd])).units;
+        let unit = gas(&[integrator, dpd]).model().units;
         let squares: Vec<f64> = reported
             .momenta
             .iter()

@@ -17,16 +17,16 @@ use mesoscope::families::Model;
 use mesoscope::families::reference::Reference;
 use mesoscope::measure::Observables;
 use mesoscope::plan::Options;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::state::{PairBath, Reported, State};
 
 use crate::support::{
-    Device, Implementation, Measured, changed, deviate, fluid, largest_difference, oscillators, start,
+    Device, Implementation, Measured, changed, deviate, edited, fluid, largest_difference, oscillators, start,
 };
 
 /// Every implementation of couplings, at the start of a scene from a given state.
-fn runs(scene: &Scene, state: &State) -> Vec<Box<dyn Implementation>> {
-    let model = Model::new(scene);
+fn runs(scene: &Checked, state: &State) -> Vec<Box<dyn Implementation>> {
+    let model = scene.model();
     let mut runs: Vec<Box<dyn Implementation>> = vec![Box::new(Reference::new(model.clone(), state.clone()))];
     runs.push(Box::new(Device::from_state(scene, state, Options::default())));
     runs
@@ -47,7 +47,7 @@ fn friction_relative_to_the_flow_has_the_stress_of_a_langevin_gas() {
             "time.step=0.05",
             "output.energies.every=10",
         ]);
-        let model = Model::new(&scene);
+        let model = scene.model();
         let shear = model.particles().shear.expect("shear");
         let mut device = Device::new(&scene);
         device.step(120);
@@ -56,7 +56,7 @@ fn friction_relative_to_the_flow_has_the_stress_of_a_langevin_gas() {
             temperatures.push(device.observe().kinetic_temperature());
             let Reported { positions, momenta, .. } = device.reported();
             let product = |(position, momentum): (&[u32; 3], &[i32; 3])| {
-                let flow = shear.flow(0, position[1], &model);
+                let flow = shear.flow(0, position[1], model);
                 (f64::from(momentum[0]) - flow) * f64::from(momentum[1]) * model.units.momentum.powi(2)
             };
             stresses.push(positions.iter().zip(&momenta).map(product).sum::<f64>() / positions.len() as f64);
@@ -144,7 +144,7 @@ fn a_gas_with_memory_between_walls_is_even() {
         "time.step=0.1",
         "output.energies.every=50",
     ]);
-    let units = Model::new(&scene).units;
+    let units = scene.model().units;
     let mut device = Device::new(&scene);
     device.step(300);
     let (mut temperatures, mut squares) = (Vec::new(), Vec::new());
@@ -234,7 +234,7 @@ impl Linear {
 }
 
 /// A scene of oscillators and its law: α dt and B and W decide everything else.
-fn oscillator(scheme: &str, a: f64, bath: f64, spring: f64, count: usize) -> (Scene, Linear) {
+fn oscillator(scheme: &str, a: f64, bath: f64, spring: f64, count: usize) -> (Checked, Linear) {
     let (persistence, factor) = family(scheme, a);
     let law = Linear { mass: 2.0, temperature: 1.5, time_step: 0.1, persistence, bath, spring };
     let scene = oscillators(&[
@@ -285,19 +285,19 @@ fn coordinates_of_oscillators(model: &Model, reported: &Reported, after: &State)
 /// Second moments against the law, over `samples` samples `every` steps apart.
 fn check_law(
     what: &str,
-    scene: &Scene,
+    scene: &Checked,
     run: &mut dyn Implementation,
     law: &Linear,
     coordinates: &Coordinates,
     [samples, every]: [u64; 2],
     largest_error: f64,
 ) {
-    let model = Model::new(scene);
+    let model = scene.model();
     let mut sums: Vec<[f64; 7]> = Vec::new();
     for _ in 0..samples {
         let reported = run.reported();
         run.step(1);
-        let found = coordinates(&model, &reported, &run.state());
+        let found = coordinates(model, &reported, &run.state());
         sums.resize(found.len(), [0.0; 7]);
         for (sum, [q, p, s, half]) in sums.iter_mut().zip(found) {
             for (sum, term) in sum.iter_mut().zip([p * p, q * q, s * s, q * s, q * p, p * s, half * half]) {
@@ -511,8 +511,8 @@ fn check_velocity_autocorrelation(precision: Precision) {
 /// Observables against the coordinates they are sums of.
 #[test]
 fn observables_are_sums_over_oscillators() {
-    let (mut scene, law) = oscillator("cotter-reich", 1.0, 2.0, 1.0, 2000);
-    scene.output.energies.every = 30;
+    let (scene, law) = oscillator("cotter-reich", 1.0, 2.0, 1.0, 2000);
+    let scene = edited(&scene, |scene| scene.output.energies.every = 30);
     let (model, state) = start(&scene);
     for mut run in runs(&scene, &state) {
         run.step(30);
@@ -572,12 +572,12 @@ fn check_white_baths(precision: Precision) {
     for mut run in runs(&scene, &state) {
         run.step(60);
         // The bath variable is not kept: its own moments are those of a memory that is as short.
-        let model = Model::new(&scene);
+        let model = scene.model();
         let mut sums: Vec<[f64; 3]> = Vec::new();
         for _ in 0..8 {
             let reported = run.reported();
             run.step(1);
-            let found = coordinates_of_oscillators(&model, &reported, &run.state());
+            let found = coordinates_of_oscillators(model, &reported, &run.state());
             sums.resize(found.len(), [0.0; 3]);
             for (sum, [q, p, _, half]) in sums.iter_mut().zip(found) {
                 for (sum, term) in sum.iter_mut().zip([p * p, q * q, half * half]) {
@@ -602,13 +602,16 @@ fn stability_ends_where_b_and_w_add_up_to_four() {
     for scheme in SCHEMES {
         for (a, spring) in [(0.01, 2.0), (1.0, 0.5)] {
             for (edge, stable) in [(3.96, true), (4.04, false)] {
-                let (mut scene, law) = oscillator(scheme, a, 3.9 - spring, spring, 4);
-                scene.temperature = 0.0;
+                let (scene, law) = oscillator(scheme, a, 3.9 - spring, spring, 4);
                 // A scene that is certainly unstable is refused: the spring is made stiffer afterwards.
                 let stiffer = Linear { spring: spring + edge - 3.9, ..law };
-                scene.interactions[1] =
-                    scene::Interaction::Tether(scene::TetherInteraction { stiffness: stiffer.stiffness() });
-                scene.particles[0].velocities = scene::Velocities::Listed { velocities: vec![vec![1.0, -0.7, 0.4]; 4] };
+                let scene = edited(&scene, |scene| {
+                    scene.temperature = 0.0;
+                    scene.interactions[1] =
+                        scene::Interaction::Tether(scene::TetherInteraction { stiffness: stiffer.stiffness() });
+                    scene.particles[0].velocities =
+                        scene::Velocities::Listed { velocities: vec![vec![1.0, -0.7, 0.4]; 4] };
+                });
                 let (model, mut state) = start(&scene);
                 // Slow beside what the unit of momentum was made for, so that there is room to grow.
                 for momentum in state.momenta.iter_mut().flatten() {
@@ -674,7 +677,7 @@ fn a_bath_that_never_forgets_conserves_the_extended_energy() {
 }
 
 /// Pairs of masses 1 and 3 on a line, bonded.
-fn dimers(count: usize, law: &Linear, bond: &str) -> Scene {
+fn dimers(count: usize, law: &Linear, bond: &str) -> Checked {
     assert_eq!(law.mass, 0.75, "the reduced mass");
     let pairs: Vec<[usize; 2]> = (0..count).map(|index| [index, count + index]).collect();
     let text = format!(
@@ -813,7 +816,7 @@ fn a_free_bond_diffuses_as_its_friction_says() {
 
 /// Pairs on a line, each far from the others, that a weak spring keeps within the range of a friction of weight 1: then
 /// φ = r - rc, and a pair is one linear coupling.
-fn touching_pairs(count: usize, changes: &[&str]) -> (Scene, State) {
+fn touching_pairs(count: usize, changes: &[&str]) -> (Checked, State) {
     let pairs: Vec<[usize; 2]> = (0..count).map(|index| [index, count + index]).collect();
     let text = format!(
         r#"{{
@@ -908,7 +911,7 @@ fn white_pairs_have_the_temperature_of_their_integrator() {
             7000,
             &[&format!("interactions.0.friction={friction}"), &format!("integrator={integrator}")],
         );
-        let model = Model::new(&scene);
+        let model = scene.model();
         for mut run in runs(&scene, &state) {
             run.step(60);
             let count = state.len() / 2;
@@ -953,7 +956,7 @@ fn a_fast_bath_is_white_noise() {
         remembering.step().unwrap();
         let begun = remembering.state().clone();
         assert!(!begun.pair_baths.is_empty() && begun.bond_baths.len() == 4);
-        let mut forgetting = Reference::new(Model::new(&white), begun.clone());
+        let mut forgetting = Reference::new(white.model().clone(), begun.clone());
         for step in 1..=20 {
             remembering.step().unwrap();
             forgetting.step().unwrap();

@@ -3,16 +3,15 @@
 //! The bath does not change what is in equilibrium: whatever its rate, both temperatures are kT and the pressure is that of
 //! the standard fluid, 23.635(2) at vanishing time step (Shardlow's integrator, published).
 
-use mesoscope::families::Model;
 use mesoscope::measure::Observables;
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::State;
 
 use crate::support::{Device, Implementation, Measured, deviate, equilibrium, fluid, scene, start};
 
 /// The standard fluid with memory in a box of an edge.
-fn remembering(edge: f64, rate: f64, scheme: &str, changes: &[&str]) -> Scene {
+fn remembering(edge: f64, rate: f64, scheme: &str, changes: &[&str]) -> Checked {
     let lengths = format!("space.box=[{edge},{edge},{edge}]");
     let bath = format!(r#"interactions.0.bath={{"type":"memory","rate":{rate},"scheme":"{scheme}"}}"#);
     fluid(&[&["time.step=0.01", "output.energies.every=10", &lengths, &bath], changes].concat())
@@ -96,7 +95,7 @@ fn diffusion_comes_down_to_that_without_memory() {
     let mut last = f64::INFINITY;
     for rate in [0.3, 3.0, 1000.0] {
         let scene = remembering(8.0, rate, "exponential", &[]);
-        let model = Model::new(&scene);
+        let model = scene.model();
         let mut run = Device::from_state(&scene, &state, Options::default());
         run.step(300);
         // Twice the slope of the squared displacement between two times, over stretches end to end.

@@ -3,8 +3,8 @@
 //! Statistical tolerances are four standard errors, from blocking averages of the run itself, plus a stated allowance
 //! for what is systematic; every test also bounds the standard error itself, so that no run passes by being short.
 
-use mesoscope::families::{Model, Observables};
-use mesoscope::scene::Scene;
+use mesoscope::families::Observables;
+use mesoscope::scene::Checked;
 
 use crate::support::{
     COTTER_REICH, Device, GROOT_WARREN, Implementation, Measured, SPLITTING, STAGED, equilibrium, fluid, order,
@@ -12,7 +12,7 @@ use crate::support::{
 };
 
 /// Either implementation of a scene.
-fn both(scene: &Scene) -> [Box<dyn Implementation>; 2] {
+fn both(scene: &Checked) -> [Box<dyn Implementation>; 2] {
     let (_, state) = crate::support::start(scene);
     [Box::new(reference(scene, &state)), Box::new(Device::new(scene))]
 }
@@ -39,7 +39,7 @@ struct Length {
 fn an_ideal_gas_flies_straight() {
     for dimension in ["[4,5,6]", "[7,5]"] {
         let scene = fluid(&["interactions=[]", &format!("space.box={dimension}"), "output.energies.every=100"]);
-        let model = Model::new(&scene);
+        let model = scene.model();
         for mut run in both(&scene) {
             let before = run.state();
             let steps = 200;
@@ -65,7 +65,7 @@ fn an_ideal_gas_flies_straight() {
 }
 
 /// Two unit masses in a wide box, with velocities along x, at rest in y and z.
-fn two_particles(distance: f64, offset: f64, speed: f64, changes: &[&str]) -> Scene {
+fn two_particles(distance: f64, offset: f64, speed: f64, changes: &[&str]) -> Checked {
     let places = format!("[[4.0,5.0,5.0],[{},{},5.0]]", 4.0 + distance, 5.0 + offset);
     let velocities = format!("[[{speed},0,0],[{},0,0]]", -speed);
     let particles = format!(
@@ -148,7 +148,7 @@ fn friction_without_weight_damps_a_pair_exponentially() {
 }
 
 /// Pairs too far apart to feel each other, each at distance ½ along x, at rest.
-fn isolated_pairs(noise: &str) -> Scene {
+fn isolated_pairs(noise: &str) -> Checked {
     let cells = 12;
     let mut positions = Vec::new();
     for cell in 0..cells * cells * cells {
@@ -176,7 +176,7 @@ const NOISES: [&str; 4] = [
 fn the_noise_of_pairs_has_no_mean_and_unit_variance() {
     for noise in NOISES {
         let scene = isolated_pairs(noise);
-        let model = Model::new(&scene);
+        let model = scene.model();
         for mut run in both(&scene) {
             run.step(1);
             let state = run.state();
@@ -333,7 +333,7 @@ fn species_share_the_temperature_and_speeds_are_maxwells() {
         [SPLITTING, mixture, gaussian, "time.step=0.02", "interactions.0.friction=18", "output.energies.every=20"];
     for (index, lengths) in ["space.box=[5,5,5]", "space.box=[10,10,10]"].into_iter().enumerate() {
         let scene = fluid(&[&changes[..], &[lengths]].concat());
-        let model = Model::new(&scene);
+        let model = scene.model();
         let mass: f64 = model.species.iter().map(|species| species.mass * species.count as f64).sum();
         let mut run = both(&scene).into_iter().nth(index).unwrap();
         run.step(400);

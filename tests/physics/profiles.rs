@@ -7,7 +7,7 @@ use mesoscope::families::Model;
 use mesoscope::output::read_table;
 use mesoscope::plan::Options;
 use mesoscope::run::{Outcome, Simulation};
-use mesoscope::scene::{ProfiledQuantity, Scene};
+use mesoscope::scene::{Checked, ProfiledQuantity};
 use mesoscope::shaders::Array;
 use mesoscope::table::Table;
 
@@ -15,7 +15,7 @@ use crate::support::{
     COTTER_REICH, MIXTURE, MIXTURE_FORCE, PREDICTED, SPLITTING, adapter, cells, engine, fluid, start,
 };
 
-fn run(scene: Scene, directory: &Path) -> (Outcome, Table) {
+fn run(scene: Checked, directory: &Path) -> (Outcome, Table) {
     let outcome = Simulation::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap();
     (outcome, read_table(&directory.join("profiles.csv")).unwrap())
 }

@@ -2,12 +2,12 @@
 
 use mesoscope::plan::Options;
 use mesoscope::run::Simulation;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use serde_json::{Value, json};
 
 use crate::support::{Device, Implementation, Measured, SPLITTING, STAGED, adapter, equilibrium, fluid, start};
 
-fn scene(particles: &Value, interactions: &Value) -> Scene {
+fn scene(particles: &Value, interactions: &Value) -> Checked {
     let document = json!({
         "title": "relaxation", "seed": 3, "space": {"box": [60, 50, 40]}, "time": {"step": 0.25, "steps": 1},
         "temperature": 1.7, "integrator": {"type": "splitting"}, "particles": particles, "interactions": interactions,
@@ -117,7 +117,7 @@ fn none_one_and_two_particles() {
 }
 
 /// A fluid of strong friction whose scene names no rule.
-fn rubbing(edges: f64, step: f64, particles: &Value, interactions: &Value) -> Scene {
+fn rubbing(edges: f64, step: f64, particles: &Value, interactions: &Value) -> Checked {
     let document = json!({
         "title": "strong friction", "seed": 11, "space": {"box": [edges, edges, edges]}, "time": {"step": step, "steps": 1},
         "temperature": 1, "particles": particles, "interactions": interactions, "output": {"energies": {"every": 5}},
@@ -215,7 +215,7 @@ fn the_rule_that_no_scene_names_follows_friction_and_step() {
     use mesoscope::scene::{self, Integrator, PairRelaxation};
     let rule = |name: &str, set: &[&str]| {
         let set: Vec<String> = set.iter().map(|change| (*change).to_owned()).collect();
-        scene::load(name, &set).unwrap().integrator
+        scene::load(name, &set).unwrap().integrator.clone()
     };
     let (one, two) = (Some(PairRelaxation::MeanField), Some(PairRelaxation::TwoStages));
     for (name, set, relaxation) in [
@@ -241,7 +241,7 @@ fn the_rule_that_no_scene_names_follows_friction_and_step() {
 /// What is expected of temperatures is within 1 and .6 % of what was measured, here in per mille.
 #[test]
 fn expected_temperatures_are_those_that_were_measured() {
-    use mesoscope::{families::Model, scene};
+    use mesoscope::scene;
     for (rule, friction, step, kinetic, configurational) in [
         ("mean-field", 4.5, 0.04, 2, -10),
         ("two-stages", 4.5, 0.04, 9, -7),
@@ -255,7 +255,7 @@ fn expected_temperatures_are_those_that_were_measured() {
             format!("interactions.0.friction={friction}"),
             format!("time.step={step}"),
         ];
-        let said = Model::new(&scene::load("dpd-fluid", &set).unwrap()).estimates();
+        let said = scene::load("dpd-fluid", &set).unwrap().model().estimates();
         let percent = |line: &str, before: &str| -> f64 {
             line.strip_prefix(before).unwrap().split_whitespace().next().unwrap().parse().unwrap()
         };

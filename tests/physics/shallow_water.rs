@@ -3,28 +3,29 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use mesoscope::families::reference::{ShallowWaterReference, Unstable};
-use mesoscope::families::{BathStep, Family, Model, ShallowWater};
+use mesoscope::families::{BathStep, Family, ShallowWater};
 use mesoscope::measure::circulation::circulation;
 use mesoscope::measure::{MeshFlow, Observables};
 use mesoscope::plan::{Options, Storage};
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::{Reported, State};
 
 use crate::support::{
-    Device, GYRO, Implementation, Measured, ROTATE, WHITE, order, shear_flow, start, still_water, water_reference,
+    Device, GYRO, Implementation, Measured, ROTATE, WHITE, edited, order, shear_flow, start, still_water,
+    water_reference,
 };
 
 /// Sets a scene up in one of the implementations.
-type SetUp = fn(&Scene) -> Box<dyn Implementation>;
+type SetUp = fn(&Checked) -> Box<dyn Implementation>;
 const IMPLEMENTATIONS: [SetUp; 2] = [|scene| Box::new(water_reference(scene)), |scene| Box::new(Device::new(scene))];
 
 /// Every implementation of a scene.
-fn implementations(scene: &Scene) -> Vec<Box<dyn Implementation>> {
+fn implementations(scene: &Checked) -> Vec<Box<dyn Implementation>> {
     IMPLEMENTATIONS.map(|set_up| set_up(scene)).into()
 }
 
 /// The same where particles move so far in a step that bins would overflow, which a run would notice and go back for.
-fn implementations_with_room(scene: &Scene) -> Vec<Box<dyn Implementation>> {
+fn implementations_with_room(scene: &Checked) -> Vec<Box<dyn Implementation>> {
     let options = Options { storage: Some(Storage::Sorted), ..Options::default() };
     vec![Box::new(water_reference(scene)), Box::new(Device::with(scene, options))]
 }
@@ -177,7 +178,7 @@ fn the_largest_stable_step_of_the_shear_flow() {
 }
 
 /// The shear flow with a loop of tracers around a corner of the box.
-fn with_loop(points: u32, changes: &[&str]) -> Scene {
+fn with_loop(points: u32, changes: &[&str]) -> Checked {
     let particles = format!(
         r#"particles=[{{"species":"water","count":65536,"placement":{{"type":"lattice"}},"velocities":{{"type":"geostrophic"}}}},
             {{"species":"loop","count":{points},"tracer":true,"velocities":{{"type":"geostrophic"}},
@@ -187,7 +188,7 @@ fn with_loop(points: u32, changes: &[&str]) -> Scene {
 }
 
 /// The relative change of the circulation of the loop after some steps of 0.05.
-fn change_of_circulation(scene: &Scene, steps: u64) -> Vec<(String, f64)> {
+fn change_of_circulation(scene: &Checked, steps: u64) -> Vec<(String, f64)> {
     let (model, state) = start(scene);
     let water = model.shallow_water().unwrap();
     let of = |state: &Reported| {
@@ -575,7 +576,7 @@ fn bath_variables(state: &State) -> Vec<f64> {
 // ---- Stability
 
 /// Still water on 8² nodes, a part of the large mesh of 64².
-fn small_still_water(changes: &[&str], step: f64) -> Scene {
+fn small_still_water(changes: &[&str], step: f64) -> Checked {
     still_water(
         &[
             &[
@@ -944,8 +945,8 @@ fn what_the_state_cannot_hold_is_refused() {
             r#"particles=[{{"species":"dye","tracer":true,"placement":{{"type":"listed","positions":[[1.0,2.0]]}},
                 "velocities":{{"type":"listed","velocities":[{velocity}]}}}}]"#
         );
-        let mut scene = still_water(&[&[&particle, "interactions.0.rotation=0"], changes].concat());
-        scene.time.step = 1.0;
+        let scene = still_water(&[&[&particle, "interactions.0.rotation=0"], changes].concat());
+        let scene = edited(&scene, |scene| scene.time.step = 1.0);
         water_reference(&scene)
     };
     // Half the box of 2π in one step, which a check of the scene would refuse.
@@ -986,7 +987,7 @@ fn a_run_goes_on_from_its_state() {
         // A state that lacks what the bath remembers is no state to go on from.
         let torn = State { node_masses: Vec::new(), ..whole.state().clone() };
         assert_eq!(ShallowWaterReference::new(model.clone(), torn).is_none(), !bath.contains("null"));
-        let other = Model::new(&mesoscope::scene::load("dpd-fluid", &[]).unwrap());
+        let other = mesoscope::scene::load("dpd-fluid", &[]).unwrap().model().clone();
         assert!(ShallowWaterReference::new(other, state).is_none());
     }
 }

@@ -7,11 +7,11 @@ use mesoscope::families::reference::VoronoiReference;
 use mesoscope::families::{Instability, Model};
 use mesoscope::measure::Observables;
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::State;
 use mesoscope::tessellation::Tessellation;
 
-use crate::support::{Device, ENERGY, Implementation, Measured, cells, engine, start, totals};
+use crate::support::{Device, ENERGY, Implementation, Measured, cells, edited, engine, start, totals};
 
 const FORMS: [&str; 3] = ["gradient", "consistent", "paper"];
 const INTEGRATORS: [&str; 2] = ["splitting", "euler"];
@@ -42,7 +42,7 @@ fn variants() -> Vec<(String, Vec<String>)> {
     variants
 }
 
-fn with(count: u32, changes: &[String], more: &[&str]) -> Scene {
+fn with(count: u32, changes: &[String], more: &[&str]) -> Checked {
     let changes: Vec<&str> = changes.iter().map(String::as_str).chain(more.iter().copied()).collect();
     cells(count, &changes)
 }
@@ -165,7 +165,7 @@ fn the_solver_reports_what_it_leaves() {
 }
 
 /// What is left after equilibration: rows after each of some steps.
-fn equilibrium(scene: &Scene, equilibration: u64, every: u64, samples: u64) -> Vec<Observables> {
+fn equilibrium(scene: &Checked, equilibration: u64, every: u64, samples: u64) -> Vec<Observables> {
     let mut run = Device::new(scene);
     run.step(equilibration);
     run.series(every, samples)
@@ -273,13 +273,11 @@ fn limited_exchanges_are_counted() {
 }
 
 /// The message of an unstable run.
-fn failure(scene: &Scene, state: &State, steps: u64) -> String {
+fn failure(scene: &Checked, state: &State, steps: u64) -> String {
     let mut engine = engine(scene, state, Options::default());
     let advanced = engine.advance(steps, 10).and_then(|()| engine.finish());
     match advanced {
-        Err(EngineError::Unstable(failure)) => {
-            Instability::new(&failure, engine.plan(), &Model::new(scene)).to_string()
-        }
+        Err(EngineError::Unstable(failure)) => Instability::new(&failure, engine.plan(), scene.model()).to_string(),
         other => panic!("{other:?}"),
     }
 }
@@ -296,8 +294,7 @@ fn failures_name_the_cell() {
     let told = failure(&scene, &start(&scene).1, 50);
     assert!(told.contains("fell to zero"), "{told}");
     // A check of the scene would refuse it.
-    let mut scene = cells(100, &[]);
-    scene.time.step = 100.0;
+    let scene = edited(&cells(100, &[]), |scene| scene.time.step = 100.0);
     let told = failure(&scene, &start(&scene).1, 3);
     assert!(told.contains("moves further") || told.contains("impulses"), "{told}");
 }
@@ -383,9 +380,9 @@ fn differences(a: &State, b: &State) -> [i64; 4] {
 
 /// Steps from the same state with the same random words. A unit is 2⁻²⁰ of the momentum, 2⁻²⁴ of the mass or energy that a
 /// cell has, or 2⁻³² of the box; single precision and the solver's tolerance of 10⁻⁷ make a few dozen of the smaller ones.
-fn compare(name: &str, scene: &Scene, state: &State) {
+fn compare(name: &str, scene: &Checked, state: &State) {
     let mut device = Device::from_state(scene, state, Options::default());
-    let mut reference = VoronoiReference::new(Model::new(scene), state.clone()).unwrap();
+    let mut reference = VoronoiReference::new(scene.model().clone(), state.clone()).unwrap();
     for step in 1..=2_i64 {
         device.step(1);
         reference.step().unwrap();
@@ -460,7 +457,7 @@ fn cells_half_a_box_apart_are_those_of_the_reference() {
                 *position = [place[0], place[1], 0];
             }
             let mut device = Device::from_state(&scene, &state, Options::default());
-            let mut reference = VoronoiReference::new(Model::new(&scene), state).unwrap();
+            let mut reference = VoronoiReference::new(scene.model().clone(), state).unwrap();
             device.step(1);
             reference.step().unwrap();
             let (found, expected) = (device.state(), reference.state());

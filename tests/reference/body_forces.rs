@@ -3,7 +3,7 @@
 use mesoscope::families::Model;
 use mesoscope::measure::Observables;
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use serde_json::{Value, json};
 
 use crate::support::{
@@ -11,7 +11,7 @@ use crate::support::{
     same_energies, start, units_of_a_step,
 };
 
-fn read(document: &Value) -> Scene {
+fn read(document: &Value) -> Checked {
     crate::support::scene(&document.to_string())
 }
 

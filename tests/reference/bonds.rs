@@ -2,9 +2,9 @@
 //! be exact.
 
 use mesoscope::engine::{Engine, EngineError};
-use mesoscope::families::{Instability, Model};
+use mesoscope::families::Instability;
 use mesoscope::plan::{Options, Traversal};
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::State;
 use serde_json::{Value, json};
 
@@ -13,7 +13,7 @@ use crate::support::{
     SideBySide, engine, observables, same_energies, start,
 };
 
-fn read(document: &Value) -> Scene {
+fn read(document: &Value) -> Checked {
     crate::support::scene(&document.to_string())
 }
 
@@ -305,7 +305,7 @@ fn momentum_never_moves() {
     }
 }
 
-fn after(scene: &Scene, options: Options, order: impl Fn(usize) -> usize, batch: u64) -> State {
+fn after(scene: &Checked, options: Options, order: impl Fn(usize) -> usize, batch: u64) -> State {
     let (_, state) = start(scene);
     let mut device = engine(scene, &state, options);
     let stored: Vec<usize> = (0..state.len()).map(order).collect();
@@ -324,7 +324,7 @@ fn the_same_bits_whatever_the_order() {
         assert_eq!(plain, after(&scene, Options::default(), |id| count - 1 - id, 60), "storage order");
         let narrow = Options { workgroup_size: Some(16), ..Options::default() };
         assert_eq!(plain, after(&scene, narrow, |id| id, 60), "workgroups");
-        if start(&scene).0.particles().splits(&Model::new(&scene)) {
+        if start(&scene).0.particles().splits(scene.model()) {
             let rows = Options { traversal: Some(Traversal::Rows), ..Options::default() };
             assert_eq!(plain, after(&scene, rows, |id| id, 60), "traversals");
         }
@@ -344,7 +344,7 @@ fn the_same_bits_whatever_the_order() {
 }
 
 /// Particles at rest in some places; the impulse of the first half kick is -dt/2 ∇V.
-fn still(positions: &[Vec<f64>], interactions: &Value) -> (Engine<'static>, Scene) {
+fn still(positions: &[Vec<f64>], interactions: &Value) -> (Engine<'static>, Checked) {
     let scene = read(&json!({
         "title": "still", "space": {"box": vec![8.0; positions[0].len()]}, "time": {"step": 0.01, "steps": 1}, "temperature": 0,
         "particles": [{"species": "bead", "placement": {"type": "listed", "positions": positions},

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use serde_json::{Value, json};
 
 use crate::support::{
@@ -13,7 +13,7 @@ use crate::support::{
 
 const BOXES: [&[f64]; 2] = [&[9.0, 7.0], &[5.0, 4.0, 4.5]];
 
-fn read(document: &Value) -> Scene {
+fn read(document: &Value) -> Checked {
     crate::support::scene(&document.to_string())
 }
 

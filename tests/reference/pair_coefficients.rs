@@ -2,7 +2,7 @@
 //! against the law.
 
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use serde_json::{Value, json};
 
 use crate::support::{
@@ -12,7 +12,7 @@ use crate::support::{
 const BOXES: [&[f64]; 3] = [&[61.0], &[9.0, 7.0], &[5.0, 4.0, 4.5]];
 const COTTER_REICH: &str = INTEGRATORS[3];
 
-fn read(document: &Value) -> Scene {
+fn read(document: &Value) -> Checked {
     crate::support::scene(&document.to_string())
 }
 

@@ -1,9 +1,8 @@
 //! Boundaries that shear on the device: against the float64 reference, step by step, and against what is exact.
 
-use mesoscope::families::Model;
 use mesoscope::families::reference::Reference;
 use mesoscope::plan::{Options, Traversal};
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use serde_json::{Value, json};
 
 use crate::support::{
@@ -13,7 +12,7 @@ use crate::support::{
 
 const SHEARED: [&str; 5] = [SPLITTING, GROOT_WARREN, PREDICTED, STAGED, COTTER_REICH];
 
-fn read(document: &Value) -> Scene {
+fn read(document: &Value) -> Checked {
     crate::support::scene(&document.to_string())
 }
 
@@ -328,7 +327,7 @@ fn error_of_halving(integrator: &str, steps: [u64; 2]) -> f64 {
         let (model, state) = start(&scene);
         let mut reference = Reference::new(model, state);
         reference.run(count).unwrap();
-        (Model::new(&scene), reference.state().clone())
+        (scene.model().clone(), reference.state().clone())
     };
     let [(model, a), (_, b)] = steps.map(run);
     let square = |(a, b): (&[u32; 3], &[u32; 3])| model.units.displacement(*a, *b).iter().map(|d| d * d).sum::<f64>();

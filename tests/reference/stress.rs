@@ -5,15 +5,15 @@ use mesoscope::families::Model;
 use mesoscope::families::reference::{Reference, Virial};
 use mesoscope::measure::observables_of;
 use mesoscope::plan::{Options, Traversal};
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::shaders::Array;
 use mesoscope::state::State;
 use serde_json::{Value, json};
 
-use crate::support::{INTEGRATORS, engine, start, traversals};
+use crate::support::{INTEGRATORS, edited, engine, start, traversals};
 
 /// Two species, chains of them with bonds and angles or none, in a box.
-fn scene(edges: &[f64], integrator: &str, interactions: &Value, chains: bool) -> Scene {
+fn scene(edges: &[f64], integrator: &str, interactions: &Value, chains: bool) -> Checked {
     let integrator: Value = serde_json::from_str(integrator.strip_prefix("integrator=").unwrap()).unwrap();
     let volume: f64 = edges.iter().product();
     let group = |species: &str, count: f64, mass: f64| {
@@ -38,7 +38,7 @@ fn virials(model: Model, state: State) -> Vec<Virial> {
 }
 
 /// Compares what a report leaves at the start and after some steps.
-fn agree(scene: &Scene, options: Options, what: &str) {
+fn agree(scene: &Checked, options: Options, what: &str) {
     let (model, state) = start(scene);
     let mut engine = engine(scene, &state, options);
     for steps in [0, 3] {
@@ -132,10 +132,10 @@ fn stresses_in_shear_agree_with_the_reference() {
     let sheared = INTEGRATORS.iter().filter(|integrator| **integrator != crate::support::COTTER_REICH);
     for (row, integrator) in sheared.enumerate() {
         let interactions = if row % 2 == 0 { json!([dpd]) } else { json!([dpd, bonds]) };
-        let mut scene = scene(BOXES[row % 2], integrator, &interactions, row % 2 == 1);
+        let scene = scene(BOXES[row % 2], integrator, &interactions, row % 2 == 1);
         let shear =
             if row % 2 == 0 { json!({"rate": 0.8, "gradient": "y"}) } else { json!({"rate": 0.8, "gradient": "z"}) };
-        scene.space.shear = serde_json::from_value(shear).unwrap();
+        let scene = edited(&scene, |scene| scene.space.shear = serde_json::from_value(shear).unwrap());
         let traversals = traversals();
         let traversal = traversals[row / 2 % traversals.len()];
         let options = Options { traversal: Some(traversal), ..Options::default() };
@@ -157,13 +157,13 @@ fn stresses_in_company_agree_with_the_reference() {
     let angles = json!({"type": "angles", "stiffness": 6});
     for (row, integrator) in INTEGRATORS.iter().enumerate() {
         let edges = BOXES[row % 2];
-        let mut scene = scene(edges, integrator, &json!([dpd, pull(edges)]), false);
+        let scene = scene(edges, integrator, &json!([dpd, pull(edges)]), false);
         let walls = if row % 2 == 0 {
             json!({"y": {"lower_velocity": [-1, 0]}})
         } else {
             json!({"z": {"reflection": "specular"}, "x": {}})
         };
-        scene.space.walls = serde_json::from_value(walls).unwrap();
+        let scene = edited(&scene, |scene| scene.space.walls = serde_json::from_value(walls).unwrap());
         let traversals = traversals();
         let traversal = Some(traversals[row / 2 % traversals.len()]);
         agree(&scene, Options { traversal, ..Options::default() }, &format!("walls {integrator} {traversal:?}"));

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use mesoscope::engine::{Engine, EngineError};
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::shaders::Array;
 use mesoscope::state::State;
 use mesoscope::tessellation::{Tessellation, part_coincident};
@@ -15,7 +15,7 @@ use crate::support::{engine, scene, start};
 type Places = Vec<[u32; 3]>;
 
 /// A scene of cells with so many particles in a box.
-fn cells(lengths: [f64; 2], count: usize) -> Scene {
+fn cells(lengths: [f64; 2], count: usize) -> Checked {
     let [x, y] = lengths;
     scene(&format!(
         r#"{{"title": "cells", "space": {{"box": [{x}, {y}]}}, "time": {{"step": 0.0001, "steps": 1}}, "temperature": 1,
@@ -24,7 +24,7 @@ fn cells(lengths: [f64; 2], count: usize) -> Scene {
 }
 
 /// The same with its particles in some places.
-fn placed(lengths: [f64; 2], places: &Places) -> (Scene, State) {
+fn placed(lengths: [f64; 2], places: &Places) -> (Checked, State) {
     let scene = cells(lengths, places.len());
     let (_, mut state) = start(&scene);
     state.positions.clone_from(places);

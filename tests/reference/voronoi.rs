@@ -1,21 +1,20 @@
 //! The float64 reference of Voronoi DPD against exact laws, closed forms and published or independently measured values:
 //! Flekkøy, Coveney and De Fabritiis, doi:10.1103/PhysRevE.62.2140.
 
-use mesoscope::families::Model;
 use mesoscope::families::reference::{Unstable, VoronoiReference};
 use mesoscope::measure::Observables;
 use mesoscope::noise;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::State;
 use mesoscope::tessellation::Tessellation;
 
-use crate::support::{ENERGY, Implementation, Measured, changed, totals};
+use crate::support::{ENERGY, Implementation, Measured, changed, edited, totals};
 
 const FORMS: [&str; 3] = ["paper", "consistent", "gradient"];
 const INTEGRATORS: [&str; 2] = ["euler", "splitting"];
 
 /// Cells of unit mean volume in a square box, with changes given as `path=value`.
-fn cells(count: u32, density: f64, changes: &[&str]) -> Scene {
+fn cells(count: u32, density: f64, changes: &[&str]) -> Checked {
     let edge = f64::from(count).sqrt();
     let text = format!(
         r#"{{"title": "test", "seed": 1, "space": {{"box": [{edge}, {edge}]}}, "time": {{"step": 0.02, "steps": 1}},
@@ -49,8 +48,8 @@ struct Start {
 /// Warm cells near a lattice.
 const WARM: Start = Start { jitter: Some(0.25), uniform_density: false, kinetic: 1.0, internal: 1.0 };
 
-fn begin(scene: &Scene, start: Start) -> VoronoiReference {
-    let model = Model::new(scene);
+fn begin(scene: &Checked, start: Start) -> VoronoiReference {
+    let model = scene.model();
     let voronoi = model.voronoi().cloned().unwrap();
     let count = model.particle_count() as usize;
     let lengths = [model.units.lengths[0], model.units.lengths[1]];
@@ -94,7 +93,7 @@ fn begin(scene: &Scene, start: Start) -> VoronoiReference {
     let fractions = positions.iter().map(|[x, y]| model.units.fraction([*x, *y, 0.0])).collect();
     let species = vec![0; count];
     let state = State { positions: fractions, momenta, species, masses, energies, ..State::default() };
-    VoronoiReference::new(model, state).unwrap()
+    VoronoiReference::new(model.clone(), state).unwrap()
 }
 
 fn temperatures(series: &[Observables]) -> Vec<f64> {
@@ -181,8 +180,7 @@ fn what_is_missing_is_refused() {
 #[test]
 fn a_step_that_does_not_fit_is_refused() {
     // A check of the scene would refuse it.
-    let mut scene = cells(25, 5.0, &[]);
-    scene.time.step = 40.0;
+    let scene = edited(&cells(25, 5.0, &[]), |scene| scene.time.step = 40.0);
     let mut run = begin(&scene, WARM);
     let before = run.state().clone();
     assert!(matches!(run.run(10), Err(Unstable::Drift { .. })));

@@ -1,7 +1,7 @@
 //! Walls on the device: against the float64 reference, step by step, and against what is exact.
 
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::State;
 use serde_json::{Value, json};
 
@@ -10,7 +10,7 @@ use crate::support::{
     before_and_after, reference_of_particles, start, units_of_a_step,
 };
 
-fn read(document: &Value) -> Scene {
+fn read(document: &Value) -> Checked {
     crate::support::scene(&document.to_string())
 }
 
@@ -46,7 +46,7 @@ fn channels() -> Vec<(Vec<f64>, Value)> {
 }
 
 /// That every particle that is not frozen is between the walls, to the last place.
-fn between_walls(scene: &Scene, state: &State) {
+fn between_walls(scene: &Checked, state: &State) {
     let model = start(scene).0;
     for (axis, end) in model.units.ends().into_iter().enumerate().filter(|(_, end)| *end > 0) {
         let moves = |id: &usize| !model.species[state.species[*id] as usize].frozen;

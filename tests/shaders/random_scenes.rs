@@ -3,7 +3,6 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use mesoscope::families::Model;
 use mesoscope::gpu::{LinkedShader, Switched};
 use mesoscope::plan::{Hardware, Options, Traversal};
 use mesoscope::run;
@@ -198,7 +197,7 @@ fn complaints(accepted: usize, seed: u64) -> BTreeMap<String, String> {
         let options = Options { traversal, listed: draws.one_in(6), ..Options::default() };
         let Ok(scene) = scene::parse("test", &text, &[]) else { continue };
         found += 1;
-        let plan = run::plan(&Model::new(&scene), 0, &scene.output, hardware, options);
+        let plan = run::plan(&scene, hardware, options);
         let held: BTreeSet<Array> = (plan.buffers.iter().map(|buffer| buffer.array))
             .chain(plan.textures.iter().map(|texture| texture.array))
             .collect();

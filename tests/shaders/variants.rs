@@ -8,12 +8,11 @@ use std::sync::{Mutex, OnceLock};
 use std::thread;
 
 use mesoscope::engine::Control;
-use mesoscope::families::Model;
 use mesoscope::families::shallow_water::WaterLayout;
 use mesoscope::gpu::{Binding, GpuError, LinkedShader, Switched, validate};
 use mesoscope::plan::{Division, Domain, Hardware, Kernel, Options, Part, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::shaders::{Array, Choices, Constant, Entry, Library, LinkedText, library, linked_text};
 use mesoscope::state::Hold;
 
@@ -51,12 +50,12 @@ const OF_MOTION: [&str; 3] = [
     r#"output.histograms=[{"quantity":"velocity","every":2,"frame":"box"},{"quantity":"speed","every":2}]"#,
 ];
 
-fn plan_of(scene: &Scene, options: Options) -> Plan {
-    run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, Hardware::default(), options)
+fn plan_of(scene: &Checked, options: Options) -> Plan {
+    run::plan(scene, Hardware::default(), options)
 }
 
 /// Plans of a scene for either kind of memory.
-fn plans_of(name: &str, scene: &Scene, options: Options) -> [(String, Plan); 2] {
+fn plans_of(name: &str, scene: &Checked, options: Options) -> [(String, Plan); 2] {
     [false, true].map(|serial| {
         let plan = plan_of(scene, Options { serial_memory: Some(serial), ..options });
         (format!("{name} serial_memory={serial}"), plan)
@@ -166,7 +165,7 @@ fn plans_beside(pairs: &Value) -> Vec<(String, Plan)> {
 }
 
 /// A scene with what may act beside its pairs, as far as it accepts that, without analyses and with all that it accepts.
-fn scenes_beside(pairs: &Value) -> Vec<Scene> {
+fn scenes_beside(pairs: &Value) -> Vec<Checked> {
     let dimension = pairs["space"]["box"].as_array().unwrap().len();
     let last = ["x", "y", "z"][dimension - 1];
     let force = json!({"type": "body-force", "force": vec![0.4; dimension]});
@@ -245,7 +244,7 @@ fn scenes_beside(pairs: &Value) -> Vec<Scene> {
     scenes
 }
 
-fn accepted(scene: &Value) -> Option<Scene> {
+fn accepted(scene: &Value) -> Option<Checked> {
     scene::parse("structure", &scene.to_string(), &[]).ok()
 }
 

@@ -1,8 +1,9 @@
 //! The bytes of a run: what has to stay the same whatever changes that is not physics.
 
+use super::edited;
 use mesoscope::engine::{EngineError, Sample, Stepper};
 use mesoscope::plan::{Options, Traversal};
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::{Reported, State};
 use rand::rngs::StdRng;
 use rand::seq::SliceRandom as _;
@@ -26,7 +27,7 @@ pub fn harvest(mut engine: impl Stepper, mut samples: Vec<Sample>) -> Bytes {
 }
 
 /// The first steps of a scene, `batch` of them in one submission.
-pub fn run(scene: &Scene, options: Options, steps: u64, batch: u64) -> Bytes {
+pub fn run(scene: &Checked, options: Options, steps: u64, batch: u64) -> Bytes {
     let (_, state) = start(scene);
     let mut engine = engine(scene, &state, options);
     engine.advance(steps, batch).unwrap();
@@ -36,7 +37,7 @@ pub fn run(scene: &Scene, options: Options, steps: u64, batch: u64) -> Bytes {
 /// The bytes of a scene in batches of 8 steps, which are the same again and in other batches, with another scan, other sizes of workgroups
 /// and longer lists together, and others with another seed.
 #[track_caller]
-pub fn same_in_every_way(scene: &Scene, steps: u64) -> Bytes {
+pub fn same_in_every_way(scene: &Checked, steps: u64) -> Bytes {
     let plain = run(scene, Options::default(), steps, 8);
     assert_eq!(plain.state.step, steps);
     for (options, batch) in [
@@ -47,7 +48,7 @@ pub fn same_in_every_way(scene: &Scene, steps: u64) -> Bytes {
     ] {
         assert!(same(&plain, &run(scene, options, steps, batch)), "{options:?}, batches of {batch}");
     }
-    let other = Scene { seed: scene.seed + 1, ..scene.clone() };
+    let other = edited(scene, |scene| scene.seed += 1);
     assert!(!same(&plain, &run(&other, Options::default(), steps, 8)), "the seed changes nothing");
     plain
 }
@@ -55,7 +56,7 @@ pub fn same_in_every_way(scene: &Scene, steps: u64) -> Bytes {
 /// The bytes of particles in batches of 8 steps, which are the same in others, with other sizes of workgroups, where one particle at a time
 /// finds its neighbours, and with the particles in any order of storage.
 #[track_caller]
-pub fn same_in_any_traversal_and_order(scene: &Scene, options: Options, steps: u64, random: &mut StdRng) -> Bytes {
+pub fn same_in_any_traversal_and_order(scene: &Checked, options: Options, steps: u64, random: &mut StdRng) -> Bytes {
     let plain = run(scene, options, steps, 8);
     let rows = Some(Traversal::Rows);
     let changed = Options { workgroup_size: Some(32), serial_memory: Some(false), traversal: rows, ..options };
@@ -65,7 +66,7 @@ pub fn same_in_any_traversal_and_order(scene: &Scene, options: Options, steps: u
 }
 
 /// The bytes of a run that is interrupted after some steps: what it has not reported by then is reported by the one that goes on.
-pub fn resumed(scene: &Scene, options: Options, steps: u64, interruption: u64) -> Bytes {
+pub fn resumed(scene: &Checked, options: Options, steps: u64, interruption: u64) -> Bytes {
     let (_, state) = start(scene);
     let mut first = engine(scene, &state, options);
     first.advance(interruption, 8).unwrap();
@@ -79,7 +80,7 @@ pub fn resumed(scene: &Scene, options: Options, steps: u64, interruption: u64) -
 
 /// The same with the particles in another order of storage at the start.
 #[track_caller]
-pub fn shuffled(scene: &Scene, options: Options, steps: u64, batch: u64, random: &mut StdRng) -> Bytes {
+pub fn shuffled(scene: &Checked, options: Options, steps: u64, batch: u64, random: &mut StdRng) -> Bytes {
     let (_, state) = start(scene);
     let mut order: Vec<usize> = (0..state.len()).collect();
     order.shuffle(random);
@@ -92,7 +93,7 @@ pub fn shuffled(scene: &Scene, options: Options, steps: u64, batch: u64, random:
 
 /// The same asked for piece by piece, with a look at the state in between.
 #[track_caller]
-pub fn in_pieces(scene: &Scene, options: Options, pieces: &[u64], batch: u64) -> Bytes {
+pub fn in_pieces(scene: &Checked, options: Options, pieces: &[u64], batch: u64) -> Bytes {
     let (_, state) = start(scene);
     let mut engine = engine(scene, &state, options);
     let mut samples = Vec::new();
@@ -106,7 +107,7 @@ pub fn in_pieces(scene: &Scene, options: Options, pieces: &[u64], batch: u64) ->
 
 /// The same with every step reported before it is finished.
 #[track_caller]
-pub fn watched(scene: &Scene, options: Options, steps: u64) -> Bytes {
+pub fn watched(scene: &Checked, options: Options, steps: u64) -> Bytes {
     let (_, state) = start(scene);
     let mut engine = engine(scene, &state, options);
     let mut samples = Vec::new();

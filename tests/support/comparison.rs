@@ -6,7 +6,7 @@ use mesoscope::engine::Engine;
 use mesoscope::families::Model;
 use mesoscope::measure::Observables;
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::self_test::{Function, errors_of_functions};
 use mesoscope::state::State;
 
@@ -32,14 +32,14 @@ pub fn units_of_a_step(powers: bool) -> i64 {
 
 /// The device and the reference of particles, from one state with the same random words.
 pub struct SideBySide {
-    pub scene: Scene,
+    pub scene: Checked,
     pub model: Model,
     pub device: Engine<'static>,
     pub reference: Box<dyn Implementation>,
 }
 
 impl SideBySide {
-    pub fn new(scene: Scene, model: Model, state: &State, options: Options) -> Self {
+    pub fn new(scene: Checked, model: Model, state: &State, options: Options) -> Self {
         let device = engine(&scene, state, options);
         let reference = reference_of_particles(model.clone(), state.clone());
         Self { scene, model, device, reference }

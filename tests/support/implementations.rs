@@ -5,7 +5,7 @@ use mesoscope::families::Model;
 use mesoscope::families::reference::{Reference, ShallowWaterReference, VoronoiReference};
 use mesoscope::measure::Observables;
 use mesoscope::plan::Options;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use mesoscope::state::{Reported, State};
 
 use super::{engine, start};
@@ -74,7 +74,7 @@ pub fn reference_of_particles(model: Model, state: State) -> Box<dyn Implementat
 }
 
 /// What the device and the reference observe of a scene of particles at the start and after some steps, by their names.
-pub fn before_and_after(scene: &Scene, steps: u64) -> Vec<(&'static str, [Observables; 2])> {
+pub fn before_and_after(scene: &Checked, steps: u64) -> Vec<(&'static str, [Observables; 2])> {
     let (model, state) = start(scene);
     let implementations: [Box<dyn Implementation>; 2] =
         [Box::new(Device::new(scene)), reference_of_particles(model, state)];
@@ -96,18 +96,18 @@ pub struct Device {
 
 impl Device {
     /// The first steps of a scene on the device.
-    pub fn new(scene: &Scene) -> Self {
+    pub fn new(scene: &Checked) -> Self {
         Self::with(scene, Options::default())
     }
 
     /// The same with options.
-    pub fn with(scene: &Scene, options: Options) -> Self {
+    pub fn with(scene: &Checked, options: Options) -> Self {
         Self::from_state(scene, &start(scene).1, options)
     }
 
     /// A scene on the device from a state of its own.
-    pub fn from_state(scene: &Scene, state: &State, options: Options) -> Self {
-        Self { engine: engine(scene, state, options), model: Model::new(scene), last: None }
+    pub fn from_state(scene: &Checked, state: &State, options: Options) -> Self {
+        Self { engine: engine(scene, state, options), model: scene.model().clone(), last: None }
     }
 
     fn samples(&mut self) -> Vec<Observables> {

@@ -1,6 +1,6 @@
 //! A correct scene made wrong: what is said of it with overrides, given as `path=value`.
 
-use mesoscope::scene::{self, Scene, SceneError};
+use mesoscope::scene::{self, Checked, SceneError};
 use serde_json::Value;
 
 /// The scene that mistakes are made in.
@@ -12,7 +12,7 @@ impl Correct {
     }
 
     /// The scene with these overrides.
-    pub fn parse(&self, overrides: &[&str]) -> Result<Scene, SceneError> {
+    pub fn parse(&self, overrides: &[&str]) -> Result<Checked, SceneError> {
         parse_text(&self.text(), overrides)
     }
 
@@ -40,7 +40,7 @@ impl Correct {
 
     /// The scene with these overrides is correct.
     #[track_caller]
-    pub fn accepted(&self, overrides: &[&str]) -> Scene {
+    pub fn accepted(&self, overrides: &[&str]) -> Checked {
         self.parse(overrides).unwrap_or_else(|error| panic!("{overrides:?}: {error}"))
     }
 
@@ -51,7 +51,7 @@ impl Correct {
     }
 }
 
-fn parse_text(text: &str, overrides: &[&str]) -> Result<Scene, SceneError> {
+fn parse_text(text: &str, overrides: &[&str]) -> Result<Checked, SceneError> {
     let overrides: Vec<String> = overrides.iter().map(|&argument| argument.to_owned()).collect();
     scene::parse("test.json", text, &overrides)
 }

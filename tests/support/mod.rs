@@ -24,7 +24,7 @@ use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
 use mesoscope::measure::Observables;
 use mesoscope::plan::{Hardware, Options, Traversal};
 use mesoscope::run;
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked};
 use mesoscope::state::State;
 
 pub use comparison::{
@@ -34,7 +34,8 @@ pub use comparison::{
 pub use implementations::{Device, Implementation, before_and_after, reference_of_particles};
 pub use scenes::{
     COTTER_REICH, ENERGY, EVERY_STEP, GROOT_WARREN, GYRO, INTEGRATORS, MIXTURE, MIXTURE_FORCE, PREDICTED, ROTATE,
-    SPLITTING, STAGED, WHITE, built_in, cells, changed, fluid, oscillators, scene, shear_flow, still_water, water,
+    SPLITTING, STAGED, WHITE, built_in, cells, changed, edited, fluid, oscillators, scene, shear_flow, still_water,
+    water,
 };
 pub use statistics::{Measured, deviate, equilibrium, order};
 
@@ -94,39 +95,36 @@ pub fn traversals() -> Vec<Traversal> {
 }
 
 /// A scene's model and initial state.
-pub fn start(scene: &Scene) -> (Model, State) {
-    let model = Model::new(scene);
-    let state = mesoscope::families::initial_state(scene, &model);
-    (model, state)
+pub fn start(scene: &Checked) -> (Model, State) {
+    (scene.model().clone(), mesoscope::families::initial_state(scene))
 }
 
 /// An engine for a scene, with options.
-pub fn engine(scene: &Scene, state: &State, options: Options) -> Engine<'static> {
-    let model = Model::new(scene);
-    let plan = run::plan(&model, scene.time.equilibration, &scene.output, hardware(), options);
+pub fn engine(scene: &Checked, state: &State, options: Options) -> Engine<'static> {
+    let plan = run::plan(scene, hardware(), options);
     Engine::new(gpu(), plan, state).expect("an engine")
 }
 
 /// A reference for a scene.
-pub fn reference(scene: &Scene, state: &State) -> Reference {
-    Reference::new(Model::new(scene), state.clone())
+pub fn reference(scene: &Checked, state: &State) -> Reference {
+    Reference::new(scene.model().clone(), state.clone())
 }
 
 /// A reference for a scene of shallow water.
-pub fn water_reference(scene: &Scene) -> ShallowWaterReference {
+pub fn water_reference(scene: &Checked) -> ShallowWaterReference {
     let (model, state) = start(scene);
     ShallowWaterReference::new(model, state).expect("a scene of shallow water")
 }
 
 /// Observables of all samples of an engine that were not taken from it before.
-pub fn series(engine: &mut Engine<'_>, scene: &Scene) -> Vec<Observables> {
-    let model = Model::new(scene);
+pub fn series(engine: &mut Engine<'_>, scene: &Checked) -> Vec<Observables> {
+    let model = scene.model();
     let samples = engine.finish().expect("samples");
     let rows = samples.iter().filter(|sample| sample.sampler == 0);
-    rows.map(|row| mesoscope::measure::observables_of(row, engine.plan(), &model)).collect()
+    rows.map(|row| mesoscope::measure::observables_of(row, engine.plan(), model)).collect()
 }
 
 /// Observables of the last sample of an engine.
-pub fn observables(engine: &mut Engine<'_>, scene: &Scene) -> Observables {
+pub fn observables(engine: &mut Engine<'_>, scene: &Checked) -> Observables {
     series(engine, scene).pop().expect("a sample")
 }

@@ -1,6 +1,6 @@
 //! Scenes in a line: one of each kind, with changes.
 
-use mesoscope::scene::{self, Scene};
+use mesoscope::scene::{self, Checked, Scene};
 
 /// Splitting with relaxation of the pair velocities in one stage.
 pub const SPLITTING: &str = r#"integrator={"type":"splitting","relaxation":"mean-field"}"#;
@@ -32,24 +32,31 @@ pub const WHITE: &str = r#"interactions.0.bath={"type":"white"}"#;
 pub const ENERGY: &str = "interactions.0.energy={}";
 
 /// A scene from its JSON text.
-pub fn scene(text: &str) -> Scene {
+pub fn scene(text: &str) -> Checked {
     changed(text, &[])
 }
 
 /// A built-in scene with other values merged in, given as `path=value`.
-pub fn built_in(name: &str, changes: &[&str]) -> Scene {
+pub fn built_in(name: &str, changes: &[&str]) -> Checked {
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
     scene::load(name, &changes).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A scene from its JSON text with other values merged in.
-pub fn changed(text: &str, changes: &[&str]) -> Scene {
+pub fn changed(text: &str, changes: &[&str]) -> Checked {
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
     scene::parse("test", text, &changes).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// A scene with numbers in it changed, with any time step.
+pub fn edited(scene: &Checked, change: impl FnOnce(&mut Scene)) -> Checked {
+    let mut scene = scene.clone().into_scene();
+    change(&mut scene);
+    scene.check_but_step().unwrap_or_else(|error| panic!("{error}"))
+}
+
 /// The standard fluid of density 3 with other values merged in, given as `path=value`.
-pub fn fluid(changes: &[&str]) -> Scene {
+pub fn fluid(changes: &[&str]) -> Checked {
     let text = r#"{
         "title": "test", "space": {"box": [5, 5, 5]}, "time": {"step": 0.04, "steps": 1}, "temperature": 1.0,
         "particles": [{"species": "A", "number_density": 3}],
@@ -59,7 +66,7 @@ pub fn fluid(changes: &[&str]) -> Scene {
 }
 
 /// A small scene of shallow water with changes, given as `path=value`.
-pub fn water(changes: &[&str]) -> Scene {
+pub fn water(changes: &[&str]) -> Checked {
     let text = r#"{
         "title": "test", "space": {"box": [6.283185307179586, 6.283185307179586]},
         "time": {"step": 0.02, "steps": 1}, "temperature": 0.0,
@@ -73,7 +80,7 @@ pub fn water(changes: &[&str]) -> Scene {
 }
 
 /// Water at rest on a mesh of 16² nodes with the parameters of Cotter and Reich, with other values merged in.
-pub fn still_water(changes: &[&str]) -> Scene {
+pub fn still_water(changes: &[&str]) -> Checked {
     let text = r#"{
         "title": "test", "space": {"box": [6.283185307179586, 6.283185307179586]}, "time": {"step": 0.01, "steps": 1},
         "temperature": 0, "output": {"energies": {"every": 1}},
@@ -86,12 +93,12 @@ pub fn still_water(changes: &[&str]) -> Scene {
 }
 
 /// The built-in shear flow, with other values merged in.
-pub fn shear_flow(changes: &[&str]) -> Scene {
+pub fn shear_flow(changes: &[&str]) -> Checked {
     built_in("shallow-water", changes)
 }
 
 /// Cells of unit mean volume and five molecules each, on a jittered lattice, with changes given as `path=value`.
-pub fn cells(count: u32, changes: &[&str]) -> Scene {
+pub fn cells(count: u32, changes: &[&str]) -> Checked {
     let edge = f64::from(count.max(1)).sqrt();
     let text = format!(
         r#"{{
@@ -104,7 +111,7 @@ pub fn cells(count: u32, changes: &[&str]) -> Scene {
 }
 
 /// Independent oscillators: particles tied to where they start, with a bath on every coordinate.
-pub fn oscillators(changes: &[&str]) -> Scene {
+pub fn oscillators(changes: &[&str]) -> Checked {
     let text = r#"{
         "title": "test", "space": {"box": [50, 50, 50]}, "time": {"step": 0.1, "steps": 1}, "temperature": 1.5,
         "particles": [{"species": "A", "count": 1000, "mass": 2}],

@@ -1,11 +1,10 @@
 //! Flow between walls: `make validate`. Each test prints its table in Markdown.
 
-use mesoscope::families::Model;
 use mesoscope::output::read_table;
 use mesoscope::run::Simulation;
-use mesoscope::scene::Scene;
+use mesoscope::scene::{Checked, Scene};
 
-use crate::support::{Device, INTEGRATORS, Implementation, adapter, fluid};
+use crate::support::{Device, INTEGRATORS, Implementation, adapter, edited, fluid};
 
 const BINS: usize = 20;
 const EDGE: f64 = 10.0;
@@ -13,7 +12,7 @@ const AREA: f64 = 64.0;
 
 /// The standard fluid between walls across z, EDGE apart. Layers at the walls hold more than their part: 3.13 leaves a density of 3 in
 /// the middle.
-fn channel(velocity: f64, force: f64) -> Scene {
+fn channel(velocity: f64, force: f64) -> Checked {
     let space = format!(
         r#"space={{"box":[8,8,{EDGE}],"walls":{{"z":{{"lower_velocity":[-{velocity},0,0],"upper_velocity":[{velocity},0,0]}}}}}}"#
     );
@@ -25,7 +24,7 @@ fn channel(velocity: f64, force: f64) -> Scene {
 }
 
 /// The same at a density of 3 everywhere, with frozen particles of the same kind behind the walls.
-fn layered_channel(velocity: f64, force: f64) -> Scene {
+fn layered_channel(velocity: f64, force: f64) -> Checked {
     let space = format!(
         r#"space={{"box":[8,8,{EDGE}],"walls":{{"z":{{"lower_velocity":[-{velocity},0,0],"upper_velocity":[{velocity},0,0]}}}}}}"#
     );
@@ -48,10 +47,10 @@ struct Flow {
 }
 
 /// Means over 800 units of time after 120, in which transients decay with a time of L²ρ/π²η = 36; of what moves.
-fn steady(scene: &Scene) -> Flow {
+fn steady(scene: &Checked) -> Flow {
     const SAMPLES: u32 = 2000;
     let mut run = Device::new(scene);
-    let model = Model::new(scene);
+    let model = scene.model();
     run.step(3000);
     let first = run.observe();
     let (mut sums, mut counts) = ([0.0; BINS], [0_u32; BINS]);
@@ -95,7 +94,7 @@ fn print(flow: &Flow, expected: impl Fn(f64) -> f64) {
 }
 
 /// What is measured of a Couette flow of walls at ∓1: slope of the line in the middle, slip length, viscosity.
-fn couette(scene: &Scene, allowed: f64) -> [f64; 3] {
+fn couette(scene: &Checked, allowed: f64) -> [f64; 3] {
     let flow = steady(scene);
     let moment = |power: i32| inner().map(|bin| from_middle(bin).powi(power)).sum::<f64>();
     let slope = inner().map(|bin| from_middle(bin) * flow.velocity[bin]).sum::<f64>() / moment(2);
@@ -135,7 +134,7 @@ fn couette_flow_beside_layers_is_linear() {
 }
 
 /// What is measured of a Poiseuille flow under a force: slip length and viscosity.
-fn poiseuille(scene: &Scene, force: f64) -> [f64; 2] {
+fn poiseuille(scene: &Checked, force: f64) -> [f64; 2] {
     let flow = steady(scene);
     // Least squares of v = a - c z².
     let number = inner().len() as f64;
@@ -195,13 +194,15 @@ fn layers_leave_the_fluid_as_it_is() {
         "| step | layers | temperature at the wall | of all | density at the wall | next | middle |\n|-|-|-|-|-|-|-|"
     );
     for step in [0.04, 0.02] {
-        let [bare, layered] = [channel(0.0, 0.0), layered_channel(0.0, 0.0)].map(|mut scene| {
-            scene.time.step = step;
-            scene.time.steps = (100.0 / step).round() as u64;
-            scene.time.equilibration = (20.0 / step).round() as u64;
+        let [bare, layered] = [channel(0.0, 0.0), layered_channel(0.0, 0.0)].map(|scene| {
             let asked =
                 serde_json::json!({"axis": "z", "bins": BINS, "every": 5, "quantities": ["density", "temperature"]});
-            scene.output.profiles = Some(serde_json::from_value(asked).unwrap());
+            let scene = edited(&scene, |Scene { time, output, .. }| {
+                time.step = step;
+                time.steps = (100.0 / step).round() as u64;
+                time.equilibration = (20.0 / step).round() as u64;
+                output.profiles = Some(serde_json::from_value(asked).unwrap());
+            });
             let directory = tempfile::tempdir().unwrap();
             Simulation::start(scene, directory.path(), true).execute(&adapter(), &mut |_| {}).unwrap();
             let table = read_table(&directory.path().join("profiles.csv")).unwrap();
@@ -254,7 +255,7 @@ fn nobody_is_behind_a_wall(integrator: &str, steps: u64, looks: u64) {
         "temperature=2",
         "output.energies.every=1000000",
     ]);
-    let ends = Model::new(&scene).units.ends();
+    let ends = scene.model().units.ends();
     let mut run = Device::new(&scene);
     let start = run.state();
     let mut largest = [0; 3];
@@ -286,7 +287,7 @@ fn momentum_under_opposed_forces_over_a_hundred_thousand_steps() {
             "temperature=2",
             "output.energies.every=1000000",
         ]);
-        let model = Model::new(&scene);
+        let model = scene.model();
         let mut run = Device::new(&scene);
         let start = run.state();
         let mut most = 0_i64;

@@ -68,7 +68,7 @@ fn surfactants_form_micelles() {
     println!("| time | micelles | molecules in each | in the largest | part of all molecules |\n|-|-|-|-|-|");
     for seed in [1, 2, 3] {
         let scene = scene::load("surfactants", &[format!("seed={seed}")]).unwrap();
-        let model = Model::new(&scene);
+        let model = scene.model();
         let mut run = Device::new(&scene);
         let mut found = Vec::new();
         let mut done = 0;
@@ -76,7 +76,7 @@ fn surfactants_form_micelles() {
             let steps = (f64::from(time) / scene.time.step).round() as u64;
             run.step(steps - done);
             done = steps;
-            let (number, mean, largest, part) = micelles(&clusters(&run.state(), &model));
+            let (number, mean, largest, part) = micelles(&clusters(&run.state(), model));
             println!("| {time} | {number} | {mean:.1} | {largest} | {part:.3} |");
             found.push((number, mean, part));
         }

@@ -1,7 +1,6 @@
 //! Phases of mixtures of two species: `make validate`. The test prints its table in Markdown.
 
-use mesoscope::families::Model;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use rand::{RngExt, SeedableRng};
 use serde_json::{Value, json};
 
@@ -11,7 +10,7 @@ const BOX: [f64; 3] = [8.0, 8.0, 20.0];
 const BINS: usize = 40;
 
 /// As many particles of one species as of the other, each in its half of the box, with a repulsion of 25 between like ones.
-fn two_phases(between: f64) -> Scene {
+fn two_phases(between: f64) -> Checked {
     let mut random = rand::rngs::StdRng::seed_from_u64(7);
     let each = (1.5 * BOX.iter().product::<f64>()) as usize;
     let mut positions = |half: f64| -> Vec<[f64; 3]> {
@@ -37,9 +36,9 @@ fn two_phases(between: f64) -> Scene {
 
 /// The part of the minority in the middle of both phases, with its standard error: means over 1600 units of time in blocks of 80, after
 /// 400 in which the phases absorb what they hold of each other. Bins are counted from the middle of the phase of A, which drifts.
-fn minority(scene: &Scene) -> [f64; 2] {
+fn minority(scene: &Checked) -> [f64; 2] {
     const BLOCKS: usize = 20;
-    let model = Model::new(scene);
+    let model = scene.model();
     let mut run = Device::new(scene);
     run.step(10_000);
     let mut fractions = Vec::new();

@@ -7,7 +7,7 @@ use std::sync::Mutex;
 use mesoscope::gpu::AdapterChoice;
 use mesoscope::noise;
 use mesoscope::run::{Outcome, Simulation};
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use serde_json::Value;
 
 use crate::support::{
@@ -18,7 +18,7 @@ use crate::support::{
 static DEVICE: Mutex<()> = Mutex::new(());
 
 /// A fluid in a box of edge 10: 3000 particles at density 3.
-fn wide(changes: &[&str]) -> Scene {
+fn wide(changes: &[&str]) -> Checked {
     fluid(&[&["space.box=[10,10,10]"], changes].concat())
 }
 
@@ -94,7 +94,7 @@ fn pressures() {
 }
 
 /// Runs a scene as the program does, and returns what its summary says about an analysis, and a table it wrote.
-fn run(scene: Scene, analysis: &str, table: &str) -> (Outcome, Value, Vec<Vec<f64>>) {
+fn run(scene: Checked, analysis: &str, table: &str) -> (Outcome, Value, Vec<Vec<f64>>) {
     let directory = tempfile::tempdir().unwrap();
     let name = std::env::var("MESOSCOPE_ADAPTER").ok();
     let choice = AdapterChoice::parse(name.as_deref());
@@ -241,7 +241,7 @@ fn periodic_poiseuille_flow() {
             "output": {"energies": {"every": 20}}}"#,
     );
     let mut run = Device::new(&scene);
-    let unit = mesoscope::families::Model::new(&scene).units.momentum;
+    let unit = scene.model().units.momentum;
     run.step(2000);
     let (mut sums, mut counts) = ([0.0; BINS], [0_u32; BINS]);
     for _ in 0..150 {
@@ -352,7 +352,7 @@ fn viscosity_of_the_stress() {
 }
 
 /// Slabs of A and B, half a box each, with particles at random in their half.
-fn slabs(excess: f64) -> Scene {
+fn slabs(excess: f64) -> Checked {
     let [edge, length] = [8.0, 16.0];
     let count = (3.0 * edge * edge * 0.5 * length) as u32;
     let positions = |species: u32, from: f64| -> Vec<[f64; 3]> {

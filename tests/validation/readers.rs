@@ -8,7 +8,7 @@ use std::process::Command;
 
 use mesoscope::output::{Id, TrajectoryWriter, files};
 use mesoscope::plan::Options;
-use mesoscope::scene::{Scene, TrajectoryFormat};
+use mesoscope::scene::{Checked, TrajectoryFormat};
 use serde_json::{Value, json};
 
 use crate::support::{cells, engine, fluid, start, water};
@@ -18,7 +18,7 @@ const FRAMES: u64 = 6;
 const EVERY: u64 = 40;
 
 /// Scenes in one, two and three dimensions, with particles that go round the box.
-fn scenes() -> Vec<(&'static str, Scene)> {
+fn scenes() -> Vec<(&'static str, Checked)> {
     let trajectory = r#"output.trajectory={"every":40}"#;
     let names = r#"particles=[{"species":"Na","count":30,"mass":2.5},{"species":"a solvent","count":20}]"#;
     let chains = r#"particles=[{"species":"C","count":24,"mass":12,"chain":{"beads":4}},{"species":"H","count":9}]"#;
@@ -44,7 +44,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
 }
 
 /// Writes both trajectories of a scene and, as numbers of double precision, what they should say.
-fn write(scene: &Scene, place: &Path) {
+fn write(scene: &Checked, place: &Path) {
     fs::create_dir_all(place).unwrap();
     let (model, first) = start(scene);
     let mut engine = engine(scene, &first, Options::default());

@@ -1,7 +1,7 @@
 //! What rules of relaxation do to temperatures and transport under strong friction: `make validate`. Each test prints its table in Markdown.
 
 use mesoscope::run::Simulation;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 use serde_json::{Value, json};
 
 use crate::support::{Measured, adapter, scene};
@@ -14,7 +14,7 @@ fn named(rule: Option<&str>) -> &str {
 }
 
 /// A scene of a fluid with a rule.
-fn with(mut document: Value, rule: Option<&str>) -> Scene {
+fn with(mut document: Value, rule: Option<&str>) -> Checked {
     document["title"] = json!("strong friction");
     document["temperature"] = json!(1);
     document["integrator"] = json!({"type": "splitting"});
@@ -25,7 +25,7 @@ fn with(mut document: Value, rule: Option<&str>) -> Scene {
 }
 
 /// The summary of a run.
-fn run(scene: Scene) -> (Value, Value) {
+fn run(scene: Checked) -> (Value, Value) {
     let directory = tempfile::tempdir().unwrap();
     let outcome =
         Simulation::start(scene, directory.path().join("run"), false).execute(&adapter(), &mut |_| ()).unwrap();

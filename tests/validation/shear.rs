@@ -1,12 +1,12 @@
 //! Shear by boundaries that move: `make validate`. Each test prints its table in Markdown.
 
 use mesoscope::run::Simulation;
-use mesoscope::scene::Scene;
+use mesoscope::scene::Checked;
 
 use crate::support::{Device, GROOT_WARREN, Implementation, SPLITTING, adapter, fluid};
 
 /// The standard fluid at a shear rate, with the stress of every fifth step of .04 after 20 units of time.
-fn sheared(rate: f64, steps: u64, integrator: &str) -> Scene {
+fn sheared(rate: f64, steps: u64, integrator: &str) -> Checked {
     let space = format!(r#"space={{"box":[10,10,10],"shear":{{"rate":{rate},"gradient":"y"}}}}"#);
     let time = format!(r#"time={{"step":0.04,"steps":{steps},"equilibration":500}}"#);
     fluid(&[&space, &time, integrator, r#"output={"stress":{"every":5},"energies":{"every":50}}"#])

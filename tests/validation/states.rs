@@ -7,14 +7,14 @@ use std::time::Instant;
 
 use mesoscope::families::Model;
 use mesoscope::output::{Id, TrajectoryWriter, checkpoint, files};
-use mesoscope::scene::{self, Scene, TrajectoryFormat};
+use mesoscope::scene::{self, Checked, TrajectoryFormat};
 use serde_json::{Value, json};
 
 use super::readers::python;
 use crate::support::{fluid, start};
 
 /// A scene with a file that lies beside it.
-fn with_state(directory: &Path, file: &str, species: [&str; 2], linked: bool) -> Scene {
+fn with_state(directory: &Path, file: &str, species: [&str; 2], linked: bool) -> Checked {
     let mut interactions = vec![json!({"type": "dpd", "repulsion": 25, "friction": 4.5})];
     if linked {
         for types in ["short", "long"] {
@@ -156,7 +156,7 @@ fn a_million_particles_are_read() {
         let clock = Instant::now();
         let scene = scene::load(path.to_str().unwrap(), &[]).unwrap();
         let seconds = clock.elapsed().as_secs_f64();
-        assert_eq!(Model::new(&scene).particle_count(), 1_000_000);
+        assert_eq!(scene.model().particle_count(), 1_000_000);
         println!("{file}: {seconds:.2} s");
     }
 }

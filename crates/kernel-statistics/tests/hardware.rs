@@ -13,7 +13,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread;
 
-use mesoscope::families::Model;
 use mesoscope::gpu::{LinkedShader, link};
 use mesoscope::plan::{Hardware, Kernel, Options, Plan};
 use mesoscope::scene;
@@ -86,9 +85,7 @@ impl Compiled {
 fn plans() -> Vec<(&'static str, Plan)> {
     let plan = |name| {
         let scene = scene::load(name, &[]).unwrap();
-        let model = Model::new(&scene);
-        let equilibration = scene.time.equilibration;
-        mesoscope::run::plan(&model, equilibration, &scene.output, Hardware::default(), Options::default())
+        mesoscope::run::plan(&scene, Hardware::default(), Options::default())
     };
     scene::builtin().iter().map(|scene| (scene.name, plan(scene.name))).collect()
 }

@@ -1,15 +1,15 @@
 //! The files of a run, when they are written and how long they become.
 
-use mesoscope::families::{Model, PictureKind};
+use mesoscope::families::{Checked, PictureKind};
 use mesoscope::numbers::bytes;
 use mesoscope::output::files;
 use mesoscope::run::{self, Sizes};
-use mesoscope::scene::Scene;
 
 use super::interval;
 use crate::cli::table::labelled;
 
-pub fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
+pub fn outputs(scene: &Checked, sizes: &Sizes) -> String {
+    let model = scene.model();
     let output = &scene.output;
     let mut rows = vec![
         (files::ENERGIES.to_owned(), sized(&format!("a row {}", interval(0, output.energies.every)), sizes.energies)),
@@ -39,7 +39,7 @@ pub fn outputs(scene: &Scene, model: &Model, sizes: &Sizes) -> String {
         rows.push((name.to_owned(), sized(&format!("a frame {}", interval(0, trajectory.every)), sizes.trajectory)));
     }
     // Files of the analyses are written at the end.
-    for asked in run::asked_analyses(scene, model) {
+    for asked in run::asked_analyses(scene) {
         let sampled = format!("sampled {}", interval(asked.first, asked.every));
         let when = asked.detail.map_or(sampled.clone(), |detail| format!("{detail}, {sampled}"));
         rows.extend(asked.tables.iter().map(|names| (format!("{}, {}", names.file, names.plot), when.clone())));

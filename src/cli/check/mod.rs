@@ -8,13 +8,13 @@ mod ranks;
 use std::fmt::Write as _;
 
 use mesoscope::engine::EngineError;
-use mesoscope::families::{self, Model};
+use mesoscope::families::{self, Checked};
 use mesoscope::gpu::GpuError;
 use mesoscope::numbers::{bytes, counted, grouped};
 use mesoscope::plan::{Hardware, Options, Part, Plan};
 use mesoscope::printable;
 use mesoscope::run::{self, ExpectedTime, RunError, Sizes};
-use mesoscope::scene::{Integrator, PairRelaxation, Scene};
+use mesoscope::scene::{Integrator, PairRelaxation};
 
 use super::table::labelled;
 use super::{Failure, RanksArgument, SceneArguments, heading, print, print_exactly};
@@ -61,19 +61,18 @@ pub struct Arguments {
 
 /// Checks the scene.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let (scene, notices) = arguments.ranks.load(&arguments.scene, None)?;
-    let model = Model::new(&scene);
+    let scene = arguments.ranks.load(&arguments.scene, None)?;
     let mut warnings: Vec<String> =
-        notices.iter().chain(&families::warnings(&scene)).map(ToString::to_string).collect();
+        scene.notices().iter().chain(&families::warnings(&scene)).map(ToString::to_string).collect();
     warnings.extend(run::lettering(&scene));
-    let division = arguments.ranks.division(&scene, &model, None)?;
+    let division = arguments.ranks.division(&scene, None)?;
     warnings.extend(arguments.ranks.warning(division, None));
     let opened = match run::adapter_for_rank(&scene, division, &arguments.ranks.adapter.choice()) {
         Err(error @ (RunError::Scene(_) | RunError::Gpu(GpuError::NoSuchAdapter { .. }))) => return Err(error.into()),
         opened => opened,
     };
     let hardware = opened.as_ref().map_or(Hardware::default(), Hardware::from);
-    let plan_of = |options| run::plan(&model, scene.time.equilibration, &scene.output, hardware, options);
+    let plan_of = |options| run::plan(&scene, hardware, options);
     let plan = plan_of(Options { part: division.map(|division| Part { division, rank: 0 }), ..Options::default() });
     if let Some(kernel) = &arguments.shader {
         return print_exactly(&kernels::shader(&plan, kernel)?);
@@ -86,31 +85,31 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     // The files are those of all ranks.
     let whole = division.map(|_| plan_of(Options::default()));
-    let sizes = Sizes::of(&scene, &model, whole.as_ref().unwrap_or(&plan));
-    let time = time(&scene, &model, trial.as_ref());
+    let sizes = Sizes::of(&scene, whole.as_ref().unwrap_or(&plan));
+    let time = time(&scene, trial.as_ref());
     let one = if division.is_some() { " of one rank" } else { "" };
     let mut rows = vec![
         ("time", format!("{time}{one}, on {adapter}")),
         ("files", format!("about {}, and {} in the memory of an adapter", bytes(sizes.total()), bytes(plan.bytes()))),
         ("accuracy", predictions::accuracy(&arguments.scene.as_argument(), &scene)),
     ];
-    let estimates = model.estimates();
+    let estimates = scene.model().estimates();
     if !estimates.is_empty() {
         rows.push(("expected", estimates.join(", ")));
     }
-    rows.extend(model.composition(&scene));
+    rows.extend(scene.composition());
     let verbose = arguments.verbose || arguments.kernels;
     if verbose {
-        rows.extend(overview(&scene, &model, &plan, trial.as_ref()));
+        rows.extend(overview(&scene, &plan, trial.as_ref()));
     }
     let step = trial.as_ref().and_then(|trial| Some(trial.as_ref().ok()?.step));
-    rows.extend(division.into_iter().flat_map(|division| ranks::rows(&scene, &model, division, (step, hardware))));
+    rows.extend(division.into_iter().flat_map(|division| ranks::rows(&scene, division, (step, hardware))));
     if verbose {
-        rows.extend(predictions::rows(&arguments.scene.as_argument(), (&scene, &model), &plan, hardware));
+        rows.extend(predictions::rows(&arguments.scene.as_argument(), &scene, &plan, hardware));
     }
     let mut text = format!("{}\n{}", printable::name(&scene.title), labelled(rows, "  "));
     if verbose {
-        text.push_str(&files::outputs(&scene, &model, &sizes));
+        text.push_str(&files::outputs(&scene, &sizes));
     } else {
         text.push_str("  -v says what the scene consists of, how long its steps may be, and when files are written\n");
     }
@@ -135,8 +134,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 type Tried<'t> = Option<&'t Result<ExpectedTime, RunError>>;
 
 /// How long the run takes here, in words.
-fn time(scene: &Scene, model: &Model, trial: Tried<'_>) -> String {
-    let what = format!("{} steps of {} particles", grouped(scene.time.steps), grouped(model.particle_count()));
+fn time(scene: &Checked, trial: Tried<'_>) -> String {
+    let what = format!("{} steps of {} particles", grouped(scene.time.steps), grouped(scene.model().particle_count()));
     match trial {
         None => format!("{what}; how long they take is not known"),
         Some(Err(_)) => format!("{what}; how long they take is not known, for the first ones failed"),
@@ -171,7 +170,7 @@ fn duration(seconds: f64) -> String {
 }
 
 /// The rows of the overview: names and what is to be said of them.
-fn overview(scene: &Scene, model: &Model, plan: &Plan, trial: Tried<'_>) -> Vec<(&'static str, String)> {
+fn overview(scene: &Checked, plan: &Plan, trial: Tried<'_>) -> Vec<(&'static str, String)> {
     let lengths: Vec<String> = scene.space.lengths.iter().map(ToString::to_string).collect();
     let integrator = match scene.integrator {
         Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
@@ -184,7 +183,7 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, trial: Tried<'_>) -> Vec<
         (_, Some(_)) => format!("{} of a rank", bytes(plan.bytes())),
         (count, None) => format!("{}, {:.1} bytes a particle", bytes(plan.bytes()), plan.bytes() as f64 / count as f64),
     };
-    let particles = model.particles_in_words();
+    let particles = scene.model().particles_in_words();
     let cells =
         plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × ");
     let dimensions = counted(lengths.len() as u64, "dimension");
@@ -193,8 +192,8 @@ fn overview(scene: &Scene, model: &Model, plan: &Plan, trial: Tried<'_>) -> Vec<
     rows.extend(basis(trial).map(|basis| ("estimate", basis)));
     let (step, steps) = (scene.time.step, grouped(scene.time.steps));
     rows.push(("integrator", format!("{integrator}, time step {step}, {steps} steps")));
-    rows.extend(families::start_in_words(scene, model).map(|start| ("start", start)));
-    rows.extend(model.description(scene, plan, &cells));
+    rows.extend(families::start_in_words(scene).map(|start| ("start", start)));
+    rows.extend(scene.description(plan, &cells));
     let operations = grouped(plan.operations_per_particle as u64);
     rows.push(("arithmetic", format!("about {operations} operations a particle and step")));
     rows

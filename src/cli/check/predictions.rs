@@ -1,11 +1,11 @@
 //! What can be said of a run before it: how long its steps may be, how far off its results will be, and what it pays for without need.
 
 use mesoscope::calibration;
-use mesoscope::families::{self, BathStep, Beyond, LargestStep, Model};
+use mesoscope::families::{self, BathStep, Beyond, Checked, LargestStep};
 use mesoscope::numbers::three_digits;
 use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
-use mesoscope::scene::{Bath, Interaction, Scene};
+use mesoscope::scene::{Bath, Interaction};
 
 /// Reports that take more than this part of the time are worth a word.
 const MUCH: f64 = 0.2;
@@ -14,7 +14,7 @@ const MUCH: f64 = 0.2;
 const FORGOTTEN: f64 = 1e-3;
 
 /// How far off results will be, as far as that is known.
-pub fn accuracy(source: &str, scene: &Scene) -> String {
+pub fn accuracy(source: &str, scene: &Checked) -> String {
     let (step, half) = (three_digits(scene.time.step), three_digits(0.5 * scene.time.step));
     let unknown = || {
         format!(
@@ -25,12 +25,7 @@ pub fn accuracy(source: &str, scene: &Scene) -> String {
 }
 
 /// Rows of the overview.
-pub fn rows(
-    source: &str,
-    (scene, model): (&Scene, &Model),
-    plan: &Plan,
-    hardware: Hardware,
-) -> Vec<(&'static str, String)> {
+pub fn rows(source: &str, scene: &Checked, plan: &Plan, hardware: Hardware) -> Vec<(&'static str, String)> {
     let steps = families::largest_steps(scene);
     let largest = |beyond: Beyond| steps.iter().find(|largest| largest.beyond == beyond);
     let words = |largest: &LargestStep| format!("up to {} ({})", three_digits(largest.step), largest.law);
@@ -44,12 +39,12 @@ pub fn rows(
     if !steps.is_empty() && scene.time.steps > 0 {
         rows.push(("measure", format!("`mesoscope stability {source}` runs it with longer and longer steps")));
     }
-    rows.extend(unneeded(scene, model, plan, hardware).into_iter().map(|what| ("pays for", what)));
+    rows.extend(unneeded(scene, plan, hardware).into_iter().map(|what| ("pays for", what)));
     rows
 }
 
 /// What takes time and is not needed, or not needed so often.
-fn unneeded(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Vec<String> {
+fn unneeded(scene: &Checked, plan: &Plan, hardware: Hardware) -> Vec<String> {
     let mut found = Vec::new();
     // A report visits everything once more.
     let reports: f64 = plan.samplers.iter().map(|sampler| 1.0 / sampler.every as f64).sum();
@@ -66,25 +61,29 @@ fn unneeded(scene: &Scene, model: &Model, plan: &Plan, hardware: Hardware) -> Ve
             && let Bath::Memory { rate, .. } = bath
             && BathStep::of(bath, friction, scene.time.step).persistence.abs() < FORGOTTEN
         {
-            let mut without = scene.clone();
+            let mut without = scene.clone().into_scene();
             if let Some(bath) = without.interactions.get_mut(index).and_then(Interaction::bath_mut) {
                 *bath = Bath::White { temperature: Some(bath.temperature(scene.temperature)) };
             }
-            let other = run::plan(&Model::new(&without), 0, &without.output, hardware, Options::default());
-            let (own, less) = (plan.operations_per_particle, other.operations_per_particle);
-            let cheaper = if less < own {
-                format!(", which takes {:.0} % less arithmetic", 100.0 * (1.0 - less / own))
-            } else {
-                String::new()
+            let own = plan.operations_per_particle;
+            let other = without.check_but_step().map(|without| run::plan(&without, hardware, Options::default()));
+            let cheaper = match other.map(|other| other.operations_per_particle) {
+                Ok(less) if less < own => format!(", which takes {:.0} % less arithmetic", 100.0 * (1.0 - less / own)),
+                _ => String::new(),
             };
             found.push(format!(
                 "the memory of interactions[{index}]: at a rate of {rate} a step leaves nothing of it, and a bath without memory does the same{cheaper}"
             ));
         }
     }
-    found.extend(model.unneeded(scene));
-    let idle: Vec<&str> =
-        model.species.iter().filter(|species| species.count == 0).map(|species| species.name.as_str()).collect();
+    found.extend(scene.unneeded());
+    let idle: Vec<&str> = scene
+        .model()
+        .species
+        .iter()
+        .filter(|species| species.count == 0)
+        .map(|species| species.name.as_str())
+        .collect();
     if !idle.is_empty() {
         found.push(format!("species without particles: {}", idle.join(", ")));
     }

@@ -1,23 +1,21 @@
 //! What each of several ranks that share a scene has to do.
 
-use mesoscope::families::Model;
+use mesoscope::families::{Checked, Model};
 use mesoscope::numbers::{bytes, counted, grouped, prefixed};
 use mesoscope::plan::{Division, Hardware};
 use mesoscope::run::{Share, share_of};
-use mesoscope::scene::Scene;
 
 /// Particle-steps a second of a graphics card, where no adapter says how many.
 const SPEED: f64 = 1e9;
 
 /// The rows of the overview. One rank takes so many seconds a step on this hardware, if that is known.
 pub fn rows(
-    scene: &Scene,
-    model: &Model,
+    scene: &Checked,
     division: Division,
     (step, hardware): (Option<f64>, Hardware),
 ) -> Vec<(&'static str, String)> {
     let dimension = scene.space.lengths.len();
-    let share = share_of(scene, model, division, hardware);
+    let share = share_of(scene, division, hardware);
     let product = |numbers: Vec<String>| numbers[..dimension].join(" × ");
     let parts = product(division.parts.map(|part| part.to_string()).to_vec());
     let length = |length: f64| format!("{length:.4}").trim_end_matches('0').trim_end_matches('.').to_owned();
@@ -47,7 +45,7 @@ pub fn rows(
         ("ranks", format!("{count} ({parts}), each {lengths}{around}; at most {most} fit")),
         shares,
         ("exchange", sends),
-        ("speed", speed(model, &share, division.ranks(), step)),
+        ("speed", speed(scene.model(), &share, division.ranks(), step)),
     ]
 }
 

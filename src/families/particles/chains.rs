@@ -207,6 +207,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+    use crate::families::Checked;
     use serde_json::json;
 
     /// Lengths of all bonds, chain by chain, and the state.
@@ -220,9 +221,9 @@ mod tests {
             "particles": [{"species": "bead", "count": count, "chain": chain, "placement": {"type": placement}}],
             "interactions": [{"type": "bonds", "potential": {"type": "harmonic", "stiffness": 10}}],
         });
-        let scene = serde_json::from_value(scene).unwrap();
-        let model = Model::new(&scene);
-        let state = crate::families::initial_state(&scene, &model);
+        let scene = Checked::presumed(serde_json::from_value(scene).unwrap());
+        let model = scene.model().clone();
+        let state = crate::families::initial_state(&scene);
         let bond = |ends: [u32; 2]| {
             let [a, b] = ends.map(|end| state.positions[end as usize]);
             model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt()

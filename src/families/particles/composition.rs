@@ -3,19 +3,19 @@
 
 use super::terms;
 use crate::document::{FileLinks, LinkSource, Links, Scene, SpeciesNames};
-use crate::families::Model;
+use crate::families::Checked;
 use crate::numbers::grouped;
 use crate::printable;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Names of what is there, and what is to be said of it; nothing of particles that the scene places itself.
-pub(super) fn rows(scene: &Scene, model: &Model) -> Vec<(&'static str, String)> {
+pub(super) fn rows(scene: &Checked) -> Vec<(&'static str, String)> {
     if !scene.has_start() {
         return Vec::new();
     }
     let names = SpeciesNames::of(scene);
-    let of_species = model.species.iter().map(|species| {
+    let of_species = scene.model().species.iter().map(|species| {
         let group = scene.particles.iter().find(|group| group.species == species.name);
         let kind = group.and_then(|group| group.file_type.as_ref());
         let kind = kind.map_or_else(String::new, |kind| format!(" (type {kind})"));
@@ -85,7 +85,7 @@ fn counted<const LENGTH: usize>(scene: &Scene, names: &SpeciesNames<'_>, all: &[
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use crate::families::Model;
+
     use crate::scene;
     use serde_json::json;
 
@@ -106,7 +106,7 @@ mod tests {
             ],
         });
         let scene = scene::parse("composed", &text.to_string(), &[]).unwrap();
-        let rows = Model::new(&scene).composition(&scene);
+        let rows = scene.composition();
         let expected = [
             ("species", "H 5, T 10, W 7"),
             ("dpd", "pairs of H, T, W; H-W as given for them"),
@@ -116,6 +116,6 @@ mod tests {
         ];
         assert_eq!(rows, expected.map(|(name, text)| (name, text.to_owned())));
         let plain = scene::load("binary-mixture", &[]).unwrap();
-        assert_eq!(Model::new(&plain).composition(&plain), []);
+        assert_eq!(plain.composition(), []);
     }
 }

@@ -25,8 +25,8 @@ pub use layout::{CoupledLayout, KeptArray, ListLayout, ParticleLayout};
 
 use super::reference::Stepper;
 use super::{
-    Angles, BathStep, BodyForces, Bonds, ChainGroup, ColouredNoise, Column, ExactMean, KeptQuantity, KeptSum, Limit,
-    Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, Tethers, units,
+    Angles, BathStep, BodyForces, Bonds, ChainGroup, Checked, ColouredNoise, Column, ExactMean, KeptQuantity, KeptSum,
+    Limit, Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, Tethers, units,
 };
 use crate::document::{BondPotential, Integrator, PairRelaxation, Problems, Scene, Surroundings, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
@@ -273,8 +273,8 @@ impl Physics for Particles {
         conservation::has_thermostat(model)
     }
 
-    fn limits(&self, scene: &Scene, model: &Model) -> Vec<Limit> {
-        stability::limits(self, scene, model)
+    fn limits(&self, scene: &Checked) -> Vec<Limit> {
+        stability::limits(self, scene)
     }
 
     fn exact_means(&self, model: &Model) -> Vec<ExactMean> {
@@ -285,12 +285,12 @@ impl Physics for Particles {
         description::estimates(model)
     }
 
-    fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {
-        warnings::warnings(self, scene, model)
+    fn warnings(&self, scene: &Checked) -> Vec<Warning> {
+        warnings::warnings(self, scene)
     }
 
-    fn complete_start(&self, state: &mut State, scene: &Scene, model: &Model, thermal: &[usize]) {
-        start::complete(self, state, scene, model, thermal);
+    fn complete_start(&self, state: &mut State, scene: &Checked, thermal: &[usize]) {
+        start::complete(self, state, scene, thermal);
     }
 
     fn may_refuse_starts(&self) -> bool {
@@ -299,32 +299,32 @@ impl Physics for Particles {
         are_walled || kinds.into_iter().any(|kind| matches!(kind.potential, Some(BondPotential::Fene { .. })))
     }
 
-    fn check_start(&self, scene: &Scene, model: &Model, state: &State, problems: &mut Problems) {
-        terms::bonds::check_extents(scene, model, state, problems);
-        space::walls::scene::check_bonds(self, model, state, problems);
+    fn check_start(&self, scene: &Checked, state: &State, problems: &mut Problems) {
+        terms::bonds::check_extents(scene, state, problems);
+        space::walls::scene::check_bonds(self, scene.model(), state, problems);
     }
 
-    fn unneeded(&self, scene: &Scene, model: &Model) -> Vec<String> {
-        unneeded::unneeded(self, scene, model)
+    fn unneeded(&self, scene: &Checked) -> Vec<String> {
+        unneeded::unneeded(self, scene)
     }
 
-    fn check_capacity(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
+    fn check_capacity(&self, scene: &Checked, problems: &mut Problems) {
         for term in self.terms() {
-            term.check_capacity(scene, model, problems);
+            term.check_capacity(scene, problems);
         }
         if scene.output.chain_sizes.is_some() {
             checks::check_kinds(self, problems);
         }
     }
 
-    fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
-        if self.have_more_than_pairs(model) {
-            stability::check(scene, model, problems);
+    fn check_step(&self, scene: &Checked, problems: &mut Problems) {
+        if self.have_more_than_pairs(scene.model()) {
+            stability::check(scene, problems);
         }
         if !self.pair_force.as_ref().is_some_and(PairForce::remembers) {
-            stability::check_friction(scene, model, problems);
+            stability::check_friction(scene, problems);
         }
-        stability::check_repulsion(scene, model, problems);
+        stability::check_repulsion(scene, problems);
     }
 
     fn unshared(&self, scene: &Scene) -> Vec<String> {
@@ -335,14 +335,14 @@ impl Physics for Particles {
         self::plan::step::plan(model, measured, hardware, options)
     }
 
-    fn description(&self, _: &Scene, model: &Model, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
+    fn description(&self, scene: &Checked, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
         let mut rows = vec![("cells", cells.to_owned())];
-        rows.extend(description::list(model, plan));
+        rows.extend(description::list(scene.model(), plan));
         rows
     }
 
-    fn composition(&self, scene: &Scene, model: &Model) -> Vec<(&'static str, String)> {
-        composition::rows(scene, model)
+    fn composition(&self, scene: &Checked) -> Vec<(&'static str, String)> {
+        composition::rows(scene)
     }
 
     fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {

@@ -89,7 +89,7 @@ pub(super) fn stiffnesses(bonds: &Bonds, particles: u64) -> Option<Vec<(f64, u64
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use crate::families::Model;
+
     use crate::scene;
     use std::f64::consts::PI;
 
@@ -99,7 +99,7 @@ mod tests {
             r#"particles=[{"species":"bead","count":12}]"#.to_owned(),
             format!(r#"interactions=[{{"type":"langevin","friction":1}},{bonds}]"#),
         ];
-        let model = Model::new(&scene::load("gle-oscillator", &set).unwrap());
+        let model = scene::load("gle-oscillator", &set).unwrap().model().clone();
         super::stiffnesses(model.particles().bonds.as_ref().unwrap(), 12)
     }
 

@@ -143,7 +143,7 @@ mod tests {
 
     fn found(changes: &[&str]) -> Vec<ExactMean> {
         let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-        let model = Model::new(&scene::load("gle-oscillator", &changes).unwrap());
+        let model = scene::load("gle-oscillator", &changes).unwrap().model().clone();
         let means = model.physics().exact_means(&model);
         // Only what the table has.
         let columns = model.physics().columns(&model);
@@ -196,7 +196,7 @@ mod tests {
         ] {
             assert_eq!(found(&[change]), [], "{change}");
         }
-        let fluid = Model::new(&scene::load("dpd-fluid", &[]).unwrap());
+        let fluid = scene::load("dpd-fluid", &[]).unwrap().model().clone();
         assert_eq!(fluid.physics().exact_means(&fluid), []);
     }
 
@@ -205,7 +205,7 @@ mod tests {
         let square = |value| [ExactMean { column: "bath_square", continuous: value, discrete: None }];
         let means = |scene: &str, changes: &[&str]| {
             let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
-            let model = Model::new(&scene::load(scene, &changes).unwrap());
+            let model = scene::load(scene, &changes).unwrap().model().clone();
             model.physics().exact_means(&model)
         };
         assert_eq!(means("edpd-fluid", &["temperature=2"]), square(2.0 * 4.5 * 10.0));

@@ -9,8 +9,8 @@
 use crate::document::{Bath, BondPotential, Integrator, Interaction, NumberedSpecies, Problems, Scene, Warning, brief};
 use crate::families::limits::{at_step, largest_step};
 use crate::families::{
-    Alike, Beyond, Bond, BondKind, Bonds, FREQUENCY_LIMIT, Limit, MOST_RELAXATION, Model, Particles, RelaxationErrors,
-    Species, TOLERANCE,
+    Alike, Beyond, Bond, BondKind, Bonds, Checked, FREQUENCY_LIMIT, Limit, MOST_RELAXATION, Model, Particles,
+    RelaxationErrors, Species, TOLERANCE,
 };
 
 /// B + W beyond which nothing is stable.
@@ -57,9 +57,9 @@ fn cold_by_prediction(strains: &[Strain], model: &Model) -> f64 {
 }
 
 /// Warns of a temperature that a prediction makes wrong by more than is tolerated.
-pub(crate) fn warn_of_prediction(scene: &Scene, model: &Model) -> Option<Warning> {
-    let network = Network::of(scene, model);
-    let cold = cold_by_prediction(&certain(scene, model, network.as_ref()), model);
+pub(crate) fn warn_of_prediction(scene: &Checked) -> Option<Warning> {
+    let network = Network::of(scene);
+    let cold = cold_by_prediction(&certain(scene, network.as_ref()), scene.model());
     (cold.abs() > TOLERANCE).then(|| {
         let message = format!(
             "friction of particles or bonds sees predicted velocities, which makes their kinetic temperature {:.1} % \
@@ -85,10 +85,10 @@ struct Strain {
 }
 
 /// Refuses a time step that is certainly unstable.
-pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
+pub(crate) fn check(scene: &Checked, problems: &mut Problems) {
     let step = scene.time.step;
-    let network = Network::of(scene, model);
-    let Some(worst) = worst(&certain(scene, model, network.as_ref())) else { return };
+    let network = Network::of(scene);
+    let Some(worst) = worst(&certain(scene, network.as_ref())) else { return };
     if worst.sum < LIMIT {
         return;
     }
@@ -96,7 +96,7 @@ pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
     let found = format!("{step}, at which B + W is {sum} for {}", worst.what);
     let share = |step: f64| {
         let other = at_step(scene, step);
-        strongest(&certain(&other, &Model::new(&other), network.as_ref())) / LIMIT
+        strongest(&certain(&other, network.as_ref())) / LIMIT
     };
     let largest = largest_step([step, worst.sum / LIMIT], 1e-6, &share);
     let mut accepted = format!(
@@ -117,7 +117,8 @@ pub(crate) fn check(scene: &Scene, model: &Model, problems: &mut Problems) {
 
 /// Refuses a time step in which the friction of pairs that do not relax is certainly unstable: B is 2Γ dt on average, for a mean
 /// friction rate Γ, and half of that is certain.
-pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Problems) {
+pub(crate) fn check_friction(scene: &Checked, problems: &mut Problems) {
+    let model = scene.model();
     let Some(force) = model.particles().pair_force.as_ref() else { return };
     let (rate, index) = model.largest_friction_rate(force);
     let particles = model.particles();
@@ -144,7 +145,8 @@ pub(crate) fn check_friction(scene: &Scene, model: &Model, problems: &mut Proble
 }
 
 /// Refuses a time step in which repulsion certainly throws neighbours apart.
-pub(crate) fn check_repulsion(scene: &Scene, model: &Model, problems: &mut Problems) {
+pub(crate) fn check_repulsion(scene: &Checked, problems: &mut Problems) {
+    let model = scene.model();
     let Some(force) = model.particles().pair_force.as_ref() else { return };
     let (frequency, index) = model.largest_repulsion_frequency(force);
     let step = scene.time.step;
@@ -167,10 +169,10 @@ pub(crate) fn check_repulsion(scene: &Scene, model: &Model, problems: &mut Probl
 }
 
 /// Warns of a time step near the edge.
-pub(crate) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
-    let network = Network::of(scene, model);
-    let mut strains = certain(scene, model, network.as_ref());
-    strains.extend(possible(model, network.as_ref()));
+pub(crate) fn warn(scene: &Checked) -> Option<Warning> {
+    let network = Network::of(scene);
+    let mut strains = certain(scene, network.as_ref());
+    strains.extend(possible(scene.model(), network.as_ref()));
     let worst = worst(&strains).filter(|strain| strain.sum > CLEAN)?;
     let verdict = if worst.sum >= LIMIT {
         format!("{LIMIT} is the limit of stability, which is passed at times")
@@ -189,10 +191,11 @@ pub(crate) fn warn(scene: &Scene, model: &Model) -> Option<Warning> {
 }
 
 /// The laws that bound the time step, those of what is there at times included.
-pub(super) fn limits(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Limit> {
+pub(super) fn limits(particles: &Particles, scene: &Checked) -> Vec<Limit> {
+    let model = scene.model();
     let step = scene.time.step;
-    let network = Network::of(scene, model);
-    let mut strains = certain(scene, model, network.as_ref());
+    let network = Network::of(scene);
+    let mut strains = certain(scene, network.as_ref());
     strains.extend(possible(model, network.as_ref()));
     let strain = strongest(&strains);
     let pairs = particles.pair_force.as_ref();
@@ -263,11 +266,12 @@ fn bath_strength(interaction: &Interaction) -> (&'static str, f64) {
 }
 
 /// Parts of the matrix that are there at all times.
-fn certain(scene: &Scene, model: &Model, network: Option<&Network>) -> Vec<Strain> {
-    let mut strains = of_particles(scene, model);
-    strains.extend(of_pairs_on_average(scene, model));
+fn certain(scene: &Checked, network: Option<&Network>) -> Vec<Strain> {
+    let model = scene.model();
+    let mut strains = of_particles(scene);
+    strains.extend(of_pairs_on_average(scene));
     if let Some(bonds) = model.particles().bonds.as_ref() {
-        strains.extend(of_single_bonds(scene, model, bonds));
+        strains.extend(of_single_bonds(scene, bonds));
         let line = model.units.dimension == 1;
         // Without a length at rest a spring is as stiff across as along.
         let isotropic = |kind: &BondKind| match kind.potential {
@@ -296,7 +300,8 @@ fn inverse_mass(model: &Model, species: usize) -> f64 {
 }
 
 /// Springs and baths on single particles.
-fn of_particles(scene: &Scene, model: &Model) -> Vec<Strain> {
+fn of_particles(scene: &Checked) -> Vec<Strain> {
+    let model = scene.model();
     let particles = model.particles();
     let of_baths = |interaction: &Interaction| matches!(interaction, Interaction::Langevin(_));
     let of_springs = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_));
@@ -316,7 +321,8 @@ fn of_particles(scene: &Scene, model: &Model) -> Vec<Strain> {
 
 /// λₑ of pairs: the mean of all eigenvalues for evenly spread particles, Σ λₑρ\[ω\]/(d·m). The largest is several times
 /// as large, but particles that repel each other keep away from where ω is largest: half of the mean is certain.
-fn of_pairs_on_average(scene: &Scene, model: &Model) -> Vec<Strain> {
+fn of_pairs_on_average(scene: &Checked) -> Vec<Strain> {
+    let model = scene.model();
     let (mut strains, step) = (Vec::new(), model.time_step);
     let Some(force) = model.particles().pair_force.as_ref().filter(|_| model.integrator == Integrator::CotterReich {})
     else {
@@ -363,7 +369,8 @@ fn numbered_species<'a>(scene: &'a Scene, model: &Model) -> NumberedSpecies<'a> 
 }
 
 /// Every bond by itself, on the reduced mass of its ends.
-fn of_single_bonds(scene: &Scene, model: &Model, bonds: &Bonds) -> Vec<Strain> {
+fn of_single_bonds(scene: &Checked, bonds: &Bonds) -> Vec<Strain> {
+    let model = scene.model();
     let members = numbered_species(scene, model);
     let (step, places) = (model.time_step, places(scene, bonds));
     let mut largest = vec![0.0_f64; bonds.kinds.len()];
@@ -400,7 +407,8 @@ struct Network {
 }
 
 impl Network {
-    fn of(scene: &Scene, model: &Model) -> Option<Self> {
+    fn of(scene: &Checked) -> Option<Self> {
+        let model = scene.model();
         let bonds = model.particles().bonds.as_ref()?;
         let members = numbered_species(scene, model);
         let seen: Vec<Bond> = bonds.iter().take(MOST_BONDS).collect();

@@ -3,13 +3,13 @@
 
 use super::space::walls::plan as walls;
 use super::terms;
-use crate::document::Scene;
 use crate::families::start::bring_to_rest;
-use crate::families::{Model, Particles};
+use crate::families::{Checked, Particles};
 use crate::state::{State, WallImpulse};
 
 /// Gives particles at their places what they start with.
-pub(super) fn complete(particles: &Particles, state: &mut State, scene: &Scene, model: &Model, thermal: &[usize]) {
+pub(super) fn complete(particles: &Particles, state: &mut State, scene: &Checked, thermal: &[usize]) {
+    let model = scene.model();
     for term in terms::acting(scene) {
         term.add_particles(scene, state, model);
     }

@@ -1,10 +1,11 @@
 //! Choices that cost time and change nothing that is likely to be measured.
 
-use crate::document::{Distribution, PairRelaxation, Scene, brief};
-use crate::families::{Model, Particles};
+use crate::document::{Distribution, PairRelaxation, brief};
+use crate::families::{Checked, Particles};
 
 /// All of them in a scene, in words.
-pub(super) fn unneeded(particles: &Particles, scene: &Scene, model: &Model) -> Vec<String> {
+pub(super) fn unneeded(particles: &Particles, scene: &Checked) -> Vec<String> {
+    let model = scene.model();
     let Some(force) = particles.pair_force.as_ref().filter(|force| force.has_friction()) else { return Vec::new() };
     let staged = particles.relaxes_in_two_stages(model);
     let relaxed = model.largest_friction_rate(force).0 * scene.time.step;

@@ -4,14 +4,15 @@ use super::stability;
 use super::terms::{self, SceneTerm, Springs};
 use crate::document::{Interaction, PairRelaxation, Placement, Scene, Warning, brief};
 use crate::families::warnings::{warn, warn_of_momentum};
-use crate::families::{FREQUENCY_LIMIT, MOST_RELAXATION, Model, PairForce, Particles, Species};
+use crate::families::{Checked, FREQUENCY_LIMIT, MOST_RELAXATION, Model, PairForce, Particles, Species};
 
 /// All warnings about a scene.
-pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> Vec<Warning> {
+pub(super) fn warnings(particles: &Particles, scene: &Checked) -> Vec<Warning> {
+    let model = scene.model();
     let mut warnings = Vec::new();
     if let Some(force) = &particles.pair_force {
-        warn_of_friction(scene, model, force, &mut warnings);
-        warn_of_stiffness(scene, model, force, &mut warnings);
+        warn_of_friction(scene, force, &mut warnings);
+        warn_of_stiffness(scene, force, &mut warnings);
         warn_of_attraction(model, force, &mut warnings);
     }
     warn_of_rounding(model, &mut warnings);
@@ -26,8 +27,8 @@ pub(super) fn warnings(particles: &Particles, scene: &Scene, model: &Model) -> V
     }
     warn_of_places(scene, &mut warnings);
     if particles.have_more_than_pairs(model) {
-        warnings.extend(stability::warn(scene, model));
-        warnings.extend(stability::warn_of_prediction(scene, model));
+        warnings.extend(stability::warn(scene));
+        warnings.extend(stability::warn_of_prediction(scene));
         warn_of_springs(scene, &mut warnings);
     }
     warn_of_loose_chains(scene, &mut warnings);
@@ -173,7 +174,8 @@ fn warn_of_loose_chains(scene: &Scene, warnings: &mut Vec<Warning>) {
     }
 }
 
-fn warn_of_friction(scene: &Scene, model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
+fn warn_of_friction(scene: &Checked, force: &PairForce, warnings: &mut Vec<Warning>) {
+    let model = scene.model();
     let step = scene.time.step;
     let (rate, index) = model.largest_friction_rate(force);
     let (relaxed, limit) = (rate * step, model.friction_limit());
@@ -205,7 +207,8 @@ fn warn_of_friction(scene: &Scene, model: &Model, force: &PairForce, warnings: &
     }
 }
 
-fn warn_of_stiffness(scene: &Scene, model: &Model, force: &PairForce, warnings: &mut Vec<Warning>) {
+fn warn_of_stiffness(scene: &Checked, force: &PairForce, warnings: &mut Vec<Warning>) {
+    let model = scene.model();
     let step = scene.time.step;
     let (frequency, index) = model.largest_repulsion_frequency(force);
     if frequency * step > FREQUENCY_LIMIT {

@@ -11,15 +11,15 @@ use crate::state::Reported;
 /// differences across two spacings.
 ///
 /// ```
-/// use mesoscope::{measure::MeshFlow, families::Model, scene};
+/// use mesoscope::{measure::MeshFlow, scene};
 ///
 /// let small = ["interactions.0.mesh=[16,16]", "interactions.0.smoothing.length=0.8", "particles.0.count=1024"];
 /// let scene = scene::load("shallow-water", &small.map(str::to_owned))?;
-/// let model = Model::new(&scene);
-/// let mut state = mesoscope::state::Reported::from(mesoscope::families::initial_state(&scene, &model));
+/// let model = scene.model();
+/// let mut state = mesoscope::state::Reported::from(mesoscope::families::initial_state(&scene));
 /// state.momenta.fill([3_000_000, 4_000_000, 0]);
 /// let water = model.shallow_water().ok_or("no shallow water")?;
-/// let flow = MeshFlow::new(&model, water, &state);
+/// let flow = MeshFlow::new(model, water, &state);
 /// let speed = 5e6 * model.units.momentum;
 /// assert!(flow.speed().iter().all(|found| (found / speed - 1.0).abs() < 1e-12));
 /// assert!(flow.vorticity().iter().all(|found| found.abs() < 1e-9 * speed));
@@ -123,9 +123,7 @@ mod tests {
             mesh[0], mesh[1]
         );
         let scene = scene::parse("test", &text, &[]).unwrap();
-        let model = Model::new(&scene);
-        let state = initial_state(&scene, &model).into();
-        (model, state)
+        (scene.model().clone(), initial_state(&scene).into())
     }
 
     #[test]

@@ -22,8 +22,8 @@ pub use plan::smoothing;
 use super::pictures::{EnergyChart, MeshPictures};
 use super::reference::Stepper;
 use super::{
-    BathStep, Beyond, Column, ExactMean, KeptQuantity, KeptSum, Limit, MaterialLoops, Model, Observables, Physics,
-    PictureKind, ShallowWater, Species, column, conservation, speeds,
+    BathStep, Beyond, Checked, Column, ExactMean, KeptQuantity, KeptSum, Limit, MaterialLoops, Model, Observables,
+    Physics, PictureKind, ShallowWater, Species, column, conservation, speeds,
 };
 use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, SmoothingSolver, Warning, brief};
 use crate::numbers::{grouped, with_error};
@@ -103,8 +103,8 @@ impl Physics for ShallowWater {
         self.bath.is_some_and(|bath| bath.coupling > 0.0) && model.temperature > 0.0
     }
 
-    fn steady_field(&self, quantity: FieldQuantity, scene: &Scene, model: &Model) -> Option<Vec<f64>> {
-        steady::field(self, scene, model, quantity)
+    fn steady_field(&self, quantity: FieldQuantity, scene: &Checked) -> Option<Vec<f64>> {
+        steady::field(self, scene, quantity)
     }
 
     fn mass_unit(&self) -> Option<f64> {
@@ -115,7 +115,7 @@ impl Physics for ShallowWater {
         true
     }
 
-    fn limits(&self, scene: &Scene, _: &Model) -> Vec<Limit> {
+    fn limits(&self, scene: &Checked) -> Vec<Limit> {
         let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
         let share = self.stability(&scene.integrator, lengths, scene.time.step);
         vec![
@@ -124,7 +124,7 @@ impl Physics for ShallowWater {
         ]
     }
 
-    fn unneeded(&self, _: &Scene, _: &Model) -> Vec<String> {
+    fn unneeded(&self, _: &Checked) -> Vec<String> {
         let iterates = matches!(self.smoothing.solver, SmoothingSolver::Chebyshev { .. });
         let transformable = self.mesh.iter().all(|nodes| nodes.is_power_of_two());
         let [x, y] = self.mesh;
@@ -133,16 +133,16 @@ impl Physics for ShallowWater {
         (iterates && transformable).then_some(found).into_iter().collect()
     }
 
-    fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {
-        warnings::warnings(self, scene, model)
+    fn warnings(&self, scene: &Checked) -> Vec<Warning> {
+        warnings::warnings(self, scene)
     }
 
     fn set_in_motion(&self, state: &mut State, group: &ParticleGroup, ids: Range<usize>, model: &Model) {
         start::set_in_motion(self, state, group, ids, model);
     }
 
-    fn complete_start(&self, state: &mut State, _: &Scene, model: &Model, thermal: &[usize]) {
-        start::complete(self, state, model, thermal);
+    fn complete_start(&self, state: &mut State, scene: &Checked, thermal: &[usize]) {
+        start::complete(self, state, scene.model(), thermal);
     }
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
@@ -170,7 +170,7 @@ impl Physics for ShallowWater {
         description::particles(self, count)
     }
 
-    fn description(&self, scene: &Scene, _: &Model, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
+    fn description(&self, scene: &Checked, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
         description::mesh(self, scene, plan, cells)
     }
 

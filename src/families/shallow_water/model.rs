@@ -161,9 +161,9 @@ impl ShallowWater {
     /// turn on p is infinite.
     ///
     /// ```
-    /// use mesoscope::{families::Model, scene};
+    /// use mesoscope::scene;
     ///
-    /// let model = Model::new(&scene::load("shallow-water", &[])?);
+    /// let model = scene::load("shallow-water", &[])?.model().clone();
     /// let water = model.shallow_water().ok_or("no shallow water")?;
     /// let [x, y, _] = model.units.lengths;
     /// let share = water.stability(&model.integrator, [x, y], model.time_step);
@@ -185,10 +185,10 @@ impl ShallowWater {
     /// 3.8, 1.9, 1.32 and 1.08 for linear ones; smoothing lowers it. The factor here is above all of these.
     ///
     /// ```
-    /// use mesoscope::{families::Model, scene};
+    /// use mesoscope::scene;
     ///
     /// let share = |name: &str| {
-    ///     let model = Model::new(&scene::load(name, &[])?);
+    ///     let model = scene::load(name, &[])?.model().clone();
     ///     Ok::<_, scene::SceneError>(model.shallow_water().map_or(0.0, |water| water.clean_share()))
     /// };
     /// // 16 particles a cell, and 4.

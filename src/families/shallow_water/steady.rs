@@ -4,12 +4,13 @@
 //! carries the depth away, no particle accelerates along its way, and the slope of the surface holds the balance with the rotation.
 
 use super::surface::Surface;
-use crate::document::{FieldQuantity, ParticleGroup, Scene, SurfaceFeature, Velocities};
-use crate::families::{Model, ShallowWater};
+use crate::document::{FieldQuantity, ParticleGroup, SurfaceFeature, Velocities};
+use crate::families::{Checked, ShallowWater};
 
 /// A field on the nodes, which keeps the values of its start: the first index is that of x, as in the arrays of runs. None where the
 /// flow is not steady, or not known to be.
-pub(super) fn field(water: &ShallowWater, scene: &Scene, model: &Model, quantity: FieldQuantity) -> Option<Vec<f64>> {
+pub(super) fn field(water: &ShallowWater, scene: &Checked, quantity: FieldQuantity) -> Option<Vec<f64>> {
+    let model = scene.model();
     let lengths = [model.units.lengths[0], model.units.lengths[1]];
     let in_balance = |group: &ParticleGroup| group.tracer || group.velocities == Velocities::Geostrophic;
     let is_steady = water.bath.is_none()
@@ -81,8 +82,7 @@ mod tests {
         let small = ["particles.0.count=1024", "interactions.0.smoothing.length=0.8"];
         let all = changes.iter().chain(&small).chain(further).map(|change| (*change).to_owned());
         let scene = scene::load("shallow-water", &all.collect::<Vec<_>>()).unwrap();
-        let model = Model::new(&scene);
-        field(model.shallow_water().unwrap(), &scene, &model, FieldQuantity::Depth)
+        field(scene.model().shallow_water().unwrap(), &scene, FieldQuantity::Depth)
     }
 
     #[test]
@@ -123,9 +123,8 @@ mod tests {
             .map(str::to_owned),
         )
         .unwrap();
-        let model = Model::new(&scene);
-        let water = model.shallow_water().unwrap();
-        let of = |quantity| field(water, &scene, &model, quantity).unwrap();
+        let water = scene.model().shallow_water().unwrap();
+        let of = |quantity| field(water, &scene, quantity).unwrap();
         let [depth, speed, vorticity, potential] =
             [FieldQuantity::Depth, FieldQuantity::Speed, FieldQuantity::Vorticity, FieldQuantity::PotentialVorticity]
                 .map(of);

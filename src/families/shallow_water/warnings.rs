@@ -2,11 +2,11 @@
 
 use crate::document::{Interaction, ParticleGroup, Placement, Scene, Velocities, Warning, brief};
 use crate::families::warnings::warn;
-use crate::families::{Model, ShallowWater};
+use crate::families::{Checked, Model, ShallowWater};
 use std::f64::consts::PI;
 
 /// All warnings about a scene.
-pub(super) fn warnings(water: &ShallowWater, scene: &Scene, model: &Model) -> Vec<Warning> {
+pub(super) fn warnings(water: &ShallowWater, scene: &Checked) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if water.carriers == 0 {
         let message = "there is no water: nothing moves, and the depth, whose mean is 1 by definition, is drawn as 1";
@@ -14,7 +14,7 @@ pub(super) fn warnings(water: &ShallowWater, scene: &Scene, model: &Model) -> Ve
     }
     warn_of_waves(scene, water, &mut warnings);
     warn_of_mesh_noise(scene, water, &mut warnings);
-    warn_of_sparse_loops(scene, water, model, &mut warnings);
+    warn_of_sparse_loops(scene, water, scene.model(), &mut warnings);
     warnings
 }
 

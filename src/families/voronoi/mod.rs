@@ -18,8 +18,8 @@ pub use layout::CellLayout;
 use super::pictures::{CellValues, EnergyChart};
 use super::reference::Stepper;
 use super::{
-    Column, KeptQuantity, KeptSum, Limit, Model, NETWORK_VISCOSITY, Observables, Physics, PictureKind, Species, Tally,
-    Voronoi, conservation, units,
+    Checked, Column, KeptQuantity, KeptSum, Limit, Model, NETWORK_VISCOSITY, Observables, Physics, PictureKind,
+    Species, Tally, Voronoi, conservation, units,
 };
 use crate::document::{InitialMasses, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
@@ -73,12 +73,12 @@ impl Physics for Voronoi {
         self.exchanges_mass()
     }
 
-    fn limits(&self, scene: &Scene, model: &Model) -> Vec<Limit> {
-        warnings::limits(self, scene, model)
+    fn limits(&self, scene: &Checked) -> Vec<Limit> {
+        warnings::limits(self, scene)
     }
 
-    fn warnings(&self, scene: &Scene, model: &Model) -> Vec<Warning> {
-        warnings::warnings(self, scene, model)
+    fn warnings(&self, scene: &Checked) -> Vec<Warning> {
+        warnings::warnings(self, scene)
     }
 
     fn set_in_motion(&self, state: &mut State, _: &ParticleGroup, ids: Range<usize>, _: &Model) {
@@ -86,30 +86,30 @@ impl Physics for Voronoi {
         state.momenta.resize(ids.end, [0; 3]);
     }
 
-    fn complete_start(&self, state: &mut State, scene: &Scene, model: &Model, _: &[usize]) {
-        start::fill(state, scene, model, self);
+    fn complete_start(&self, state: &mut State, scene: &Checked, _: &[usize]) {
+        start::fill(state, scene, self);
     }
 
     fn may_refuse_starts(&self) -> bool {
         self.initial_masses != InitialMasses::Equal || self.keeps_energy()
     }
 
-    fn check_start(&self, scene: &Scene, _: &Model, state: &State, problems: &mut Problems) {
+    fn check_start(&self, scene: &Checked, state: &State, problems: &mut Problems) {
         start::check_masses(scene, self, &state.masses, problems);
         start::check_places(self, state, problems);
     }
 
-    fn check_step(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
-        time_scales::check(self, scene, model, problems);
+    fn check_step(&self, scene: &Checked, problems: &mut Problems) {
+        time_scales::check(self, scene, problems);
     }
 
     fn plan(&self, model: &Model, measured: &Measured, _: Hardware, options: Options) -> PhysicsPlan {
         self::plan::plan(model, self, measured, options)
     }
 
-    fn description(&self, _: &Scene, model: &Model, _: &Plan, cells: &str) -> Vec<(&'static str, String)> {
+    fn description(&self, scene: &Checked, _: &Plan, cells: &str) -> Vec<(&'static str, String)> {
         let mut rows = vec![("search grid", cells.to_owned())];
-        rows.extend(description::fluid(self, model));
+        rows.extend(description::fluid(self, scene.model()));
         rows
     }
 

@@ -4,7 +4,7 @@ use super::checks::LIGHTEST;
 use crate::document::voronoi;
 use crate::document::{Generator, InitialMasses, Interaction, Problems, Scene, Velocities};
 use crate::families::start::bring_to_rest;
-use crate::families::{Model, Voronoi};
+use crate::families::{Checked, Voronoi};
 use crate::noise::{self, stream};
 use crate::state::State;
 use crate::tessellation::Tessellation;
@@ -14,9 +14,10 @@ use std::f64::consts::TAU;
 ///
 /// Thermal momenta follow the mass and the temperature of each cell, a shear wave its mass and place. The net momentum of
 /// all cells with either is zero to the last bit.
-pub(crate) fn fill(state: &mut State, scene: &Scene, model: &Model, cells: &Voronoi) {
-    let temperatures = temperatures(state, scene, model);
-    state.masses = masses(state, scene, model, cells).into_iter().map(|units| units as u32).collect();
+pub(crate) fn fill(state: &mut State, scene: &Checked, cells: &Voronoi) {
+    let model = scene.model();
+    let temperatures = temperatures(state, scene);
+    state.masses = masses(state, scene, cells).into_iter().map(|units| units as u32).collect();
     let mass = |masses: &[u32], id: usize| f64::from(masses[id]) * cells.mass_unit;
     let to_units = |momentum: f64| (momentum / model.units.momentum).round_ties_even() as i32;
     let key = noise::step_key(model.seed, stream::VELOCITY, 0);
@@ -65,7 +66,8 @@ pub(crate) fn fill(state: &mut State, scene: &Scene, model: &Model, cells: &Voro
 }
 
 /// Temperature kT of every cell at the start: that of the last region around it, or of the scene.
-fn temperatures(state: &State, scene: &Scene, model: &Model) -> Vec<f64> {
+fn temperatures(state: &State, scene: &Checked) -> Vec<f64> {
+    let model = scene.model();
     let regions = voronoi(scene).and_then(|voronoi| voronoi.energy.as_ref()).map(|energy| &energy.initial_temperatures);
     let temperature = |position: &[u32; 3]| {
         let around = regions.into_iter().flatten().rfind(|region| {
@@ -79,7 +81,8 @@ fn temperatures(state: &State, scene: &Scene, model: &Model) -> Vec<f64> {
 }
 
 /// Masses of all cells in integer units, as real numbers that are whole: their sum is that of the groups to the last unit.
-fn masses(state: &State, scene: &Scene, model: &Model, cells: &Voronoi) -> Vec<f64> {
+fn masses(state: &State, scene: &Checked, cells: &Voronoi) -> Vec<f64> {
+    let model = scene.model();
     let units = |mass: f64| (mass / cells.mass_unit).round_ties_even();
     let groups = scene.particles.iter();
     let counted = groups.map(|group| (group.resolved_count(&scene.space) as usize, units(group.mass)));
@@ -92,7 +95,7 @@ fn masses(state: &State, scene: &Scene, model: &Model, cells: &Voronoi) -> Vec<f
     let volumes = tessellation.cells.iter().map(|cell| cell.volume);
     let shares: Vec<f64> = if cells.initial_masses == InitialMasses::UniformPressure {
         // pV = NkT of N = M/m molecules.
-        volumes.zip(temperatures(state, scene, model)).map(|(volume, temperature)| volume / temperature).collect()
+        volumes.zip(temperatures(state, scene)).map(|(volume, temperature)| volume / temperature).collect()
     } else {
         volumes.collect()
     };

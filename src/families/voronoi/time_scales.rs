@@ -1,7 +1,7 @@
 //! How fast sound, friction and heat act on Voronoi cells, and the time step that follows.
 
-use crate::document::{Problems, Scene, brief};
-use crate::families::{Model, Voronoi};
+use crate::document::{Problems, brief};
+use crate::families::{Checked, Model, Voronoi};
 
 /// A sound wave that passes more than this part of a cell in one step is not resolved.
 pub(super) const SOUND_LIMIT: f64 = 0.2;
@@ -50,8 +50,8 @@ pub(super) fn lightest(model: &Model) -> f64 {
 }
 
 /// Refuses a time step in which friction is beyond what single precision can solve for.
-pub(super) fn check(cells: &Voronoi, scene: &Scene, model: &Model, problems: &mut Problems) {
-    let (step, lightest) = (scene.time.step, lightest(model));
+pub(super) fn check(cells: &Voronoi, scene: &Checked, problems: &mut Problems) {
+    let (step, lightest) = (scene.time.step, lightest(scene.model()));
     let friction = step * cells.viscosity / lightest;
     if friction <= MOST_FRICTION {
         return;

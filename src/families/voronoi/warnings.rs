@@ -1,17 +1,17 @@
 //! What is allowed of Voronoi cells but deserves a second look.
 
 use super::time_scales::{FRICTION_LIMIT, RARELY, SOUND_LIMIT, lightest};
-use crate::document::{InitialMasses, Integrator, Interaction, Scene, VoronoiForm, VoronoiInteraction, Warning};
+use crate::document::{InitialMasses, Integrator, Interaction, VoronoiForm, VoronoiInteraction, Warning};
 use crate::document::{shear_waves, voronoi};
 use crate::families::warnings::{warn, warn_of_momentum};
-use crate::families::{Beyond, Limit, Model, Voronoi, speeds};
+use crate::families::{Beyond, Checked, Limit, Voronoi, speeds};
 
 /// All warnings about a scene.
-pub(super) fn warnings(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Warning> {
+pub(super) fn warnings(cells: &Voronoi, scene: &Checked) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if let Some(voronoi) = voronoi(scene) {
-        warn_of_cells(scene, model, cells, voronoi.form, &mut warnings);
-        warn_of_fluid(scene, model, voronoi, cells, &mut warnings);
+        warn_of_cells(scene, cells, voronoi.form, &mut warnings);
+        warn_of_fluid(scene, voronoi, cells, &mut warnings);
     }
     warn_of_momentum(scene, &mut warnings);
     warnings
@@ -41,16 +41,16 @@ const LARGEST_REYNOLDS: f64 = 4.0;
 const MOST_MOLECULES: f64 = 20.0;
 
 /// The laws that bound the time step.
-pub(super) fn limits(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Limit> {
-    let (sound, size) = sound_and_size(scene, model, cells);
-    let friction = cells.viscosity * scene.time.step / lightest(model);
+pub(super) fn limits(cells: &Voronoi, scene: &Checked) -> Vec<Limit> {
+    let (sound, size) = sound_and_size(scene, cells);
+    let friction = cells.viscosity * scene.time.step / lightest(scene.model());
     let (law, friction) = if scene.integrator == (Integrator::Euler {}) {
         let form = voronoi(scene).map(|voronoi| voronoi.form).unwrap_or_default();
         ("2 % of heat of Euler's scheme", euler_excess(form) * friction / HOT)
     } else {
         ("friction dt η/M = 1/20", friction / FRICTION_LIMIT)
     };
-    let heat = random_heat(scene, model, cells).unwrap_or(0.0);
+    let heat = random_heat(scene, cells).unwrap_or(0.0);
     let cut = if cells.exchange_limit > 0.0 { RARELY * heat / cells.exchange_limit } else { 0.0 };
     vec![
         Limit {
@@ -64,26 +64,26 @@ pub(super) fn limits(cells: &Voronoi, scene: &Scene, model: &Model) -> Vec<Limit
 }
 
 /// The speed of sound and the width of a cell.
-fn sound_and_size(scene: &Scene, model: &Model, cells: &Voronoi) -> (f64, f64) {
-    (cells.speed_of_sound(speeds::hottest(scene)), Voronoi::mean_volume(model).sqrt())
+fn sound_and_size(scene: &Checked, cells: &Voronoi) -> (f64, f64) {
+    (cells.speed_of_sound(speeds::hottest(scene)), Voronoi::mean_volume(scene.model()).sqrt())
 }
 
 /// The random heat through a face in one step, as a part of the energy of a cell, where heat is conducted.
-fn random_heat(scene: &Scene, model: &Model, cells: &Voronoi) -> Option<f64> {
+fn random_heat(scene: &Checked, cells: &Voronoi) -> Option<f64> {
     let voronoi = voronoi(scene)?;
     // Hot cells have fewer molecules at the same pressure.
     let thinned = match voronoi.initial_masses {
         InitialMasses::UniformPressure => voronoi.hottest(scene.temperature) / scene.temperature,
         InitialMasses::Equal | InitialMasses::UniformDensity => 1.0,
     };
-    cells.conductivity.map(|_| cells.random_heat(lightest(model), scene.time.step) * thinned)
+    cells.conductivity.map(|_| cells.random_heat(lightest(scene.model()), scene.time.step) * thinned)
 }
 
 /// Warns of a time step that is too long for Voronoi cells.
-fn warn_of_cells(scene: &Scene, model: &Model, cells: &Voronoi, form: VoronoiForm, warnings: &mut Vec<Warning>) {
+fn warn_of_cells(scene: &Checked, cells: &Voronoi, form: VoronoiForm, warnings: &mut Vec<Warning>) {
     let step = scene.time.step;
-    let lightest = lightest(model);
-    let (sound, size) = sound_and_size(scene, model, cells);
+    let lightest = lightest(scene.model());
+    let (sound, size) = sound_and_size(scene, cells);
     if sound * step > SOUND_LIMIT * size {
         let message = format!(
             "sound of speed {sound:.3} passes {:.2} of a cell of width {size:.3} in one step of {step}; up to \
@@ -116,13 +116,8 @@ fn warn_of_cells(scene: &Scene, model: &Model, cells: &Voronoi, form: VoronoiFor
 }
 
 /// Warns of a fluid of Voronoi cells that the model does not describe well.
-fn warn_of_fluid(
-    scene: &Scene,
-    model: &Model,
-    voronoi: &VoronoiInteraction,
-    cells: &Voronoi,
-    warnings: &mut Vec<Warning>,
-) {
+fn warn_of_fluid(scene: &Checked, voronoi: &VoronoiInteraction, cells: &Voronoi, warnings: &mut Vec<Warning>) {
+    let model = scene.model();
     let place = scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::Voronoi(_)));
     let path = format!("interactions[{}]", place.unwrap_or(0));
     let present = || model.species.iter().filter(|species| species.count > 0);
@@ -148,7 +143,7 @@ fn warn_of_fluid(
         );
         warn(warnings, format!("{path}.molecular_mass"), message);
     }
-    if let Some(random) = random_heat(scene, model, cells)
+    if let Some(random) = random_heat(scene, cells)
         && RARELY * random > cells.exchange_limit
     {
         let message = format!(

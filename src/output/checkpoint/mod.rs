@@ -23,6 +23,7 @@
 mod read;
 
 use super::{Extent, Id, OutputError, write_atomically};
+use crate::families::Checked;
 use crate::scene::{Scene, SceneError};
 use crate::state::{State, StateArray};
 pub use crate::state_file::checkpoint::ContentError;
@@ -39,7 +40,7 @@ pub struct Checkpoint {
     /// The id of the run.
     pub run_id: Id,
     /// The resolved scene.
-    pub scene: Scene,
+    pub scene: Checked,
     /// The exact state.
     pub state: State,
     /// What had been written by then of the files that grow, by name: the table of energies and the trajectory.
@@ -84,13 +85,13 @@ impl CheckpointError {
 ///
 /// ```
 /// use mesoscope::output::{Id, checkpoint};
-/// use mesoscope::families::{self, Model};
+/// use mesoscope::families;
 /// use mesoscope::scene;
 ///
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("checkpoint.bin");
 /// let scene = scene::load("dpd-fluid", &[])?;
-/// let state = mesoscope::families::initial_state(&scene, &Model::new(&scene));
+/// let state = mesoscope::families::initial_state(&scene);
 /// checkpoint::save(&path, Id::of_run(&scene), &scene, &state, &[], &[])?;
 /// let found = checkpoint::load(&path)?;
 /// assert!(found.scene == scene && found.state == state);

@@ -1,10 +1,10 @@
 //! Reading a checkpoint: everything is checked before it is believed.
 
 use super::{Checkpoint, CheckpointError};
-use crate::families::Model;
+use crate::families::Checked;
 use crate::numbers::counted;
 use crate::output::{Extent, Id, OutputError, own_file};
-use crate::scene::{self, FileStart, Scene};
+use crate::scene::{FileStart, WrittenScene};
 use crate::state_file::checkpoint::{self, BUFFER, Content, ContentError, MAGIC, START, VERSION};
 use std::io::Read;
 use std::path::Path;
@@ -19,8 +19,8 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
     let mut early = None;
     let refused = |source| CheckpointError::Scene { path: path.to_path_buf(), source };
     let check = |text: &str, step: u64, count: u64| {
-        let scene = scene::parse_kept("its scene", text, &[], None).map_err(refused)?;
-        let (last, asked) = (scene.time.steps, Model::new(&scene).particle_count());
+        let scene = WrittenScene::new("its scene", text).check_kept(None).map_err(refused)?;
+        let (last, asked) = (scene.time.steps, scene.model().particle_count());
         if step > last {
             let problem = format!("it is of step {step}, and its scene ends with step {last}");
             return Err(CheckpointError::malformed(path, problem));
@@ -40,7 +40,7 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
     let malformed = |problem: &str| CheckpointError::malformed(path, problem.to_owned());
     let run_id = Id::parse(&content.run_id).ok_or_else(|| malformed("its run id is none"))?;
     let Content { scene: text, state, files, mut sections, .. } = content;
-    let mut scene: Scene = early.ok_or_else(|| malformed("it has no scene"))?;
+    let mut scene: Checked = early.ok_or_else(|| malformed("it has no scene"))?;
     if scene.has_start() {
         let place = sections.iter().position(|(name, _)| name == START);
         let start = place.map(|place| sections.remove(place).1);
@@ -53,7 +53,7 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
         let start = start
             .filter(fits)
             .ok_or_else(|| malformed("what it keeps of the start of its particles makes no sense"))?;
-        scene = scene::parse_kept("its scene", &text, &[], Some(Arc::new(start))).map_err(refused)?;
+        scene = WrittenScene::new("its scene", text).check_kept(Some(Arc::new(start))).map_err(refused)?;
     }
     let files = files.into_iter().map(|(name, bytes, crc32)| (name, Extent { bytes, crc32 })).collect();
     Ok(Checkpoint { run_id, scene, state, files, sections })

@@ -14,17 +14,17 @@ use std::path::Path;
 ///
 /// ```
 /// use mesoscope::output::{Id, TrajectoryWriter};
-/// use mesoscope::families::{self, Model};
+/// use mesoscope::families;
 /// use mesoscope::scene;
 ///
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("trajectory.xyz");
 /// let small = ["space.box=[3,3,3]", "output={}"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &small)?;
-/// let model = Model::new(&scene);
-/// let state = mesoscope::families::initial_state(&scene, &model);
+/// let model = scene.model();
+/// let state = mesoscope::families::initial_state(&scene);
 /// let format = scene::TrajectoryFormat::ExtendedXyz;
-/// let mut trajectory = TrajectoryWriter::create(&path, format, &model, Id::of_run(&scene))?;
+/// let mut trajectory = TrajectoryWriter::create(&path, format, model, Id::of_run(&scene))?;
 /// trajectory.append(&state.into())?;
 /// trajectory.flush()?;
 /// let text = std::fs::read_to_string(&path)?;
@@ -258,9 +258,8 @@ mod tests {
                 "velocities": {"type": "listed", "velocities": [[1, 0], [0, 2], [-1, 0.5]]}}],
             "interactions": [{"type": "voronoi", "form": "paper", "initial_masses": "uniform-density"}]}"#;
         let scene = scene::parse("t", scene, &[]).unwrap();
-        let model = Model::new(&scene);
-        let state: Reported = initial_state(&scene, &model).into();
-        let description = Description::new(&model, Id::of_run(&scene));
+        let state: Reported = initial_state(&scene).into();
+        let description = Description::new(scene.model(), Id::of_run(&scene));
         assert!(description.changing_masses);
         let masses = [0, 1, 2].map(|cell| description.mass(&state, cell));
         assert!((masses.iter().sum::<f64>() - 6.0).abs() < 1e-9 && masses[0] != masses[1], "{masses:?}");
@@ -273,9 +272,8 @@ mod tests {
     #[test]
     fn particles_of_water_have_masses_of_their_own_and_tracers_none() {
         let scene = scene::load("jet-instability", &[]).unwrap();
-        let model = Model::new(&scene);
-        let state: Reported = initial_state(&scene, &model).into();
-        let description = Description::new(&model, Id::of_run(&scene));
+        let state: Reported = initial_state(&scene).into();
+        let description = Description::new(scene.model(), Id::of_run(&scene));
         let masses: Vec<f64> = (0..state.len()).map(|particle| description.mass(&state, particle)).collect();
         let nodes = 128.0 * 128.0;
         assert!((masses.iter().sum::<f64>() - nodes).abs() < 1e-9);

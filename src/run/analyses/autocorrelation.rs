@@ -4,13 +4,13 @@ use super::{
     Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, SumSampler, found, windows_missing,
 };
 use crate::engine::Sample;
-use crate::families::Model;
+use crate::families::Checked;
 use crate::measure::correlation::WindowedAverage;
 use crate::measure::fit::FittedDecay;
 use crate::numbers::with_error;
 use crate::plan::{Need, Plan, Window};
 use crate::plot::{Chart, autocorrelation_chart};
-use crate::scene::{self, AnalysisId, CorrelatedQuantity, DecayFit, Output, Scene};
+use crate::scene::{self, AnalysisId, CorrelatedQuantity, DecayFit, Output};
 use crate::shaders::analyses::Sampled;
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
@@ -28,7 +28,7 @@ impl Autocorrelation {
 }
 
 impl Descriptor for Autocorrelation {
-    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         let asked = self.of(&scene.output)?;
         Some(Sampling::after_equilibration(scene, asked.every).in_windows(asked.window))
     }
@@ -70,17 +70,18 @@ impl Descriptor for Autocorrelation {
         });
     }
 
-    fn parts(&self, _: &Scene, _: &Model) -> Vec<Part> {
+    fn parts(&self, _: &Checked) -> Vec<Part> {
         // Means over the particles that can move of products with the beginning of the window.
         vec![Part::series(1)]
     }
 
-    fn numbers_of_sample(&self, Setting { model, plan, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
-        let mean = |sum: &i64| *sum as f64 * quantum(plan, self.0) / model.mobile_particles() as f64;
+    fn numbers_of_sample(&self, Setting { scene, plan }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        let mean = |sum: &i64| *sum as f64 * quantum(plan, self.0) / scene.model().mobile_particles() as f64;
         Some(sample.sums.iter().map(mean).collect())
     }
 
-    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let asked = self.of(&scene.output)?;
         let interval = asked.every as f64 * model.time_step;
         let average = WindowedAverage::from_samples(asked.window as usize, gathered.part(0));
@@ -125,7 +126,7 @@ impl Descriptor for Autocorrelation {
         autocorrelation_chart(drawn.title(), self.0.name(), (&lags, &values, &errors), (&fitted.0, &fitted.1))
     }
 
-    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+    fn finds(&self, _: &Checked) -> Vec<&'static str> {
         vec![MEAN_SQUARE]
     }
 }

@@ -1,7 +1,7 @@
 //! What a run of harmonic chains measures and writes.
 
 use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Sampling, Setting};
-use crate::families::{ChainTrios, Likeness, Model, Strand};
+use crate::families::{ChainTrios, Checked, Likeness, Strand};
 use crate::measure::harmonic_chain::{MemoryKernel, NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses};
 use crate::measure::statistics::Estimate;
 use crate::plot::{
@@ -22,7 +22,7 @@ pub(super) struct Chain;
 const PULSES: usize = 1;
 
 impl Descriptor for Chain {
-    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         let every = scene.output.chain.as_ref()?.every;
         Some(Sampling { every, ..Sampling::default() })
     }
@@ -33,7 +33,7 @@ impl Descriptor for Chain {
 
     /// Samples; of each the step, energies and displacements of the chains with a pulse; and what is kept of each chain
     /// in equilibrium.
-    fn parts(&self, scene: &Scene, _: &Model) -> Vec<Part> {
+    fn parts(&self, scene: &Checked) -> Vec<Part> {
         let Some(trios) = ChainTrios::from_scene(scene) else { return Vec::new() };
         let clusters = trios.thermal.clusters;
         let thermal = [Part::series(clusters), Part::sums(clusters.saturating_sub(1)), Part::series(2)];
@@ -41,11 +41,11 @@ impl Descriptor for Chain {
         pulse.into_iter().chain(std::iter::repeat_n(thermal, 3).flatten()).collect()
     }
 
-    fn numbers_of_state(&self, Setting { scene, model, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
+    fn numbers_of_state(&self, Setting { scene, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
         let trios = ChainTrios::from_scene(scene)?;
         let [pulse, thermal] = trios.strands();
         let clusters = |number: usize, strand: &Strand| {
-            let (displacements, momenta) = strand.motion(&state.positions, &state.momenta, &model.units);
+            let (displacements, momenta) = strand.motion(&state.positions, &state.momenta, &scene.model().units);
             match Likeness::ALL[number] {
                 Likeness::Micro => trios.pulse.coarse_grained(&displacements, &momenta),
                 _ => (displacements, momenta),
@@ -63,7 +63,8 @@ impl Descriptor for Chain {
         Some(numbers)
     }
 
-    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let trios = ChainTrios::from_scene(scene)?;
         let pulses = gathered.part(PULSES).chunks_exact(pulse_width(&trios));
         let thermal = [0, 1, 2].map(|chain| {
@@ -93,7 +94,7 @@ impl Descriptor for Chain {
         }
     }
 
-    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+    fn finds(&self, _: &Checked) -> Vec<&'static str> {
         vec![REDUCED_TIME, REDUCED_FRICTION]
     }
 }

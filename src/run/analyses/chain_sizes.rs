@@ -5,11 +5,11 @@ use super::{
     printed_mean,
 };
 use crate::engine::Sample;
-use crate::families::{ChainGroup, Model, Walks};
+use crate::families::{ChainGroup, Checked, Walks};
 use crate::measure::statistics::estimate;
 use crate::plan::Words;
 use crate::plot::{ChainKind, Chart, chain_sizes_chart};
-use crate::scene::{AnalysisId, Scene};
+use crate::scene::AnalysisId;
 use crate::shaders::analyses::Walk;
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
@@ -23,7 +23,7 @@ const GYRATION: &str = "radius_of_gyration_squared";
 pub(super) struct ChainSizes;
 
 impl Descriptor for ChainSizes {
-    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         Some(Sampling::after_equilibration(scene, scene.output.chain_sizes.as_ref()?.every))
     }
 
@@ -48,20 +48,21 @@ impl Descriptor for ChainSizes {
         });
     }
 
-    fn parts(&self, _: &Scene, model: &Model) -> Vec<Part> {
+    fn parts(&self, scene: &Checked) -> Vec<Part> {
         // A step, then two means for each group.
-        vec![Part::series(1 + 2 * model.particles().chain_groups.len())]
+        vec![Part::series(1 + 2 * scene.model().particles().chain_groups.len())]
     }
 
-    fn numbers_of_sample(&self, Setting { model, plan, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+    fn numbers_of_sample(&self, Setting { scene, plan }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
         let means = sample.sums.iter().enumerate().map(|(index, sum)| {
-            let chains = model.particles().chain_groups.get(index / 2).map_or(1, |group| group.chains.max(1));
+            let chains = scene.model().particles().chain_groups.get(index / 2).map_or(1, |group| group.chains.max(1));
             *sum as f64 * plan.quanta.length_squared / f64::from(chains)
         });
         Some(std::iter::once(sample.step as f64).chain(means).collect())
     }
 
-    fn conclude(&self, Setting { model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let groups = &model.particles().chain_groups;
         let columns =
             (0..groups.len()).flat_map(|number| [END_TO_END, GYRATION].map(|quantity| format!("{quantity}_{number}")));

@@ -2,12 +2,12 @@
 
 use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting};
 use crate::engine::Sample;
-use crate::families::{MaterialLoops, Model};
+use crate::families::{Checked, MaterialLoops};
 use crate::measure::circulation::{circulation, largest_gap};
 use crate::plan::recording::SAMPLE_ROWS;
 use crate::plan::{Kernel, Sampler};
 use crate::plot::{Chart, circulation_chart};
-use crate::scene::{AnalysisId, Scene};
+use crate::scene::AnalysisId;
 use crate::shaders::{Array, Choices, Entry};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
@@ -27,7 +27,8 @@ const RELATIVE_CHANGE: &str = "largest_relative_change";
 pub(super) struct Circulation;
 
 impl Descriptor for Circulation {
-    fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
+        let model = scene.model();
         let loops = model.physics().material_loops(model).map_or(0, |found| found.loops.len() as u64);
         let sampling = Sampling { every: scene.output.energies.every, ..Sampling::default() };
         (loops > 0).then(|| Sampling { numbers: sampling.count(scene).saturating_mul(loops + 2), ..sampling })
@@ -50,14 +51,16 @@ impl Descriptor for Circulation {
         planner.plan.samplers.push(Sampler { first: 0, kernels: vec![record], whole: 0..quantities, ..plain });
     }
 
-    fn parts(&self, _: &Scene, model: &Model) -> Vec<Part> {
+    fn parts(&self, scene: &Checked) -> Vec<Part> {
+        let model = scene.model();
         // Time and circulations.
         vec![Part::series(1 + model.physics().material_loops(model).map_or(0, |found| found.loops.len()))]
     }
 
     /// Time and circulations of all closed loops, from position and velocity of every tracer, two integers a word. A
     /// circulation is not a number once its loop is no curve any more.
-    fn numbers_of_sample(&self, Setting { model, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+    fn numbers_of_sample(&self, Setting { scene, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+        let model = scene.model();
         let MaterialLoops { rotation, spacing, loops, .. } = model.physics().material_loops(model)?;
         let halves = |word: &i64| [*word as u32, (*word >> 32) as u32];
         let mut row = vec![sample.step as f64 * model.time_step];
@@ -74,7 +77,8 @@ impl Descriptor for Circulation {
         Some(row)
     }
 
-    fn conclude(&self, Setting { model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let loops = model.physics().material_loops(model)?.loops;
         let rows = gathered.part(0).chunks_exact(1 + loops.len()).map(<[f64]>::to_vec).collect();
         let names = std::iter::once("time").chain(loops.iter().map(|(name, _)| name.as_str()));

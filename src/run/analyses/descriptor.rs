@@ -4,7 +4,7 @@ use super::Planner;
 use super::gathered::{Gathered, Part};
 use super::results::printed;
 use crate::engine::Sample;
-use crate::families::Model;
+use crate::families::Checked;
 use crate::numbers::grouped;
 use crate::plan::{Need, Plan};
 use crate::plot::Chart;
@@ -16,7 +16,7 @@ use serde_json::Value;
 /// An analysis: what it asks of a run, what is kept of its samples, and what follows from them.
 pub(super) trait Descriptor {
     /// How a scene asks for it; none if it does not.
-    fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling>;
+    fn asked(&self, scene: &Checked) -> Option<Sampling>;
 
     /// What a report has to leave for its sampler, if a scene asks for it.
     fn needs(&self, output: &Output) -> &'static [Need] {
@@ -35,7 +35,7 @@ pub(super) trait Descriptor {
     }
 
     /// The kept numbers of samples.
-    fn parts(&self, scene: &Scene, model: &Model) -> Vec<Part>;
+    fn parts(&self, scene: &Checked) -> Vec<Part>;
 
     /// The numbers that a row of its sampler adds to the parts.
     fn numbers_of_sample(&self, setting: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
@@ -67,8 +67,8 @@ pub(super) trait Descriptor {
     }
 
     /// The names of the numbers that it finds, as they stand at the top of its result; counts of samples and what was asked for are none.
-    fn finds(&self, scene: &Scene, model: &Model) -> Vec<&'static str> {
-        let _ = (scene, model);
+    fn finds(&self, scene: &Checked) -> Vec<&'static str> {
+        let _ = scene;
         self.labels().iter().map(|(_, name)| *name).collect()
     }
 }
@@ -108,8 +108,7 @@ impl Sampling {
 /// The run that samples belong to.
 #[derive(Clone, Copy)]
 pub(in crate::run) struct Setting<'a> {
-    pub scene: &'a Scene,
-    pub model: &'a Model,
+    pub scene: &'a Checked,
     pub plan: &'a Plan,
 }
 

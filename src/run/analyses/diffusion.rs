@@ -4,13 +4,13 @@ use super::{
     Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, SumSampler, found, windows_missing,
 };
 use crate::engine::Sample;
-use crate::families::Model;
+use crate::families::Checked;
 use crate::measure::correlation::WindowedAverage;
 use crate::measure::diffusion::DiffusionWindows;
 use crate::plan::paths::PATH;
 use crate::plan::{Paths, Window};
 use crate::plot::{Chart, diffusion_chart};
-use crate::scene::{AnalysisId, Scene};
+use crate::scene::AnalysisId;
 use crate::shaders::{Array, Constant, Entry};
 use crate::table::Table;
 use serde_json::json;
@@ -26,7 +26,7 @@ const GREEN_KUBO: &str = "diffusion_green_kubo";
 pub(super) struct Diffusion;
 
 impl Descriptor for Diffusion {
-    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         let asked = scene.output.diffusion.as_ref()?;
         Some(Sampling::after_equilibration(scene, asked.every).in_windows(asked.window))
     }
@@ -56,18 +56,19 @@ impl Descriptor for Diffusion {
         });
     }
 
-    fn parts(&self, _: &Scene, _: &Model) -> Vec<Part> {
+    fn parts(&self, _: &Checked) -> Vec<Part> {
         // Means over the particles that can move of squared displacements and of products of velocities.
         vec![Part::series(1), Part::series(1)]
     }
 
-    fn numbers_of_sample(&self, Setting { model, plan, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+    fn numbers_of_sample(&self, Setting { scene, plan }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
         let scales = [plan.quanta.length_squared, plan.quanta.velocity_squared];
         let means = sample.sums.iter().zip(scales);
-        Some(means.map(|(sum, scale)| *sum as f64 * scale / model.mobile_particles() as f64).collect())
+        Some(means.map(|(sum, scale)| *sum as f64 * scale / scene.model().mobile_particles() as f64).collect())
     }
 
-    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let asked = scene.output.diffusion.as_ref()?;
         let interval = asked.every as f64 * model.time_step;
         let [displacement, velocity] =

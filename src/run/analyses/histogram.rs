@@ -3,12 +3,12 @@
 use super::histogram_range::range;
 use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler};
 use crate::engine::Sample;
-use crate::families::Model;
+use crate::families::Checked;
 use crate::measure::histogram::{self, PowerMeans, gaussian_mean, maxwell_mean};
 use crate::numbers::grouped;
 use crate::plan::Need;
 use crate::plot::{Chart, histogram_chart};
-use crate::scene::{self, AnalysisId, CountedQuantity, Output, Scene};
+use crate::scene::{self, AnalysisId, CountedQuantity, Output};
 use crate::shaders::analyses::{Counted, Sampled};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
@@ -44,7 +44,7 @@ impl Histogram {
 }
 
 impl Descriptor for Histogram {
-    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         let asked = self.of(&scene.output)?;
         let detail = Some(format!("{} bins", grouped(asked.bins.into())));
         Some(Sampling { detail, ..Sampling::after_equilibration(scene, asked.every) })
@@ -79,7 +79,7 @@ impl Descriptor for Histogram {
         planner.add_counts(&SumSampler { choices: choices.with(counted), constants, before, ..sampler }, groups);
     }
 
-    fn parts(&self, scene: &Scene, _: &Model) -> Vec<Part> {
+    fn parts(&self, scene: &Checked) -> Vec<Part> {
         // Samples, values below, values above, particles far beyond, powers, and counts.
         vec![Part::sums(1 + EXTRA + MOMENTS + self.of(&scene.output).map_or(0, |asked| asked.bins as usize))]
     }
@@ -93,7 +93,8 @@ impl Descriptor for Histogram {
         Some(std::iter::once(1.0).chain(extra).chain(powers).chain(counts).collect())
     }
 
-    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let asked = self.of(&scene.output)?;
         let ([samples, below, above, far], rest) = gathered.part(0).split_first_chunk()?;
         let (powers, counts) = rest.split_first_chunk()?;
@@ -162,7 +163,7 @@ impl Descriptor for Histogram {
         density_chart(drawn.title(), drawn.table)
     }
 
-    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+    fn finds(&self, _: &Checked) -> Vec<&'static str> {
         let of_components = [BELOW, KURTOSIS].into_iter().filter(|_| self.0 != CountedQuantity::Speed);
         [ABOVE, MEAN, DEVIATION, MEAN_SQUARE, VARIANCE_OF_SQUARE].into_iter().chain(of_components).collect()
     }

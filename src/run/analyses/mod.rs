@@ -35,7 +35,7 @@ use gathered::{Gathered, Part};
 use planner::SumSampler;
 use results::{NO_SAMPLE, found, windows_missing};
 
-use crate::families::Model;
+use crate::families::{Checked, Model};
 use crate::output::Summary;
 use crate::plan::Need;
 use crate::plot::Chart;
@@ -105,24 +105,22 @@ pub struct AskedAnalysis {
 /// The analyses that a scene asks for, in the order in which their files are listed.
 ///
 /// ```
-/// use mesoscope::families::Model;
 /// use mesoscope::scene::{self, AnalysisId};
 ///
 /// let scene = scene::load("dpd-fluid", &[])?;
-/// let asked = mesoscope::run::asked_analyses(&scene, &Model::new(&scene));
+/// let asked = mesoscope::run::asked_analyses(&scene);
 /// assert_eq!(asked[0].id, AnalysisId::RadialDistribution);
 /// # Ok::<(), scene::SceneError>(())
 /// ```
 #[must_use]
-pub fn asked_analyses(scene: &Scene, model: &Model) -> Vec<AskedAnalysis> {
+pub fn asked_analyses(scene: &Checked) -> Vec<AskedAnalysis> {
     let asked = AnalysisId::ALL.into_iter().filter_map(|id| {
         let descriptor = describe(id);
-        let sampling = descriptor.asked(scene, model)?;
-        let kept_bytes =
-            Gathered::new(descriptor.parts(scene, model)).length_after(sampling.count(scene)).saturating_mul(8);
+        let sampling = descriptor.asked(scene)?;
+        let kept_bytes = Gathered::new(descriptor.parts(scene)).length_after(sampling.count(scene)).saturating_mul(8);
         let Sampling { first, every, detail, numbers, left_out } = sampling;
         let tables = id.tables().split_at(id.tables().len().saturating_sub(left_out)).0;
-        let found = descriptor.finds(scene, model);
+        let found = descriptor.finds(scene);
         Some(AskedAnalysis { id, first, every, detail, tables, found, numbers, kept_bytes })
     });
     asked.collect()

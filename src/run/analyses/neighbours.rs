@@ -1,11 +1,10 @@
 //! Numbers of neighbours of the cells of a tessellation.
 
 use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Sampling, Setting};
-use crate::families::Model;
+use crate::families::Checked;
 use crate::measure::neighbours::{MOST_NEIGHBOURS, NeighbourCounts, RANDOM_POINTS};
 use crate::measure::statistics::Estimate;
 use crate::plot::{Chart, neighbours_chart};
-use crate::scene::Scene;
 use crate::state::Reported;
 use crate::table::Table;
 use crate::tessellation::Tessellation;
@@ -19,7 +18,7 @@ const VARIANCE: &str = "variance";
 pub(super) struct Neighbours;
 
 impl Descriptor for Neighbours {
-    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         Some(Sampling::after_equilibration(scene, scene.output.neighbours.as_ref()?.every))
     }
 
@@ -27,12 +26,13 @@ impl Descriptor for Neighbours {
         true
     }
 
-    fn parts(&self, _: &Scene, _: &Model) -> Vec<Part> {
+    fn parts(&self, _: &Checked) -> Vec<Part> {
         // The step, and the cells with each number of neighbours.
         vec![Part::Last(1, Vec::new()), Part::series(MOST_NEIGHBOURS + 1)]
     }
 
-    fn numbers_of_state(&self, Setting { model, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
+    fn numbers_of_state(&self, Setting { scene, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
+        let model = scene.model();
         let lengths = [model.units.lengths[0], model.units.lengths[1]];
         let counts = NeighbourCounts::of_cells(&Tessellation::of_fractions(lengths, &state.positions));
         Some([&[state.step as f64], &counts[..]].concat())
@@ -83,8 +83,8 @@ mod tests {
     #[test]
     fn fractions_of_all_cells_add_up() {
         let scene = super::super::shear_wave::tests::scene();
-        let model = Model::new(&scene);
-        let state: Reported = initial_state(&scene, &model).into();
+        let model = scene.model();
+        let state: Reported = initial_state(&scene).into();
         let cells = Tessellation::of_fractions([model.units.lengths[0], model.units.lengths[1]], &state.positions);
         let table = fractions(&NeighbourCounts::from_samples(&[NeighbourCounts::of_cells(&cells)]));
         assert!((table.column("fraction").unwrap().iter().sum::<f64>() - 1.0).abs() < 1e-12);

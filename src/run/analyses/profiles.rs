@@ -4,14 +4,14 @@ use super::{
     Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler, total_mass,
 };
 use crate::engine::Sample;
-use crate::families::Model;
+use crate::families::{Checked, Model};
 use crate::measure::blocks::BlockSums;
 use crate::measure::statistics::Estimate;
 use crate::measure::stress::Components;
 use crate::numbers::grouped;
 use crate::plan::Need;
 use crate::plot::{Chart, ProfiledSpecies, profiles_chart};
-use crate::scene::{self, AnalysisId, Frame, Output, ProfiledQuantity, Scene};
+use crate::scene::{self, AnalysisId, Frame, Output, ProfiledQuantity};
 use crate::shaders::analyses::{self, Layered, LayeredStress};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
@@ -38,7 +38,7 @@ fn has_motion(asked: &scene::Profiles) -> bool {
 }
 
 impl Descriptor for Profiles {
-    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         let asked = scene.output.profiles.as_ref()?;
         let detail = Some(format!("{} bins along {}", grouped(asked.bins.into()), asked.axis.name()));
         Some(Sampling { detail, ..Sampling::after_equilibration(scene, asked.every) })
@@ -79,18 +79,21 @@ impl Descriptor for Profiles {
         planner.add_counts(&SumSampler { choices, constants, ..sampler }, planner.groups());
     }
 
-    fn parts(&self, scene: &Scene, model: &Model) -> Vec<Part> {
+    fn parts(&self, scene: &Checked) -> Vec<Part> {
         let asked = scene.output.profiles.iter();
-        asked.map(|asked| Part::Blocks(BlockSums::new(asked.bins as usize * Sums::of(model, asked).kept()))).collect()
+        asked
+            .map(|asked| Part::Blocks(BlockSums::new(asked.bins as usize * Sums::of(scene.model(), asked).kept())))
+            .collect()
     }
 
     /// Sums of all layers, one after the other.
     fn numbers_of_sample(&self, setting: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
-        let sums = Sums::of(setting.model, setting.scene.output.profiles.as_ref()?);
+        let sums = Sums::of(setting.scene.model(), setting.scene.output.profiles.as_ref()?);
         Some(sample.sums.chunks_exact(sums.sampled()).flat_map(|layer| kept(sums, layer, setting)).collect())
     }
 
-    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let (asked, blocks) = (scene.output.profiles.as_ref()?, gathered.blocks()?);
         let layers = Layers { asked, model, sums: Sums::of(model, asked), blocks };
         let columns = layers.columns();
@@ -159,7 +162,7 @@ impl Descriptor for Profiles {
         &[("temperature about the flow", TEMPERATURE)]
     }
 
-    fn finds(&self, scene: &Scene, _: &Model) -> Vec<&'static str> {
+    fn finds(&self, scene: &Checked) -> Vec<&'static str> {
         let asked = scene.output.profiles.as_ref();
         asked.filter(|asked| shows(asked, ProfiledQuantity::Temperature)).map(|_| TEMPERATURE).into_iter().collect()
     }
@@ -217,7 +220,8 @@ impl Sums {
 type Number<'a> = Box<dyn Fn(usize) -> Option<Estimate> + 'a>;
 
 /// The kept sums of a layer. Twice the energy of n particles relative to their centre of mass has d(n - 1) kT.
-fn kept(sums: Sums, layer: &[i64], Setting { model, plan, .. }: &Setting<'_>) -> Vec<f64> {
+fn kept(sums: Sums, layer: &[i64], Setting { scene, plan }: &Setting<'_>) -> Vec<f64> {
+    let model = scene.model();
     let Sums { species, dimension, motion, stress } = sums;
     // Those that are frozen behind walls are in no layer.
     let is_frozen = |number: usize| model.species.get(number).is_some_and(|species| species.frozen);

@@ -3,10 +3,10 @@
 use super::pair_histogram::PairHistogram;
 use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting};
 use crate::engine::Sample;
-use crate::families::Model;
+use crate::families::Checked;
 use crate::plan::Need;
 use crate::plot::{Chart, radial_distribution_chart};
-use crate::scene::{Output, Scene};
+use crate::scene::Output;
 use crate::table::Table;
 use serde_json::{Value, json};
 use std::f64::consts::PI;
@@ -21,7 +21,7 @@ const PEAK_HEIGHT: &str = "peak_height";
 pub(super) struct RadialDistribution;
 
 impl Descriptor for RadialDistribution {
-    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         Some(Sampling::after_equilibration(scene, scene.output.radial_distribution.as_ref()?.every))
     }
 
@@ -42,7 +42,7 @@ impl Descriptor for RadialDistribution {
         histogram.add(planner, ordered);
     }
 
-    fn parts(&self, scene: &Scene, _: &Model) -> Vec<Part> {
+    fn parts(&self, scene: &Checked) -> Vec<Part> {
         // Samples, and pairs by distance.
         vec![Part::sums(1 + scene.output.radial_distribution.as_ref().map_or(0, |asked| asked.bins as usize))]
     }
@@ -51,7 +51,8 @@ impl Descriptor for RadialDistribution {
         Some(std::iter::once(1.0).chain(sample.sums.iter().map(|count| *count as f64)).collect())
     }
 
-    fn conclude(&self, Setting { scene, model, plan }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, plan }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let range = scene.output.radial_distribution.as_ref()?.range;
         let (samples, counts) = gathered.part(0).split_first()?;
         let (units, particles) = (&model.units, (plan.particles - model.frozen_particles()) as f64);
@@ -87,7 +88,7 @@ impl Descriptor for RadialDistribution {
         vec![("g(r) peak".to_owned(), format!("{height:.3} at {distance:.3}"))]
     }
 
-    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+    fn finds(&self, _: &Checked) -> Vec<&'static str> {
         vec![PEAK_DISTANCE, PEAK_HEIGHT]
     }
 }

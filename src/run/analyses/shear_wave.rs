@@ -1,11 +1,11 @@
 //! The decay of the shear wave that particles start with.
 
 use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Sampling, Setting, found, total_mass};
-use crate::families::Model;
+use crate::families::{Checked, Model};
 use crate::measure::shear_wave::WaveDecay;
 use crate::numbers::with_error;
 use crate::plot::{Chart, shear_wave_chart};
-use crate::scene::{Scene, shear_waves};
+use crate::scene::shear_waves;
 use crate::state::Reported;
 use crate::table::Table;
 use serde_json::{Value, json};
@@ -21,7 +21,7 @@ const SHEAR_VISCOSITY: &str = "shear_viscosity";
 pub(super) struct ShearWave;
 
 impl Descriptor for ShearWave {
-    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         Some(Sampling::after_equilibration(scene, scene.output.shear_wave.as_ref()?.every))
     }
 
@@ -29,17 +29,18 @@ impl Descriptor for ShearWave {
         true
     }
 
-    fn parts(&self, _: &Scene, _: &Model) -> Vec<Part> {
+    fn parts(&self, _: &Checked) -> Vec<Part> {
         // Step and amplitude.
         vec![Part::series(2)]
     }
 
-    fn numbers_of_state(&self, Setting { scene, model, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
+    fn numbers_of_state(&self, Setting { scene, .. }: &Setting<'_>, state: &Reported) -> Option<Vec<f64>> {
         let (_, _, periods) = shear_waves(scene).next()?;
-        Some(vec![state.step as f64, amplitude(state, model, f64::from(periods))])
+        Some(vec![state.step as f64, amplitude(state, scene.model(), f64::from(periods))])
     }
 
-    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let (_, _, periods) = shear_waves(scene).next()?;
         let wave = Wave { model, periods: f64::from(periods), samples: gathered.part(0).as_chunks().0 };
         let decay = wave.decay();
@@ -61,8 +62,8 @@ impl Descriptor for ShearWave {
         &[("shear viscosity (wave)", SHEAR_VISCOSITY)]
     }
 
-    fn finds(&self, _: &Scene, model: &Model) -> Vec<&'static str> {
-        let known = model.physics().known_viscosities().into_iter().map(|(name, _)| name);
+    fn finds(&self, scene: &Checked) -> Vec<&'static str> {
+        let known = scene.model().physics().known_viscosities().into_iter().map(|(name, _)| name);
         [INITIAL_AMPLITUDE, DECAY_RATE, KINEMATIC_VISCOSITY, SHEAR_VISCOSITY].into_iter().chain(known).collect()
     }
 }
@@ -138,7 +139,7 @@ pub(super) mod tests {
     use crate::run::sections::Sections;
     use std::path::Path;
 
-    pub(in super::super) fn scene() -> Scene {
+    pub(in super::super) fn scene() -> Checked {
         let text = r#"{"title": "t", "space": {"box": [20, 10]}, "time": {"step": 0.5, "steps": 100}, "temperature": 1e-9,
             "particles": [{"species": "A", "count": 200, "mass": 3, "placement": {"type": "lattice", "jitter": 0.4},
                 "velocities": {"type": "shear-wave", "amplitude": 0.25, "periods": 2}}],
@@ -150,10 +151,9 @@ pub(super) mod tests {
     #[test]
     fn states_survive_a_checkpoint_and_come_once() {
         let scene = scene();
-        let model = Model::new(&scene);
-        let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
-        let setting = &Setting { scene: &scene, model: &model, plan: &plan };
-        let mut state: Reported = initial_state(&scene, &model).into();
+        let plan = plan(&scene, Hardware::default(), Options::default());
+        let setting = &Setting { scene: &scene, plan: &plan };
+        let mut state: Reported = initial_state(&scene).into();
         let at = |step: u64, sections: &[(String, Vec<u8>)]| {
             Analyses::new(setting, &Sections::new(Path::new("checkpoint.bin"), step, sections))
         };
@@ -177,12 +177,10 @@ pub(super) mod tests {
 
     #[test]
     fn states_are_taken_after_equilibration() {
-        let mut scene = scene();
-        scene.time.equilibration = 40;
-        let model = Model::new(&scene);
-        let plan = plan(&model, 40, &scene.output, Hardware::default(), Options::default());
+        let scene = scene().changed(|scene| scene.time.equilibration = 40);
+        let plan = plan(&scene, Hardware::default(), Options::default());
         let sections = Sections::new(Path::new("checkpoint.bin"), 0, &[]);
-        let analyses = Analyses::new(&Setting { scene: &scene, model: &model, plan: &plan }, &sections).unwrap();
+        let analyses = Analyses::new(&Setting { scene: &scene, plan: &plan }, &sections).unwrap();
         let due: Vec<u64> = (0..=60).filter(|step| analyses.take_state(*step)).collect();
         assert_eq!(due, [40, 45, 50, 55, 60]);
     }
@@ -190,23 +188,23 @@ pub(super) mod tests {
     #[test]
     fn the_amplitude_is_that_of_the_start() {
         let scene = scene();
-        let model = Model::new(&scene);
-        let state: Reported = initial_state(&scene, &model).into();
+        let model = scene.model();
+        let state: Reported = initial_state(&scene).into();
         // On a lattice the squares of sines add up to a half, which jitter changes to 0.4 √(1/8N) · 2 or so.
-        let found = amplitude(&state, &model, 2.0);
+        let found = amplitude(&state, model, 2.0);
         assert!((found - 0.25).abs() < 0.03, "{found}");
-        assert!(amplitude(&state, &model, 1.0).abs() < 0.03);
+        assert!(amplitude(&state, model, 1.0).abs() < 0.03);
     }
 
     #[test]
     fn viscosity_follows_from_the_rate() {
         let scene = scene();
-        let model = Model::new(&scene);
+        let model = scene.model();
         let samples = (0..60).map(|sample| {
             let step = 5.0 * f64::from(sample);
             [step, 0.25 * (-0.01 * step * 0.5).exp()]
         });
-        let wave = Wave { model: &model, periods: 2.0, samples: &samples.collect::<Vec<_>>() };
+        let wave = Wave { model, periods: 2.0, samples: &samples.collect::<Vec<_>>() };
         let decay = wave.decay().unwrap();
         let result = wave.result(&decay);
         // k = 2π · 2/10, density 3: η = 0.01 · 3/k².

@@ -4,13 +4,13 @@ use super::{
     Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler, found, mean,
 };
 use crate::engine::Sample;
-use crate::families::Model;
+use crate::families::{Checked, Model};
 use crate::measure::green_kubo::{StressCorrelation, stress_correlation};
 use crate::measure::statistics::estimate;
 use crate::measure::stress::{Components, surface_tension};
 use crate::plan::Need;
 use crate::plot::{Chart, stress_chart, stress_correlation_chart};
-use crate::scene::{AnalysisId, Frame, Output, Scene};
+use crate::scene::{AnalysisId, Frame, Output};
 use crate::shaders::{Array, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
@@ -31,10 +31,10 @@ const SHEARED: &str = "viscosity_in_shear";
 pub(super) struct Stress;
 
 impl Descriptor for Stress {
-    fn asked(&self, scene: &Scene, model: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         let asked = scene.output.stress.as_ref()?;
         let sampling = Sampling::after_equilibration(scene, asked.every);
-        let columns = 1 + 4 * Components::of(model.units.dimension).len() as u64;
+        let columns = 1 + 4 * Components::of(scene.model().units.dimension).len() as u64;
         let left_out = usize::from(asked.window.is_none());
         Some(Sampling { numbers: sampling.count(scene).saturating_mul(columns), left_out, ..sampling })
     }
@@ -55,18 +55,19 @@ impl Descriptor for Stress {
         });
     }
 
-    fn parts(&self, _: &Scene, _: &Model) -> Vec<Part> {
+    fn parts(&self, _: &Checked) -> Vec<Part> {
         vec![Part::series(19)]
     }
 
-    fn numbers_of_sample(&self, Setting { model, plan, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+    fn numbers_of_sample(&self, Setting { scene, plan }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
         let units = [plan.quanta.energy, plan.stress_unit, plan.stress_unit].map(|unit| [unit; 6]);
         let pressures = sample.sums.iter().zip(units.as_flattened());
-        let pressures = pressures.map(|(sum, unit)| *sum as f64 * unit / model.units.volume());
+        let pressures = pressures.map(|(sum, unit)| *sum as f64 * unit / scene.model().units.volume());
         Some(std::iter::once(sample.step as f64).chain(pressures).collect())
     }
 
-    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let asked = scene.output.stress.as_ref()?;
         let tensors = Tensors { model, samples: gathered.part(0).as_chunks().0 };
         let table = tensors.table();
@@ -124,7 +125,8 @@ impl Descriptor for Stress {
         ]
     }
 
-    fn finds(&self, scene: &Scene, model: &Model) -> Vec<&'static str> {
+    fn finds(&self, scene: &Checked) -> Vec<&'static str> {
+        let model = scene.model();
         let Some(asked) = &scene.output.stress else { return Vec::new() };
         let found = [
             (CONSERVATIVE_TENSION, asked.normal.is_some() && !model.is_driven()),

@@ -39,9 +39,9 @@ impl Analyses {
     /// # Errors
     /// [`CheckpointError::Content`] where a section is not as long as its samples make it.
     pub(in crate::run) fn new(setting: &Setting<'_>, sections: &Sections<'_>) -> Result<Self, CheckpointError> {
-        let Setting { scene, model, plan } = *setting;
+        let Setting { scene, plan } = *setting;
         let begin = |id: AnalysisId, sampler, first, every| {
-            let gathered = Gathered::new(describe(id).parts(scene, model));
+            let gathered = Gathered::new(describe(id).parts(scene));
             UnderWay { id, sampler, first, every, gathered }
         };
         let of_samples = plan.samplers.iter().enumerate().filter_map(|(index, sampler)| match sampler.id {
@@ -49,7 +49,7 @@ impl Analyses {
             SamplerId::Observables => None,
         });
         let of_states = AnalysisId::ALL.into_iter().filter(|id| describe(*id).takes_states()).filter_map(|id| {
-            let Sampling { first, every, .. } = describe(id).asked(scene, model)?;
+            let Sampling { first, every, .. } = describe(id).asked(scene)?;
             Some(begin(id, None, first, every.max(1)))
         });
         let mut all: Vec<UnderWay> = of_samples.chain(of_states).collect();
@@ -181,12 +181,11 @@ fn window_name(id: AnalysisId) -> String {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::families::Model;
+    use crate::families::Checked;
     use crate::measure::statistics::student;
     use crate::plan::{Hardware, Options};
     use crate::run::analyses::histogram;
     use crate::run::plan;
-    use crate::scene::Scene;
     use std::path::Path;
 
     /// The analyses after `step` steps that left these sections.
@@ -197,7 +196,7 @@ mod tests {
     /// What is concluded from samples is concluded from their section too, for every analysis of particles.
     #[test]
     fn sections_restore_what_was_gathered() {
-        let scene: Scene = serde_json::from_value(serde_json::json!({
+        let scene = serde_json::from_value(serde_json::json!({
             "title": "all", "space": { "box": [5.0, 5.0] }, "time": { "step": 0.5, "steps": 100 }, "temperature": 1.0,
             "particles": [{ "species": "A", "count": 2 }],
             "interactions": [{ "type": "dpd", "repulsion": 25.0 }],
@@ -217,9 +216,9 @@ mod tests {
             },
         }))
         .unwrap();
-        let model = Model::new(&scene);
-        let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
-        let run = &Setting { scene: &scene, model: &model, plan: &plan };
+        let scene = Checked::presumed(scene);
+        let plan = plan(&scene, Hardware::default(), Options::default());
+        let run = &Setting { scene: &scene, plan: &plan };
         let mut analyses = after(0, &[], run).unwrap();
         for step in 0..3_i64 {
             for (sampler, planned) in plan.samplers.iter().enumerate().skip(1) {
@@ -265,18 +264,17 @@ mod tests {
     /// Numbers worked out by hand.
     #[test]
     fn samples_become_means_in_real_units() {
-        let scene = |output: &str| -> Scene {
+        let scene = |output: &str| -> Checked {
             let text = format!(
                 r#"{{"title": "t", "space": {{"box": [5, 5]}}, "time": {{"step": 0.5, "steps": 100}}, "temperature": 1,
                 "particles": [{{"species": "A", "count": 2}}], "interactions": [{{"type": "dpd", "repulsion": 25}}],
                 "output": {output}}}"#
             );
-            serde_json::from_str(&text).unwrap()
+            Checked::presumed(serde_json::from_str(&text).unwrap())
         };
-        let gathered = |scene: &Scene, samples: &[&[i64]]| -> Conclusion {
-            let model = Model::new(scene);
-            let plan = plan(&model, 0, &scene.output, Hardware::default(), Options::default());
-            let setting = &Setting { scene, model: &model, plan: &plan };
+        let gathered = |scene: &Checked, samples: &[&[i64]]| -> Conclusion {
+            let plan = plan(scene, Hardware::default(), Options::default());
+            let setting = &Setting { scene, plan: &plan };
             let mut analyses = after(0, &[], setting).unwrap();
             for (step, sums) in samples.iter().enumerate() {
                 analyses.add(&Sample { sampler: 1, step: step as u64, sums: sums.to_vec() }, setting);

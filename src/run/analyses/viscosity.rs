@@ -2,10 +2,10 @@
 
 use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, SumSampler, found, total_mass};
 use crate::engine::Sample;
-use crate::families::Model;
+use crate::families::{Checked, Model};
 use crate::measure::shear_viscosity::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
 use crate::plot::{Chart, Found, viscosity_chart};
-use crate::scene::{AnalysisId, Scene};
+use crate::scene::AnalysisId;
 use crate::shaders::{Array, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
@@ -21,7 +21,7 @@ const OF_WAVE: &str = "viscosity";
 pub(super) struct Viscosity;
 
 impl Descriptor for Viscosity {
-    fn asked(&self, scene: &Scene, _: &Model) -> Option<Sampling> {
+    fn asked(&self, scene: &Checked) -> Option<Sampling> {
         Some(Sampling::after_equilibration(scene, scene.output.viscosity.as_ref()?.every))
     }
 
@@ -35,17 +35,25 @@ impl Descriptor for Viscosity {
         planner.add_sums(&SumSampler { constants: planner.of_all_particles(), ..sampler });
     }
 
-    fn parts(&self, _: &Scene, model: &Model) -> Vec<Part> {
-        wave_numbers(model).map(|_| Part::series(2)).collect()
+    fn parts(&self, scene: &Checked) -> Vec<Part> {
+        wave_numbers(scene.model()).map(|_| Part::series(2)).collect()
     }
 
-    fn numbers_of_sample(&self, Setting { model, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
+    fn numbers_of_sample(&self, Setting { scene, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
         // exp(-ikr) = cos kr - i sin kr.
         let signs = [1.0, -1.0].into_iter().cycle();
-        Some(sample.sums.iter().zip(signs).map(|(sum, sign)| sign * (*sum as f64 * model.units.momentum)).collect())
+        Some(
+            sample
+                .sums
+                .iter()
+                .zip(signs)
+                .map(|(sum, sign)| sign * (*sum as f64 * scene.model().units.momentum))
+                .collect(),
+        )
     }
 
-    fn conclude(&self, Setting { scene, model, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+    fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
+        let model = scene.model();
         let asked = scene.output.viscosity.as_ref()?;
         let modes = wave_numbers(model).enumerate().map(|(place, wave_number)| {
             let amplitudes = gathered.part(place).as_chunks().0.to_vec();
@@ -78,7 +86,7 @@ impl Descriptor for Viscosity {
         &[("shear viscosity", SHEAR_VISCOSITY)]
     }
 
-    fn finds(&self, _: &Scene, _: &Model) -> Vec<&'static str> {
+    fn finds(&self, _: &Checked) -> Vec<&'static str> {
         vec![SHEAR_VISCOSITY, KINEMATIC_VISCOSITY]
     }
 }

@@ -1,7 +1,7 @@
 //! The particles of an earlier run, from its last checkpoint.
 
-use crate::families::{Angles, Bonds, Family, Link, Model};
-use crate::scene::{EarlierRun, FileStart, Integrator, Scene, parse_kept};
+use crate::families::{Angles, Bonds, Checked, Family, Link, Model};
+use crate::scene::{EarlierRun, FileStart, Integrator, WrittenScene};
 use crate::state::{State, StateArray};
 use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
 use crate::state_file::{Fits, Links, Mistake, ParticleFile, frozen_layers, open_regular_file};
@@ -45,8 +45,8 @@ impl Run {
 
     /// Whether a scene has the seed, forces, baths and time step of it, so that it goes on with it: a model of the scene was made with
     /// [`Self::earlier`].
-    pub fn goes_on_with(&self, scene: &Scene, model: &Model) -> bool {
-        scene.seed == self.seed && model.has_the_steps_of(&self.model)
+    pub fn goes_on_with(&self, scene: &Checked) -> bool {
+        scene.seed == self.seed && scene.model().has_the_steps_of(&self.model)
     }
 
     /// The state where the other run begins.
@@ -89,11 +89,11 @@ pub(super) fn particles(path: &Path, fits: &Fits<'_>) -> Result<(ParticleFile, R
     let content = content.map_err(|error| refusal(&error))??;
     let start = content.sections.iter().find(|(name, _)| name == START);
     let start = start.and_then(|(_, bytes)| FileStart::from_bytes(bytes)).map(Arc::new);
-    let scene = parse_kept("its scene", &content.scene, &[], start)
-        .map_err(|error| damaged(&format!("its scene is refused ({error})")))?;
-    let model = Model::new(&scene);
-    let particles = of_state(&model, &content.state)?;
-    Ok((particles, Run { seed: scene.seed, model, state: content.state }))
+    let written = WrittenScene::new("its scene", content.scene);
+    let scene = written.check_kept(start).map_err(|error| damaged(&format!("its scene is refused ({error})")))?;
+    let model = scene.model();
+    let particles = of_state(model, &content.state)?;
+    Ok((particles, Run { seed: scene.seed, model: model.clone(), state: content.state }))
 }
 
 fn refusal(error: &ContentError) -> Mistake {

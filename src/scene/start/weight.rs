@@ -1,7 +1,8 @@
 //! Whether a scene can be run with as many particles as a file or molecules have, before these are read or placed.
 
 use super::super::semantics;
-use crate::document::{Interaction, Molecule, Output, Placement, Problems, Scene, SceneError, number_of_copies};
+use crate::document::{Interaction, Molecule, Placement, Problems, Scene, SceneError, number_of_copies};
+use crate::families::Checked;
 use crate::families::{self, StepCheck};
 use crate::numbers::counted;
 use crate::state_file::{self, Mistake};
@@ -9,7 +10,7 @@ use std::cell::RefCell;
 
 /// Decides whether a scene can be run. It has the particles of the whole one, but nothing that joins them and no analyses: what does not
 /// fit without these does not fit with them.
-pub type Fits<'a> = dyn Fn(&Scene) -> Result<(), SceneError> + 'a;
+pub type Fits<'a> = dyn Fn(&Checked) -> Result<(), SceneError> + 'a;
 
 /// Particles that are read or placed in less time than an adapter takes to be asked.
 const FEW: u64 = 1_000_000;
@@ -77,10 +78,12 @@ impl<'a> Weighing<'a> {
         }
         let bare = bare(self.scene, counts);
         let mut problems = semantics::check(&bare);
-        if problems.is_empty() {
-            families::check(&bare, StepCheck::Allow, &mut problems);
-        }
         // Its mistakes are those of the scene, and will be said in its words.
+        if !problems.is_empty() {
+            return Ok(());
+        }
+        let bare = Checked::presumed(bare);
+        families::check(&bare, StepCheck::Allow, &mut problems);
         if problems.is_empty() { fits(&bare) } else { Ok(()) }
     }
 }
@@ -95,7 +98,7 @@ fn bare(scene: &Scene, counts: &[u64]) -> Scene {
         group.placement = Placement::Random;
     }
     bare.interactions.retain(|one| !matches!(one, Interaction::Bonds(_) | Interaction::Angles(_)));
-    bare.output = Output { energies: scene.output.energies.clone(), ..Output::default() };
+    bare.output = scene.output.energies_alone();
     if bare.space.lengths.is_empty() {
         // A thin gas, which needs no more than a fluid.
         let edge = counts.iter().map(|count| *count as f64).sum::<f64>().cbrt();
@@ -108,7 +111,7 @@ fn bare(scene: &Scene, counts: &[u64]) -> Scene {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::families::Model;
+
     use crate::plan::{Hardware, Options};
     use crate::scene;
     use crate::scene::builtin;
@@ -126,11 +129,12 @@ mod tests {
             let counts: Vec<u64> = scene.particles.iter().map(|group| group.count.unwrap()).collect();
             let bare = bare(&scene, &counts);
             let mut problems = semantics::check(&bare);
+            let bare = Checked::presumed(bare);
             families::check(&bare, StepCheck::Refuse, &mut problems);
             assert!(problems.is_empty(), "{}", builtin.name);
-            let largest = |scene: &Scene| {
+            let largest = |scene: &Checked| {
                 let (hardware, options) = (Hardware::default(), Options::default());
-                let plan = crate::run::plan(&Model::new(scene), 0, &scene.output, hardware, options);
+                let plan = crate::run::plan(scene, hardware, options);
                 (plan.particles, plan.largest_buffer())
             };
             let (whole, bare) = (largest(&scene), largest(&bare));
@@ -144,14 +148,15 @@ mod tests {
     fn molecules_are_counted_before_they_are_placed() {
         let set = ["molecules.0.count=900000", "space.box=[150,150,150]"].map(str::to_owned);
         let refused = RefCell::new(Vec::new());
-        let fits = |scene: &Scene| {
+        let fits = |scene: &Checked| {
             refused.borrow_mut().push(scene.particles.iter().map(|group| group.count.unwrap()).sum::<u64>());
             Err(SceneError::TooManyParticles { reason: "no room".to_owned() })
         };
-        let error = scene::load_fitting("diblock-copolymer", &set, None, &fits).unwrap_err();
+        let copolymer = scene::WrittenScene::read("diblock-copolymer").unwrap();
+        let error = copolymer.clone().with(&set).check_fitting(&fits).unwrap_err();
         assert_eq!((error.to_string().as_str(), refused.borrow().as_slice()), ("no room", &[9_000_000][..]));
         // What is done in no time is not worth asking.
-        assert!(scene::load_fitting("diblock-copolymer", &[], None, &fits).is_ok());
+        assert!(copolymer.check_fitting(&fits).is_ok());
         let mut problems = Problems::default();
         let scene = scene::load("diblock-copolymer", &[]).unwrap();
         Weighing::of(&scene, None).molecules(Some(1000), &mut problems).unwrap();

@@ -11,15 +11,15 @@ mod differences;
 mod features;
 mod scenes;
 
+use crate::support::edited;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::path::Path;
 use std::thread;
 
-use mesoscope::families::Model;
 use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
-use mesoscope::scene::{self, Integrator, PairRelaxation, Scene};
+use mesoscope::scene::{self, Checked, Integrator, PairRelaxation};
 use mesoscope::shaders::Entry;
 use serde_json::Value;
 
@@ -35,18 +35,19 @@ const ADAPTERS: [Hardware; 2] =
 /// The plan of a scene; none if it is no scene. A scene that names no rule of relaxation has one stage of friction: a feature may be what
 /// makes the default two.
 fn plan_of(text: &Value, hardware: Hardware, listed: bool) -> Option<Plan> {
-    let mut scene = scene::parse("test", &text.to_string(), &[]).ok()?;
+    let scene = scene::parse("test", &text.to_string(), &[]).ok()?;
     if text["integrator"]["relaxation"].is_null()
-        && let Integrator::Splitting { relaxation: Some(relaxation) } = &mut scene.integrator
+        && matches!(scene.integrator, Integrator::Splitting { relaxation: Some(_) })
     {
-        *relaxation = PairRelaxation::MeanField;
+        let one_stage = Integrator::Splitting { relaxation: Some(PairRelaxation::MeanField) };
+        return Some(plan_as_it_is(&edited(&scene, |scene| scene.integrator = one_stage), hardware, listed));
     }
     Some(plan_as_it_is(&scene, hardware, listed))
 }
 
-fn plan_as_it_is(scene: &Scene, hardware: Hardware, listed: bool) -> Plan {
+fn plan_as_it_is(scene: &Checked, hardware: Hardware, listed: bool) -> Plan {
     let options = Options { listed, ..Options::default() };
-    run::plan(&Model::new(scene), scene.time.equilibration, &scene.output, hardware, options)
+    run::plan(scene, hardware, options)
 }
 
 /// Particles stay as they are stored, but for lists of pairs.

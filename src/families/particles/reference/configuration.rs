@@ -86,8 +86,9 @@ mod tests {
 
     use super::super::Reference;
     use super::*;
+    use crate::families::Checked;
     use crate::families::Family;
-    use crate::scene::Scene;
+
     use serde_json::json;
 
     /// Particles at arbitrary places with every potential there is between them, one of them fixed.
@@ -95,7 +96,7 @@ mod tests {
         let positions: Vec<Vec<f64>> = (0..6_u32)
             .map(|id| (0..dimension as u32).map(|axis| 2.0 + 0.4 * f64::from((id * (3 + axis) + axis) % 7)).collect())
             .collect();
-        let scene: Scene = serde_json::from_value(json!({
+        let scene = serde_json::from_value(json!({
             "title": "test", "space": {"box": vec![8.0; dimension]}, "time": {"step": 0.01, "steps": 1},
             "temperature": 0.0, "integrator": {"type": "cotter-reich"},
             "particles": [
@@ -111,12 +112,12 @@ mod tests {
                 {"type": "tether", "stiffness": 4.0}],
         }))
         .unwrap();
-        let model = Model::new(&scene);
-        let mut state = crate::families::initial_state(&scene, &model);
+        let scene = Checked::presumed(scene);
+        let mut state = crate::families::initial_state(&scene);
         for (id, tether) in state.tethers.iter_mut().enumerate() {
             tether[0] = tether[0].wrapping_add(10_000_000 * id as u32);
         }
-        Reference::new(model, state)
+        Reference::new(scene.model().clone(), state)
     }
 
     /// The squares of the slopes of the potential and its Laplacian, from differences, summed over some particles, of which those that are held
@@ -172,7 +173,7 @@ mod tests {
         let mut positions: Vec<Vec<f64>> =
             (0..6_u32).map(|id| (0..dimension as u32).map(|axis| place(id, axis)).collect()).collect();
         positions[5] = positions[4].clone();
-        let scene: Scene = serde_json::from_value(json!({
+        let scene = serde_json::from_value(json!({
             "title": "test", "space": {"box": vec![8.0; dimension]}, "time": {"step": 0.01, "steps": 1},
             "temperature": 0.0, "integrator": {"type": "groot-warren"},
             "particles": [
@@ -182,9 +183,9 @@ mod tests {
                 {"type": "dpd", "cutoff": 1.3, "repulsion": -40.0, "many_body": {"repulsion": 25.0, "cutoff": 0.9}}],
         }))
         .unwrap();
-        let model = Model::new(&scene);
-        let state = crate::families::initial_state(&scene, &model);
-        Reference::new(model, state)
+        let scene = Checked::presumed(scene);
+        let state = crate::families::initial_state(&scene);
+        Reference::new(scene.model().clone(), state)
     }
 
     #[test]

@@ -125,12 +125,12 @@ struct Report {
 /// all.
 ///
 /// ```
-/// use mesoscope::{families::Model, families::reference::Reference, scene};
+/// use mesoscope::{families::reference::Reference, scene};
 ///
 /// let small = ["space.box=[4,4,4]", "output={}"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &small)?;
-/// let model = Model::new(&scene);
-/// let start = mesoscope::families::initial_state(&scene, &model);
+/// let model = scene.model();
+/// let start = mesoscope::families::initial_state(&scene);
 /// let mut reference = Reference::new(model, start.clone());
 /// reference.run(20)?;
 /// assert_eq!(reference.state().step, 20);
@@ -139,9 +139,9 @@ struct Report {
 ///
 /// // Oscillators in baths with memory, which exchange momentum with what is outside.
 /// let scene = scene::load("gle-oscillator", &["particles.0.count=20".to_owned()])?;
-/// let model = Model::new(&scene);
+/// let model = scene.model();
 /// assert!(model.has_memory() && !model.conserves_momentum());
-/// let start = mesoscope::families::initial_state(&scene, &model);
+/// let start = mesoscope::families::initial_state(&scene);
 /// let mut reference = Reference::new(model, start.clone());
 /// reference.run(10)?;
 /// assert_ne!(reference.state().total_momentum(), start.total_momentum());
@@ -258,9 +258,9 @@ impl Reference {
     /// box edge.
     ///
     /// ```
-    /// # use mesoscope::{families::Model, families::reference::Reference, scene, state::State};
+    /// # use mesoscope::{families::reference::Reference, scene, state::State};
     /// # let scene = scene::load("dpd-fluid", &[])?;
-    /// # let model = Model::new(&scene);
+    /// # let model = scene.model();
     /// // Three particles in a row, 0.6 and 1.8 apart.
     /// let positions = [0.0, 0.6, 2.4].map(|x| model.units.fraction([x, 0.0, 0.0])).to_vec();
     /// let state = State { positions, momenta: vec![[0; 3]; 3], species: vec![0; 3], ..State::default() };

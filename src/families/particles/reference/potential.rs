@@ -84,7 +84,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::families::Model;
+
     use crate::scene;
 
     fn assert_derivatives(name: &str, distance: f64, at: impl Fn(f64) -> Potential) {
@@ -114,8 +114,7 @@ mod tests {
     #[test]
     fn potentials_of_pairs_have_their_derivatives() {
         let scene = scene::load("dpd-fluid", &["interactions.0.cutoff=1.3".to_owned()]).unwrap();
-        let model = Model::new(&scene);
-        let force = model.particles().pair_force.as_ref().unwrap();
+        let force = scene.model().particles().pair_force.as_ref().unwrap();
         for distance in [0.1, 0.7, 1.25] {
             assert_derivatives("pair", distance, |distance| Potential::of_pair(force, [0, 0], distance));
         }

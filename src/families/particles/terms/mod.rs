@@ -18,7 +18,7 @@ use super::plan::step::{Builder, GatheringKernels};
 use super::reference::{Configuration, Kicks, Moment};
 use super::{KeptArray, Particles};
 use crate::document::{Interaction, Problems, Scene, SpeciesNames, Warning};
-use crate::families::{BathStep, Model, Species};
+use crate::families::{BathStep, Checked, Model, Species};
 use crate::plan::Plan;
 use crate::state::State;
 
@@ -127,7 +127,7 @@ pub(crate) trait Term: PlannedTerm + ReferenceTerm {
     }
 
     /// Checks what depends on the numbers of the model.
-    fn check_capacity(&self, _: &Scene, _: &Model, _: &mut Problems) {}
+    fn check_capacity(&self, _: &Checked, _: &mut Problems) {}
 
     /// The array of the state that it keeps between steps, if any.
     fn keeps(&self, _: &Model) -> Option<KeptArray> {

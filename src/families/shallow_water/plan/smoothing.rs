@@ -40,10 +40,10 @@ pub struct SmoothingPlan {
 ///
 /// ```
 /// use mesoscope::{families::shallow_water::smoothing, plan::Options};
-/// use mesoscope::{families::Model, scene};
+/// use mesoscope::scene;
 ///
 /// let iterated = [r#"interactions.0.smoothing.solver={"type":"chebyshev","tolerance":1e-3}"#.to_owned()];
-/// let model = Model::new(&scene::load("shallow-water", &iterated)?);
+/// let model = scene::load("shallow-water", &iterated)?.model().clone();
 /// let water = model.shallow_water().ok_or("no shallow water")?;
 /// let lengths = [model.units.lengths[0], model.units.lengths[1]];
 /// let plan = smoothing::smoothing(&water, lengths, Options::default());
@@ -85,7 +85,7 @@ pub(crate) fn texture_candidates(plan: &Plan) -> Vec<Array> {
 /// use mesoscope::families::shallow_water::smoothing::transfer;
 ///
 /// let scene = mesoscope::scene::load("shallow-water", &[])?;
-/// let model = mesoscope::families::Model::new(&scene);
+/// let model = scene.model();
 /// let water = model.shallow_water().expect("it is of shallow water");
 /// let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
 /// // The depth as a whole stays what it is, short waves all but vanish.
@@ -113,7 +113,7 @@ pub fn transfer(water: &ShallowWater, lengths: [f64; 2], wave: [u32; 2]) -> f64 
 /// use mesoscope::families::shallow_water::smoothing::iterations;
 ///
 /// let scene = mesoscope::scene::load("shallow-water", &[])?;
-/// let model = mesoscope::families::Model::new(&scene);
+/// let model = scene.model();
 /// let water = model.shallow_water().expect("it is of shallow water");
 /// let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
 /// let [rough, fine] = [1e-1, 1e-6].map(|tolerance| iterations(water, lengths, tolerance));

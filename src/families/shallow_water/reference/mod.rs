@@ -66,12 +66,12 @@ struct Report {
 /// Bath variables and masses of nodes are kept in float64; in the state they are rounded to what it can hold.
 ///
 /// ```
-/// use mesoscope::{families::Model, families::reference::ShallowWaterReference, scene};
+/// use mesoscope::{families::reference::ShallowWaterReference, scene};
 ///
 /// let small = ["interactions.0.mesh=[16,16]", "interactions.0.smoothing.length=0.8", "particles.0.count=1024"];
 /// let scene = scene::load("shallow-water", &small.map(str::to_owned))?;
-/// let model = Model::new(&scene);
-/// let start = mesoscope::families::initial_state(&scene, &model);
+/// let model = scene.model();
+/// let start = mesoscope::families::initial_state(&scene);
 /// let mut reference = ShallowWaterReference::new(model, start).ok_or("no shallow water")?;
 /// let energy = reference.observe()?.total_energy();
 /// reference.run(5)?;

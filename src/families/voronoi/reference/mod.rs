@@ -46,12 +46,12 @@ use faces::{Cells, Face, dot};
 /// A model of Voronoi DPD and its state, stepped on the CPU.
 ///
 /// ```
-/// use mesoscope::{families::Model, families::reference::VoronoiReference, scene};
+/// use mesoscope::{families::reference::VoronoiReference, scene};
 ///
 /// let small = ["space.box=[6,6]", "particles.0.count=36", "output={}"].map(str::to_owned);
 /// let scene = scene::load("voronoi-dpd", &small)?;
-/// let model = Model::new(&scene);
-/// let start = mesoscope::families::initial_state(&scene, &model);
+/// let model = scene.model();
+/// let start = mesoscope::families::initial_state(&scene);
 /// let mass = |masses: &[u32]| masses.iter().map(|&units| u64::from(units)).sum::<u64>();
 /// let mut reference = VoronoiReference::new(model, start.clone()).ok_or("no Voronoi cells")?;
 /// reference.run(10)?;

@@ -146,21 +146,21 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::document::Scene;
+    use crate::families::Checked;
+
     use crate::families::initial_state;
     use serde_json::{Value, json};
 
     fn start(seed: u64, walls: &Value, placement: &Value) -> (Model, State) {
-        let scene: Scene = serde_json::from_value(json!({
+        let scene = serde_json::from_value(json!({
             "title": "test", "seed": seed, "space": {"box": [9.0, 8.0, 7.0], "walls": walls},
             "time": {"step": 0.1, "steps": 1}, "temperature": 1.0, "interactions": [{"type": "dpd"}],
             "particles": [{"species": "A", "count": 10},
                 {"species": "W", "number_density": 3.0, "mass": 2.0, "placement": placement}],
         }))
         .unwrap();
-        let model = Model::new(&scene);
-        let state = initial_state(&scene, &model);
-        (model, state)
+        let scene = Checked::presumed(scene);
+        (scene.model().clone(), initial_state(&scene))
     }
 
     /// Heights above the lower wall of the frozen particles.

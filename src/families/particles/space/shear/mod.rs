@@ -5,6 +5,7 @@ pub(crate) mod reference;
 pub(crate) mod scene;
 
 use crate::document::{Problems, Scene, Shear};
+use crate::families::Checked;
 use crate::families::Model;
 use crate::families::particles::terms::{PlannedTerm, ReferenceTerm, Term};
 
@@ -40,8 +41,8 @@ impl Term for ShearedBox {
         Some(way)
     }
 
-    fn check_capacity(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
-        scene::check_step(scene, model, self, problems);
+    fn check_capacity(&self, scene: &Checked, problems: &mut Problems) {
+        scene::check_step(scene, self, problems);
     }
 }
 
@@ -70,7 +71,7 @@ impl ShearedBox {
     /// // A box in 256 steps, a quarter in 64.
     /// let changes = [r#"space={"box":[8,8,8],"shear":{"rate":0.25,"gradient":"y"}}"#, "time.step=0.015625", "output={}"];
     /// let scene = scene::load("dpd-fluid", &changes.map(str::to_owned))?;
-    /// let shear = Model::new(&scene).particles().shear.expect("shear");
+    /// let shear = scene.model().particles().shear.expect("shear");
     /// assert_eq!(shear.shift(128), 1 << 30);
     /// assert_eq!(shear.shift(512), shear.shift(0));
     /// # Ok::<(), scene::SceneError>(())

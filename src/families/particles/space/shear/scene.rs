@@ -2,7 +2,7 @@
 
 use super::ShearedBox;
 use crate::document::{Axis, DpdInteraction, Frame, Interaction, Problems, Scene, brief};
-use crate::families::Model;
+use crate::families::Checked;
 
 /// The largest jump of momentum at a boundary, in its units: half of it, the flow at a boundary, leaves room for heat.
 const LARGEST: f64 = (1_u64 << 28) as f64;
@@ -61,7 +61,8 @@ fn check_edge(scene: &Scene, gradient: Axis, problems: &mut Problems) {
 }
 
 /// Refuses a shear that integers do not hold, or that takes particles too far in a step.
-pub(crate) fn check_step(scene: &Scene, model: &Model, shear: &ShearedBox, problems: &mut Problems) {
+pub(crate) fn check_step(scene: &Checked, shear: &ShearedBox, problems: &mut Problems) {
+    let model = scene.model();
     let path = "space.shear.rate";
     let Some(asked) = &scene.space.shear else { return };
     let edge = scene.space.lengths[shear.gradient];

@@ -7,8 +7,8 @@ mod scene;
 pub(crate) use scene::check_together;
 
 use super::{PlannedTerm, Term};
-use crate::document::{ForceProfile, Problems, Scene};
-use crate::families::Model;
+use crate::document::{ForceProfile, Problems};
+use crate::families::{Checked, Model};
 use crate::state::{Account, State};
 
 /// The body forces of a scene, of one profile.
@@ -58,8 +58,8 @@ impl Term for BodyForces {
         Some("body forces add it, as much as `body_force_momentum` in the table of energies says")
     }
 
-    fn check_capacity(&self, scene: &Scene, model: &Model, problems: &mut Problems) {
-        scene::check_impulses(scene, model, self, problems);
+    fn check_capacity(&self, scene: &Checked, problems: &mut Problems) {
+        scene::check_impulses(scene, self, problems);
     }
 
     fn complete_start(&self, state: &mut State, _: &Model) {

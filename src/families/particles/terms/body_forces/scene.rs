@@ -5,7 +5,7 @@ use crate::document::{BodyForceInteraction, ForceProfile, Interaction, Problems,
 use crate::families::particles::combinations::Feature;
 use crate::families::particles::composition::all_particles;
 use crate::families::particles::terms::SceneTerm;
-use crate::families::{Model, Particles, Species};
+use crate::families::{Checked, Particles, Species};
 
 /// The largest impulse of half a step in units of momentum: several of them still fit the integers.
 const LARGEST: f64 = (1_u64 << 27) as f64;
@@ -98,7 +98,8 @@ pub(crate) fn check_together(scene: &Scene, problems: &mut Problems) {
 }
 
 /// Refuses forces whose impulses the integers of momenta do not hold, or lose.
-pub(super) fn check_impulses(scene: &Scene, model: &Model, forces: &BodyForces, problems: &mut Problems) {
+pub(super) fn check_impulses(scene: &Checked, forces: &BodyForces, problems: &mut Problems) {
+    let model = scene.model();
     let place = |interaction: &Interaction| matches!(interaction, Interaction::BodyForce(_));
     let path = format!("interactions[{}].force", scene.interactions.iter().position(place).unwrap_or(0));
     let most = LARGEST * model.units.momentum / (0.5 * model.time_step);

@@ -10,10 +10,10 @@ mod start;
 pub(crate) use start::check_extents;
 
 use super::Term;
-use crate::document::{BondPotential, Problems, Scene};
+use crate::document::{BondPotential, Problems};
 use crate::families::particles::KeptArray;
 use crate::families::particles::model::topology::{Alike, Bond, Runs};
-use crate::families::{BathStep, Model};
+use crate::families::{BathStep, Checked, Model};
 use crate::shaders::Array;
 use crate::state::{State, StateArray};
 
@@ -56,7 +56,8 @@ impl Term for Bonds {
         self.kinds.iter().filter_map(|kind| Some((kind.bath?, kind.temperature))).collect()
     }
 
-    fn check_capacity(&self, _: &Scene, model: &Model, problems: &mut Problems) {
+    fn check_capacity(&self, scene: &Checked, problems: &mut Problems) {
+        let model = scene.model();
         if model.particles().relaxes_bonds(model) {
             scene::check_rounds(self, problems);
         }
@@ -82,15 +83,15 @@ impl Bonds {
     /// Number of bonds.
     ///
     /// ```
-    /// use mesoscope::{families::Model, scene};
+    /// use mesoscope::scene;
     ///
     /// // Chains of 5, 10 and 20 beads.
-    /// let model = Model::new(&scene::load("polymer-melt", &[])?);
+    /// let model = scene::load("polymer-melt", &[])?.model().clone();
     /// let bonds = model.particles().bonds.as_ref().expect("they are bonded");
     /// assert_eq!(bonds.count(), bonds.iter().count() as u64);
     /// // They are counted without being listed.
     /// let set = ["particles.0.count=1000000000", "space.box=[700,700,700]"].map(str::to_owned);
-    /// let many = Model::new(&scene::load("polymer-melt", &set)?);
+    /// let many = scene::load("polymer-melt", &set)?.model().clone();
     /// assert!(many.particles().bonds.as_ref().is_some_and(|bonds| bonds.count() > 800_000_000));
     /// # Ok::<(), scene::SceneError>(())
     /// ```

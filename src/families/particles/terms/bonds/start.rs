@@ -1,8 +1,8 @@
 //! Bonds at the start: their lengths, and the variables of their baths.
 
 use super::Bonds;
-use crate::document::{BondPotential, Interaction, Problems, Scene};
-use crate::families::{BathStep, Model};
+use crate::document::{BondPotential, Interaction, Problems};
+use crate::families::{BathStep, Checked, Model};
 use crate::noise::{self, stream};
 use crate::state::{State, sheared_copy};
 use std::collections::HashSet;
@@ -20,7 +20,8 @@ pub(super) fn draw_baths(bonds: &Bonds, state: &mut State, model: &Model) {
 }
 
 /// A bond of finite extent cannot start longer than it can be.
-pub(crate) fn check_extents(scene: &Scene, model: &Model, state: &State, problems: &mut Problems) {
+pub(crate) fn check_extents(scene: &Checked, state: &State, problems: &mut Problems) {
+    let model = scene.model();
     let Some(bonds) = model.particles().bonds.as_ref() else { return };
     let finite = |kind: u32| match bonds.kinds[kind as usize].potential {
         Some(BondPotential::Fene { extent, length, .. }) => Some((extent, length)),

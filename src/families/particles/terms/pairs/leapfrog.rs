@@ -84,7 +84,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::families::Model;
+
     use crate::scene;
 
     #[test]
@@ -93,7 +93,7 @@ mod tests {
             let own = r#"[{"between":["fluid","fluid"],"cutoff":1.5,"weight_exponent":EXPONENT}]"#
                 .replace("EXPONENT", &weight_exponent.to_string());
             let scene = scene::load("dpd-fluid", &[format!("interactions.0.pairs={own}")]).unwrap();
-            let force = Model::new(&scene).particles().pair_force.clone().unwrap();
+            let force = scene.model().particles().pair_force.clone().unwrap();
             let phi = |distance: f64| coupling(&force, [0, 0], distance);
             for distance in [0.1, 0.7, 1.4] {
                 let slope = (phi(distance + 1e-6) - phi(distance - 1e-6)) / 2e-6;

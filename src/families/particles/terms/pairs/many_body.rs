@@ -25,10 +25,10 @@ impl ManyBodyForce {
     /// The density C that another particle in the same place adds.
     ///
     /// ```
-    /// use mesoscope::{families::Model, scene};
+    /// use mesoscope::scene;
     ///
     /// let liquid = r#"interactions.0.many_body={"repulsion":25,"cutoff":0.75}"#.to_owned();
-    /// let model = Model::new(&scene::load("dpd-fluid", &[liquid])?);
+    /// let model = scene::load("dpd-fluid", &[liquid])?.model().clone();
     /// let many_body = model.particles().pair_force.as_ref().and_then(|force| force.many_body);
     /// let density = many_body.map_or(0.0, |many_body| many_body.contact_density());
     /// assert!((density - 7.5 / (std::f64::consts::PI * 0.75_f64.powi(3))).abs() < 1e-12);

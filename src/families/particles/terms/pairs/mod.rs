@@ -238,10 +238,10 @@ impl PairForce {
     /// than another.
     ///
     /// ```
-    /// use mesoscope::{families::Model, scene};
+    /// use mesoscope::scene;
     ///
     /// let second = r#"interactions.1={"type":"dpd","repulsion":-10,"cutoff":1.5}"#;
-    /// let model = Model::new(&scene::load("dpd-fluid", &[second.to_owned()])?);
+    /// let model = scene::load("dpd-fluid", &[second.to_owned()])?.model().clone();
     /// let force = model.particles().pair_force.as_ref();
     /// let repulsions = force.map(|force| force.repulsions(0, 0).map(|own| [own.strength, own.cutoff]).collect());
     /// assert_eq!(repulsions, Some(vec![[25.0, 1.0], [-10.0, 1.5]]));
@@ -267,10 +267,10 @@ impl PairForce {
     /// Range of the forces between two species, at most [`Self::cutoff`].
     ///
     /// ```
-    /// use mesoscope::{families::Model, scene};
+    /// use mesoscope::scene;
     ///
     /// let own = r#"interactions.0.pairs=[{"between":["A","B"],"cutoff":1.5,"weight_exponent":1}]"#;
-    /// let model = Model::new(&scene::load("binary-mixture", &[own.to_owned()])?);
+    /// let model = scene::load("binary-mixture", &[own.to_owned()])?.model().clone();
     /// let force = model.particles().pair_force.as_ref();
     /// let cutoffs = force.map(|force| [force.cutoff_between(0, 0), force.cutoff_between(0, 1), force.cutoff]);
     /// assert_eq!(cutoffs, Some([1.0, 1.5, 1.5]));

@@ -214,7 +214,7 @@ pub(crate) fn of_start(scene: &Scene, start: &FileStart, lengths: &[f64]) -> Opt
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::families::{self, Model};
+    use crate::families::{self};
     use crate::scene;
     use rand::rngs::StdRng;
     use rand::{RngExt as _, SeedableRng as _};
@@ -316,7 +316,7 @@ mod tests {
         let parsed =
             [listed, of_file].map(|text| scene::parse(name.to_str().unwrap(), &text.to_string(), &[]).unwrap());
         for scene in &parsed {
-            let model = Model::new(scene);
+            let model = scene.model();
             let force = model.particles().pair_force.as_ref().unwrap();
             // Evenly and without an end, 600 in 64 have a rate of γρ·8π/60/3, 78.5; the mean of all, near faces too, is .74 of that.
             let rate = model.largest_friction_rate(force).0;
@@ -328,14 +328,13 @@ mod tests {
                 "{warnings:?}"
             );
         }
-        let [listed, of_file] =
-            parsed.each_ref().map(|scene| Model::new(scene).particles().surroundings.clone().unwrap());
+        let [listed, of_file] = parsed.each_ref().map(|scene| scene.model().particles().surroundings.clone().unwrap());
         assert!((listed.mean / of_file.mean - 1.0).abs() < 1e-3, "{} {}", listed.mean, of_file.mean);
         let start = parsed[1].start().unwrap();
         let kept = crate::document::FileStart::from_bytes(&start.to_bytes()).unwrap();
         assert_eq!(kept.surroundings, start.surroundings);
         let even = serde_json::json!({"species": "A", "count": 600});
         let even = scene::parse("even", &scene(serde_json::Value::Null, even).to_string(), &[]).unwrap();
-        assert!(Model::new(&even).particles().surroundings.is_none() && families::warnings(&even).is_empty());
+        assert!(even.model().particles().surroundings.is_none() && families::warnings(&even).is_empty());
     }
 }
