@@ -2,6 +2,9 @@
 //
 // Slot analyses/counted_pairs: which pairs are counted. The plan chooses `between_walls` where there are walls.
 // Default: each from its smaller id.
+//
+// Slot analyses/partial: the bins that pairs of a species with another are counted in. The plan chooses `between` where a scene names one
+// or two species, `all` where it asks for every two. Default: all pairs are counted alike.
 override PARTS: u32;    // workgroups that share the rows around the same particles
 override HISTOGRAM_RANGE: f32;
 var<workgroup> local_bins: array<atomic<u32>, BINS>;
@@ -19,7 +22,7 @@ fn count_pairs_by_distance(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin
         let end = row_end(row);
         let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
         for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
-            count_pairs(row, share % PARTS, position_at(index));
+            count_pairs(row, share % PARTS, index);
         }
     }
     workgroupBarrier();
@@ -34,9 +37,12 @@ fn count_pairs_by_distance(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin
 }
 
 fn counts_pair(position: vec4<u32>, other: vec4<u32>) -> bool { return position.w < other.w; }
+fn bins_of_pair() -> u32 { return BINS; }
+fn first_bin(index: u32, other: u32) -> u32 { return 0u; }
 
 // Counts the pairs of one particle in its part of the rows.
-fn count_pairs(row: u32, part: u32, position: vec4<u32>) {
+fn count_pairs(row: u32, part: u32, index: u32) {
+    let position = position_at(index);
     if (!is_own(position)) { return; }
     let column = column_of(fraction_of(position));
     for (var across = part; across < SPAN_Y * SPAN_Z; across += PARTS) {
@@ -48,8 +54,11 @@ fn count_pairs(row: u32, part: u32, position: vec4<u32>) {
             for (var other = cell_at(cell); other < cell_end; other++) {
                 let there = position_at(other);
                 let d = separation(position, there);
-                let bin = u32(sqrt(dot(d, d)) * (f32(BINS) / HISTOGRAM_RANGE));
-                if (counts_pair(position, there) && bin < BINS) { atomicAdd(&local_bins[bin], 1u); }
+                let bin = u32(sqrt(dot(d, d)) * (f32(bins_of_pair()) / HISTOGRAM_RANGE));
+                if (counts_pair(position, there) && bin < bins_of_pair()) {
+                    let first = first_bin(index, other);
+                    if (first < BINS) { atomicAdd(&local_bins[first + bin], 1u); }
+                }
             }
         }
     }

@@ -40,7 +40,8 @@ fn kick_of_end(end: Particle, kick: Steps) -> Steps {
     return kick;
 }
 
-// Particles, by id, that analyses of single particles average over: held ones have no motion of their own.
+// Slot analyses/measured: the particles, by id, that an analysis of single particles averages over. The plan chooses `of_species` where a
+// scene names a species. Default: all that can move, for held ones have no motion of their own.
 fn is_measured(id: u32) -> bool {
     if (HELD == 0u) { return id < PARTICLES; }
     return id < PARTICLES && !is_held(stored_particle(id));

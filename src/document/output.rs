@@ -101,6 +101,20 @@ impl Output {
         asked.into_iter().filter(|(_, asked)| *asked).map(|(path, _)| path)
     }
 
+    /// Species of single particles that analyses name, with the places of these in the scene.
+    pub(crate) fn species(&self) -> impl Iterator<Item = (String, &str)> {
+        let diffusion =
+            self.diffusion.iter().filter_map(|asked| Some(("output.diffusion".to_owned(), asked.species.as_deref()?)));
+        let correlated = self.autocorrelations.iter().enumerate();
+        let correlated = correlated.filter_map(|(index, asked)| {
+            Some((format!("output.autocorrelations[{index}]"), asked.species.as_deref()?))
+        });
+        let counted = self.histograms.iter().enumerate();
+        let counted = counted
+            .filter_map(|(index, asked)| Some((format!("output.histograms[{index}]"), asked.species.as_deref()?)));
+        diffusion.chain(correlated).chain(counted)
+    }
+
     /// Frames of velocities that analyses name, with the places of these in the scene and their quantities.
     pub(crate) fn frames(&self) -> impl Iterator<Item = (String, &'static str, Frame)> {
         let correlated = self.autocorrelations.iter().enumerate().filter_map(|(index, asked)| {
@@ -127,6 +141,24 @@ pub struct RadialDistribution {
     #[serde(default = "whole::<100>")]
     #[schemars(range(min = 1, max = 4096))]
     pub bins: u32,
+    /// The species whose pairs are counted; left out, pairs of all particles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<CountedPairs>,
+}
+
+/// Pairs of species: `"A"` for pairs of A, `["A", "B"]` for pairs of A with B, `"all-pairs"` for every two species by themselves.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum CountedPairs {
+    /// Pairs of one species, or with the name [`Self::ALL`] the pairs of every two.
+    Within(String),
+    /// Pairs of two species with each other.
+    Between([String; 2]),
+}
+
+impl CountedPairs {
+    /// The name for the pairs of every two species.
+    pub const ALL: &str = "all-pairs";
 }
 
 /// Mean squared displacement and velocity autocorrelation.
@@ -139,6 +171,9 @@ pub struct Diffusion {
     /// Samples in one window; each window starts from a new origin and the windows are averaged.
     #[schemars(range(min = 2, max = 1_000_000))]
     pub window: u64,
+    /// The species of the particles that it is of; left out, all that can move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<String>,
 }
 
 /// The interval of a measurement that has no other settings.
@@ -180,6 +215,9 @@ pub struct Autocorrelation {
     /// The frame of reference of velocities; left out, the box where momentum is conserved, else the centre of mass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<Frame>,
+    /// The species of the particles that it is of; left out, all that can move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<String>,
 }
 
 /// A histogram over particles and steps, normalised to a probability density.
@@ -207,6 +245,9 @@ pub struct Histogram {
     /// The frame of reference of velocities; left out, the box where momentum is conserved, else the centre of mass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub frame: Option<Frame>,
+    /// The species of the particles that it is of; left out, all that can move.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<String>,
 }
 
 /// The pressure tensor: the momentum that particles carry, and the virials of the conservative forces and of friction and noise.

@@ -184,7 +184,20 @@ impl Model {
     /// Number of particles that can move.
     #[must_use]
     pub fn mobile_particles(&self) -> u64 {
-        self.species.iter().filter(|species| !species.fixed).map(|species| species.count).sum()
+        self.mobile_particles_of(None)
+    }
+
+    /// The number of a species.
+    #[must_use]
+    pub fn species_named(&self, name: &str) -> Option<usize> {
+        self.species.iter().position(|species| species.name == name)
+    }
+
+    /// Number of particles of a species that can move; without a name of all.
+    #[must_use]
+    pub fn mobile_particles_of(&self, species: Option<&str>) -> u64 {
+        let asked = |known: &&Species| !known.fixed && species.is_none_or(|name| known.name == name);
+        self.species.iter().filter(asked).map(|species| species.count).sum()
     }
 
     /// Mass of all particles but those of layers behind walls, which have none that counts.

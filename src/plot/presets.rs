@@ -110,20 +110,22 @@ pub fn circulation_chart(title: &str, table: &Table) -> Chart {
     Chart { title: title.to_owned(), panels: vec![panel], ..Chart::default() }
 }
 
-/// The radial distribution function g(r), with the value 1 of an ideal gas as a reference.
+/// The radial distribution function g(r), of all particles or of pairs of species, with the value 1 of an ideal gas as a reference.
 ///
 /// ```
 /// use mesoscope::plot::radial_distribution_chart;
 ///
-/// let chart = radial_distribution_chart("Hard discs", &[0.5, 1.0, 1.5], &[0.0, 1.8, 1.1]);
+/// let curve = ("g(r)".to_owned(), vec![0.0, 1.8, 1.1]);
+/// let chart = radial_distribution_chart("Hard discs", &[0.5, 1.0, 1.5], &[curve]);
 /// assert_eq!(chart.panels[0].x.range, Some([0.0, 1.5]));
 /// ```
 #[must_use]
-pub fn radial_distribution_chart(title: &str, distances: &[f64], values: &[f64]) -> Chart {
-    let mut panel = Panel::new("Distance r (length units)", "Radial distribution g(r)")
-        .with(Series::line("g(r)", pairs(distances, values)))
-        .with_reference("ideal gas", 1.0);
-    panel.y.range = Some([0.0, 1.1 * highest(values.iter().copied()).max(1.0)]);
+pub fn radial_distribution_chart(title: &str, distances: &[f64], curves: &[(String, Vec<f64>)]) -> Chart {
+    let mut panel =
+        Panel::new("Distance r (length units)", "Radial distribution g(r)").with_reference("ideal gas", 1.0);
+    panel.series.extend(curves.iter().map(|(name, values)| Series::line(name, pairs(distances, values))));
+    let values = curves.iter().flat_map(|(_, values)| values.iter().copied());
+    panel.y.range = Some([0.0, 1.1 * highest(values).max(1.0)]);
     panel.x.range = Some([0.0, highest(distances.iter().copied())]);
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
 }

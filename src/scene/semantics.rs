@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use super::{CountedQuantity, Interaction, ParticleGroup, Placement, Problems, Scene, SpeciesNames, Velocities};
+use super::{
+    CountedPairs, CountedQuantity, Interaction, ParticleGroup, Placement, Problems, Scene, SpeciesNames, Velocities,
+};
 use crate::families;
 use crate::state::MOST_PARTICLES;
 
@@ -26,6 +28,7 @@ pub(super) fn check(scene: &Scene) -> Problems {
     check_number_of_runs(scene, &mut problems);
     check_interactions(scene, &species, &mut problems);
     check_durations(scene, &mut problems);
+    check_species_of_analyses(scene, &species, &mut problems);
     super::colours::check(scene, &mut problems);
     problems
 }
@@ -230,6 +233,59 @@ fn check_windows(scene: &Scene, problems: &mut Problems) {
                 _ => format!("at most {most} samples within the {measured} steps after equilibration, or {longer}"),
             };
             problems.refuse(format!("output.{name}.window"), found, accepted);
+        }
+    }
+}
+
+/// The most numbers of all histograms of pairs: a workgroup counts in 16 KiB of its own.
+const MOST_BINS: u64 = 4096;
+
+/// Analyses of species name those that there are, and that have what is measured.
+fn check_species_of_analyses(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut Problems) {
+    let is = |name: &str, what: fn(&ParticleGroup) -> bool| {
+        scene.particles.iter().find(|group| group.species == name).is_some_and(what)
+    };
+    for (path, name) in scene.output.species() {
+        let path = format!("{path}.species");
+        if species.check(name, &path, problems) && is(name, ParticleGroup::is_held) {
+            let accepted = "a species whose particles can move: others have no motion to measure";
+            problems.refuse(path, format!("\"{name}\", which is held"), accepted);
+        }
+    }
+    let Some(radial) = &scene.output.radial_distribution else { return };
+    let path = "output.radial_distribution.species";
+    let names: Vec<(String, &str)> = match &radial.species {
+        None => Vec::new(),
+        Some(CountedPairs::Within(name)) if name == CountedPairs::ALL => {
+            let pairs = species.count() as u64 * (species.count() as u64 + 1) / 2;
+            let found = format!("{pairs} pairs of species with {} bins each", radial.bins);
+            let pair = "`species` with one or two names";
+            match MOST_BINS / pairs.max(1) {
+                _ if species.place(name).is_some() => {
+                    let accepted = format!("[\"{name}\", \"{name}\"] for pairs of the species, or another name of it");
+                    problems.refuse(path, format!("\"{name}\", which is also a species"), accepted);
+                }
+                0 => problems.refuse(path, found, pair),
+                most if most < u64::from(radial.bins) => {
+                    problems.refuse(
+                        path,
+                        found,
+                        format!("at most {MOST_BINS} bins in all: `bins` up to {most}, or {pair}"),
+                    );
+                }
+                _ => {}
+            }
+            Vec::new()
+        }
+        Some(CountedPairs::Within(name)) => vec![(path.to_owned(), name.as_str())],
+        Some(CountedPairs::Between(names)) => {
+            names.iter().enumerate().map(|(place, name)| (format!("{path}[{place}]"), name.as_str())).collect()
+        }
+    };
+    for (path, name) in names {
+        if species.check(name, &path, problems) && is(name, ParticleGroup::is_frozen) {
+            let accepted = "a species that is not frozen behind walls, where no pair is counted";
+            problems.refuse(path, format!("\"{name}\", which is frozen"), accepted);
         }
     }
 }

@@ -314,6 +314,32 @@ fn lengths_and_durations() {
         &["output.radial_distribution.every=10", "output.radial_distribution.range=6"],
         &["output.radial_distribution.range: found 6; accepted: at most 5, half the shortest box edge"],
     );
+    let particles = r#"particles=[{"species":"head","count":9},{"species":"tail","count":9},{"species":"wall","count":4,"fixed":true}]"#;
+    for (asked, refusal) in [
+        (
+            r#"radial_distribution={"every":1,"range":2,"species":"heat"}"#,
+            "radial_distribution.species: found \"heat\"",
+        ),
+        (
+            r#"radial_distribution={"every":1,"range":2,"species":["tail","tall"]}"#,
+            "radial_distribution.species[1]: found \"tall\"",
+        ),
+        (r#"radial_distribution={"every":1,"range":2,"species":["tail"]}"#, "radial_distribution.species: "),
+        (
+            r#"radial_distribution={"every":1,"range":2,"bins":700,"species":"all-pairs"}"#,
+            "found 6 pairs of species with 700 bins each; accepted: at most 4096 bins in all: `bins` up to 682, or `species`",
+        ),
+        (r#"diffusion={"every":1,"window":2,"species":"wall"}"#, "diffusion.species: found \"wall\", which is held"),
+        (r#"histograms=[{"quantity":"speed","every":1,"species":"Head"}]"#, "histograms[0].species: found \"Head\""),
+        (r#"autocorrelations=[{"quantity":"force","every":1,"window":2,"species":"tails"}]"#, "did you mean `tail`?"),
+    ] {
+        FLUID.refused_with(&[particles, &format!("output.{asked}")], &[refusal]);
+    }
+    let taken = particles.replace("head", "all-pairs");
+    FLUID.refused_with(
+        &[&taken, r#"output.radial_distribution={"every":1,"range":2,"species":"all-pairs"}"#],
+        &["found \"all-pairs\", which is also a species"],
+    );
     FLUID.refused_with(&["time.equilibration=101"], &["time.equilibration: found 101; accepted: at most 100"]);
     for analysis in ["diffusion", "viscosity"] {
         FLUID.refused_with(

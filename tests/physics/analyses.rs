@@ -251,6 +251,87 @@ fn pairs_between_walls_are_counted_without_layers() {
     }
 }
 
+/// Pairs of species on the device and in float64; what every two have adds up to all.
+#[test]
+fn pairs_of_species_are_counted_by_themselves() {
+    let particles = r#"particles=[{"species":"A","count":120},{"species":"B","count":90},{"species":"C","count":60}]"#;
+    for integrator in [SPLITTING, COTTER_REICH] {
+        let counted = |species: &str| {
+            let output = format!(r#"output.radial_distribution={{"every":4,"range":2.5,"bins":20{species}}}"#);
+            let changes =
+                [integrator, particles, "time.step=0.01", "time.steps=100", "output.energies.every=4", &output];
+            last_sample_and_reference(&fluid(&changes), 8)
+        };
+        let (all, reference) = counted("");
+        let expected = |pair: [usize; 2]| -> Vec<i64> {
+            let counts = reference.partial_radial_distribution(2.5, 20, pair);
+            counts.into_iter().map(|count| count as i64).collect()
+        };
+        let differ = |found: &[i64], expected: &[i64]| -> i64 {
+            assert_eq!(found.len(), expected.len());
+            found.iter().zip(expected).map(|(a, b)| (a - b).abs()).sum()
+        };
+        let pairs = [[0, 0], [0, 1], [1, 1], [0, 2], [1, 2], [2, 2]];
+        let (partial, _) = counted(r#","species":"all-pairs""#);
+        let twin: Vec<i64> = pairs.into_iter().flat_map(expected).collect();
+        // A distance may be rounded across the edge of a bin.
+        assert!(differ(&partial, &twin) <= 4, "{partial:?} {twin:?}");
+        let sums: Vec<i64> = (0..20).map(|bin| partial.iter().skip(bin).step_by(20).sum()).collect();
+        assert_eq!(sums, all);
+        for (species, place) in [(r#"["C","A"]"#, 3), (r#""B""#, 2), (r#"["B","B"]"#, 2)] {
+            let (found, _) = counted(&format!(r#","species":{species}"#));
+            assert_eq!(found, partial[20 * place..20 * (place + 1)], "{species}");
+            assert!(found.iter().sum::<i64>() > 300);
+        }
+    }
+}
+
+/// Of an ideal gas of two species every g(r) is one, and the speeds of each are those of its mass.
+#[test]
+fn species_have_results_of_their_own() {
+    let directory = tempfile::tempdir().unwrap();
+    let outcome = run(
+        fluid(&[
+            "interactions=[]",
+            r#"particles=[{"species":"light","count":600},{"species":"heavy","count":300,"mass":4}]"#,
+            "time.step=0.05",
+            "time.steps=1200",
+            "time.equilibration=0",
+            r#"output={"radial_distribution":{"every":60,"range":2.5,"bins":10,"species":"all-pairs"},
+                "diffusion":{"every":10,"window":20,"species":"heavy"},
+                "autocorrelations":[{"quantity":"velocity","every":10,"window":20,"species":"light"}],
+                "histograms":[{"quantity":"velocity","every":10,"species":"heavy"}]}"#,
+        ]),
+        directory.path(),
+    );
+    let results = &outcome.summary.results;
+    let pairs = results["radial_distribution"]["pairs"].as_array().unwrap();
+    let names: Vec<&Value> = pairs.iter().map(|pair| &pair["species"]).collect();
+    assert_eq!(names, [&json!(["light", "light"]), &json!(["light", "heavy"]), &json!(["heavy", "heavy"])]);
+    let curves = table(directory.path(), "radial_distribution.csv");
+    assert_eq!(curves.columns[1..], ["0_0", "0_1", "1_1"].map(|pair| format!("radial_distribution_{pair}")));
+    for (column, pairs) in [(1, 179_700.0), (2, 180_000.0), (3, 44_850.0)] {
+        for row in &curves.rows[2..] {
+            let shell = 4.0 / 3.0 * std::f64::consts::PI * ((row[0] + 0.125).powi(3) - (row[0] - 0.125).powi(3));
+            // Of 21 samples, between which a gas forgets the distances of its particles in part.
+            let error = (3.0 / (21.0 * pairs * shell / 125.0)).sqrt();
+            assert!((row[column] - 1.0).abs() < 5.0 * error, "{column}: {row:?} ± {error}");
+        }
+    }
+    // Momenta are constant: the mean square over a species is that of its start, 3 kT/m to a few parts in a hundred.
+    let square = |analysis: &str| number(&outcome, &[analysis, "mean_square"]);
+    let light = results["velocity_autocorrelation"]["mean_square"]["value"].as_f64().unwrap();
+    let heavy = square("velocity_histogram");
+    assert!((light / 3.0 - 1.0).abs() < 0.15 && (heavy / 0.75 - 1.0).abs() < 0.2, "{light} {heavy}");
+    assert_eq!(number(&outcome, &["velocity_histogram", "values"]), 3.0 * 300.0 * 121.0);
+    assert_eq!([&results["diffusion"]["species"], &results["velocity_autocorrelation"]["species"]], ["heavy", "light"]);
+    let displacements = table(directory.path(), "diffusion.csv");
+    for row in &displacements.rows[1..] {
+        let expected = heavy * row[0] * row[0];
+        assert!((row[1] / expected - 1.0).abs() < 1e-4, "{row:?}: {expected}");
+    }
+}
+
 /// The surface tension across walls belongs to their distance, not to the period of positions, which is longer.
 #[test]
 fn surface_tension_belongs_to_the_distance_of_walls() {

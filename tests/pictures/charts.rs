@@ -282,7 +282,7 @@ fn ready_made_charts() {
         .iter()
         .map(|r| 1.0 - (-(r / 0.45_f64).powi(3)).exp() * 1.0 + 0.17 * (-(r - 0.87_f64).powi(2) / 0.03).exp())
         .collect();
-    chart_picture("g", &radial_distribution_chart("DPD fluid", &r, &g), &PlotStyle::default());
+    chart_picture("g", &radial_distribution_chart("DPD fluid", &r, &[("g(r)".to_owned(), g)]), &PlotStyle::default());
     let lag: Vec<f64> = (0..200).map(|i| f64::from(i) * 0.05).collect();
     let msd: Vec<f64> = lag.iter().map(|t| 6.0 * 0.3 * (t - 0.3 * (1.0 - (-t / 0.3).exp()))).collect();
     let vacf: Vec<f64> = lag.iter().map(|t| 3.0 * (-t / 0.3_f64).exp() - 0.02 * (-(t - 2.0).powi(2)).exp()).collect();

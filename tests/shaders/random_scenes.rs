@@ -160,13 +160,18 @@ fn interactions(draws: &mut Draws, dimension: usize, chained: bool, memory: &Val
 fn output(draws: &mut Draws, across: &str) -> Value {
     let analyses = [
         ("radial_distribution", json!({"every": 2, "range": 1.5, "bins": 10})),
+        ("radial_distribution", json!({"every": 2, "range": 1.5, "bins": 10, "species": "all-pairs"})),
+        ("radial_distribution", json!({"every": 2, "range": 1.5, "bins": 10, "species": "A"})),
         ("diffusion", json!({"every": 1, "window": 2})),
+        ("diffusion", json!({"every": 1, "window": 2, "species": "A"})),
         ("chain_sizes", json!({"every": 2})),
         ("viscosity", json!({"every": 1, "window": 8})),
         ("autocorrelations", json!([{"quantity": "velocity", "every": 1, "window": 2}])),
         ("autocorrelations", json!([{"quantity": "force", "every": 1, "window": 2}])),
         ("histograms", json!([{"quantity": "velocity", "every": 2}])),
         ("histograms", json!([{"quantity": "acceleration", "every": 2}])),
+        ("autocorrelations", json!([{"quantity": "force", "every": 1, "window": 2, "species": "A"}])),
+        ("histograms", json!([{"quantity": "velocity", "every": 2, "species": "A"}])),
         ("stress", json!({"every": 1})),
         ("profiles", json!({"axis": across, "every": 2, "bins": 5})),
         ("profiles", json!({"axis": across, "every": 2, "bins": 5, "quantities": ["stress"]})),

@@ -215,8 +215,28 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
             ],
         }),
     ];
+    let of_species = [
+        json!({
+            "radial_distribution": {"every": 2, "range": 1.1, "species": "all-pairs"},
+            "diffusion": {"every": 2, "window": 4, "species": "A"},
+            "autocorrelations": [
+                {"quantity": "velocity", "every": 2, "window": 4, "species": "A"},
+                {"quantity": "force", "every": 2, "window": 4, "species": "A"},
+            ],
+            "histograms": [
+                {"quantity": "velocity", "every": 2, "species": "A"}, {"quantity": "acceleration", "every": 2, "species": "A"},
+            ],
+        }),
+        json!({
+            "radial_distribution": {"every": 2, "range": 1.1, "species": "A"},
+            "autocorrelations": [
+                {"quantity": "velocity", "every": 2, "window": 4, "frame": "centre-of-mass", "species": "A"},
+            ],
+            "histograms": [{"quantity": "velocity", "every": 2, "frame": "centre-of-mass", "species": "A"}],
+        }),
+    ];
     let mut scenes = Vec::new();
-    for interactions in beside {
+    for (number, interactions) in beside.into_iter().enumerate() {
         let mut scene = pairs.clone();
         for interaction in interactions {
             let before = scene["interactions"].clone();
@@ -226,7 +246,8 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
             }
         }
         scenes.extend(accepted(&scene));
-        for analyses in &analyses {
+        let of_species = of_species.iter().filter(|_| number < 2);
+        for analyses in analyses.iter().chain(of_species) {
             let mut scene = scene.clone();
             for (name, analysis) in analyses.as_object().unwrap() {
                 let before = scene["output"].clone();
@@ -370,9 +391,12 @@ fn long_range_plans() -> Vec<(String, Plan)> {
     for space in ["space.box=[9,7]", "space.box=[9,7,8]"] {
         for integrator in INTEGRATORS {
             for listed in [false, true].into_iter().filter(|listed| !listed || !integrator.contains("splitting")) {
-                let scene = fluid(&[SAMPLERS, &[VISCOSITY, space, integrator]].concat());
-                let options = Options { listed, pairs_in_dispatch: Some(999), ..Options::default() };
-                plans.extend(plans_of(&format!("{space} {integrator} in several dispatches"), &scene, options));
+                for (species, viscosity) in [("null", VISCOSITY), (r#""A""#, space), (r#""all-pairs""#, space)] {
+                    let species = format!("output.radial_distribution.species={species}");
+                    let scene = fluid(&[SAMPLERS, &[viscosity, space, integrator, &species]].concat());
+                    let options = Options { listed, pairs_in_dispatch: Some(999), ..Options::default() };
+                    plans.extend(plans_of(&format!("{space} {integrator} {species} in dispatches"), &scene, options));
+                }
             }
         }
     }
@@ -383,6 +407,7 @@ fn long_range_plans() -> Vec<(String, Plan)> {
 fn shared_plans() -> Vec<(String, Plan)> {
     // Parts so wide that exchanges overlap with their inner cells, where pairs are visited particle by particle.
     let radial = r#"output.radial_distribution={"every":2,"range":1.5}"#;
+    let radial_of_species = radial.replace("1.5", r#"1.5,"species":"all-pairs""#);
     let dense = r#"interactions=[{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}]"#;
     let walled = r#"space.walls={"y":{}}"#;
     let sheared = r#"space.shear={"rate":0.5,"gradient":"y"}"#;
@@ -399,7 +424,11 @@ fn shared_plans() -> Vec<(String, Plan)> {
         for (number, kind) in kinds.iter().enumerate() {
             for (column, integrator) in INTEGRATORS.iter().enumerate() {
                 // Distances of pairs are not counted between walls and through boundaries that shear.
-                let radial = if number >= 4 { "time.steps=1000" } else { radial };
+                let radial = match number {
+                    4.. => "time.steps=1000",
+                    1 => &radial_of_species,
+                    _ => radial,
+                };
                 let followed = r#"output.trajectory={"every":5}"#;
                 let followed = if number == 5 { "time.steps=1000" } else { followed };
                 let changes = [&["time.steps=1000", space, *integrator, radial, followed], *kind].concat();

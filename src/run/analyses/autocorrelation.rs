@@ -1,7 +1,8 @@
 //! Normalised autocorrelations of velocities and forces, and the curves fitted to them.
 
 use super::{
-    Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, SumSampler, found, windows_missing,
+    Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, SumSampler, found, of_species,
+    windows_missing,
 };
 use crate::engine::Sample;
 use crate::families::Checked;
@@ -57,12 +58,16 @@ impl Descriptor for Autocorrelation {
                 (Choices::new().with(Sampled::Force), Vec::new(), names)
             }
         };
+        let (particles, species) = planner.particles_of(asked.species.as_deref());
         let bytes = 16 * planner.plan.particles;
         planner.plan.add_buffer(origins, bytes);
         let id = AnalysisId::Autocorrelation(self.0);
         planner.add_sums(&SumSampler {
-            choices,
-            constants: vec![(Constant::Window, asked.window as f64), (Constant::Product, unit * unit / quantum)],
+            choices: choices.with_any(particles),
+            constants: [(Constant::Window, asked.window as f64), (Constant::Product, unit * unit / quantum)]
+                .into_iter()
+                .chain(species)
+                .collect(),
             renamed: vec![(Array::Origins, origins)],
             before,
             window: Some(Window { buffer: origins, samples: asked.window.max(1) }),
@@ -76,7 +81,9 @@ impl Descriptor for Autocorrelation {
     }
 
     fn numbers_of_sample(&self, Setting { scene, plan }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
-        let mean = |sum: &i64| *sum as f64 * quantum(plan, self.0) / scene.model().mobile_particles() as f64;
+        let species = self.of(&scene.output)?.species.as_deref();
+        let particles = scene.model().mobile_particles_of(species) as f64;
+        let mean = |sum: &i64| *sum as f64 * quantum(plan, self.0) / particles;
         Some(sample.sums.iter().map(mean).collect())
     }
 
@@ -87,7 +94,7 @@ impl Descriptor for Autocorrelation {
         let average = WindowedAverage::from_samples(asked.window as usize, gathered.part(0));
         let (covariances, normalised) = (average.average(), average.normalised());
         let first = covariances.first().copied();
-        let missing = windows_missing(&average, model).or_else(|| {
+        let missing = windows_missing(&average, model, asked.species.as_deref()).or_else(|| {
             first.is_none_or(|first| first.value <= 0.0).then(|| "it is zero for all particles".to_owned())
         });
         let is_fitted = asked.fit != DecayFit::None;
@@ -108,7 +115,8 @@ impl Descriptor for Autocorrelation {
         let table = Table::new(columns, rows.collect());
         let result = match (missing, first) {
             (None, Some(first)) => {
-                let mut result = json!({ "windows": average.windows().len(), MEAN_SQUARE: first });
+                let result = json!({ "windows": average.windows().len(), MEAN_SQUARE: first });
+                let mut result = of_species(asked.species.as_deref(), result);
                 if is_fitted {
                     result["fit"] = json!(fit.map(|fit| parameters(&fit, asked.fit)));
                 }

@@ -1,7 +1,8 @@
 //! Mean squared displacement and velocity autocorrelation, and the diffusion coefficients they give.
 
 use super::{
-    Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, SumSampler, found, windows_missing,
+    Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, SumSampler, found, of_species,
+    windows_missing,
 };
 use crate::engine::Sample;
 use crate::families::Checked;
@@ -11,7 +12,7 @@ use crate::plan::paths::PATH;
 use crate::plan::{Paths, Window};
 use crate::plot::{Chart, diffusion_chart};
 use crate::scene::AnalysisId;
-use crate::shaders::{Array, Constant, Entry};
+use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::json;
 
@@ -35,7 +36,9 @@ impl Descriptor for Diffusion {
         let Some(asked) = &planner.output.diffusion else { return };
         let unit = planner.model.units.momentum;
         let measured = planner.measured();
+        let (particles, species) = planner.particles_of(asked.species.as_deref());
         let mut constants = planner.of_all_particles();
+        constants.extend(species);
         let plan = &mut *planner.plan;
         plan.add_buffer(TRACKERS, 48 * measured);
         let of_all_ranks = plan.part.is_some();
@@ -49,6 +52,7 @@ impl Descriptor for Diffusion {
         ]);
         let buffers = [Array::DiffusionSums, Array::DiffusionSamples];
         planner.add_sums(&SumSampler {
+            choices: Choices::new().with_any(particles),
             constants,
             renamed: of_all_ranks.then_some((Paths::BUFFER, Array::GatheredPaths)).into_iter().collect(),
             window: Some(Window { buffer: TRACKERS, samples: asked.window.max(1) }),
@@ -64,7 +68,9 @@ impl Descriptor for Diffusion {
     fn numbers_of_sample(&self, Setting { scene, plan }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
         let scales = [plan.quanta.length_squared, plan.quanta.velocity_squared];
         let means = sample.sums.iter().zip(scales);
-        Some(means.map(|(sum, scale)| *sum as f64 * scale / scene.model().mobile_particles() as f64).collect())
+        let species = scene.output.diffusion.as_ref()?.species.as_deref();
+        let particles = scene.model().mobile_particles_of(species) as f64;
+        Some(means.map(|(sum, scale)| *sum as f64 * scale / particles).collect())
     }
 
     fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
@@ -85,10 +91,10 @@ impl Descriptor for Diffusion {
             "velocity_autocorrelation_error",
         ];
         let table = Table::new(columns, rows.collect());
-        if let Some(missing) = windows_missing(&displacement, model) {
+        if let Some(missing) = windows_missing(&displacement, model, asked.species.as_deref()) {
             return Some(Conclusion::new(table, Err(missing)));
         }
-        let mut result = json!({ "windows": displacement.windows().len() });
+        let mut result = of_species(asked.species.as_deref(), json!({ "windows": displacement.windows().len() }));
         let windows = DiffusionWindows { displacement, velocity, interval, dimension: model.units.dimension };
         let mut warnings = Vec::new();
         for (name, found) in [(EINSTEIN, windows.einstein()), (GREEN_KUBO, windows.green_kubo())] {

@@ -1,7 +1,9 @@
 //! Histograms of velocities, speeds and accelerations.
 
 use super::histogram_range::range;
-use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler};
+use super::{
+    Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler, of_species,
+};
 use crate::engine::Sample;
 use crate::families::Checked;
 use crate::measure::histogram::{self, PowerMeans, gaussian_mean, maxwell_mean};
@@ -73,10 +75,13 @@ impl Descriptor for Histogram {
             }
         };
         let groups = planner.groups().min(GROUPS);
-        let (constants, counted) = counting(asked, planner, unit, groups);
+        let (particles, species) = planner.particles_of(asked.species.as_deref());
+        let (mut constants, counted) = counting(asked, planner, unit, groups);
+        constants.extend(species);
+        let choices = choices.with(counted).with_any(particles);
         let (id, entries) = (AnalysisId::Histogram(self.0), asked.bins as usize + EXTRA + MOMENTS);
         let sampler = SumSampler::new(id, Entry::CountHistogram, buffers, entries, asked.every);
-        planner.add_counts(&SumSampler { choices: choices.with(counted), constants, before, ..sampler }, groups);
+        planner.add_counts(&SumSampler { choices, constants, before, ..sampler }, groups);
     }
 
     fn parts(&self, scene: &Checked) -> Vec<Part> {
@@ -104,7 +109,7 @@ impl Descriptor for Histogram {
             histogram::Histogram { range: [low, range], counts: counts.to_vec(), below: *below, above: *above };
         let dimension = model.units.dimension;
         let components = if speed || asked.axis.is_some() { 1.0 } else { dimension as f64 };
-        let particles = samples * model.mobile_particles() as f64 - far;
+        let particles = samples * model.mobile_particles_of(asked.species.as_deref()) as f64 - far;
         let [value, magnitude] = means(powers, range, [particles * components, particles]);
         let densities = histogram.density();
         let rows = histogram.counts.iter().enumerate().map(|(bin, count)| {
@@ -154,7 +159,7 @@ impl Descriptor for Histogram {
             let is_found = |name: &str| !speed || ![BELOW, KURTOSIS].contains(&name);
             let found = numbers.into_iter().filter(|(name, _)| is_found(name));
             let result: Map<String, Value> = found.map(|(name, value)| (name.to_owned(), json!(value))).collect();
-            Ok(Value::Object(result))
+            Ok(of_species(asked.species.as_deref(), Value::Object(result)))
         };
         Some(Conclusion { warnings, ..Conclusion::new(table, result) })
     }

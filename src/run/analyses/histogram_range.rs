@@ -1,6 +1,6 @@
 //! The range of a histogram that does not say it.
 
-use crate::families::Model;
+use crate::families::{Model, Species};
 use crate::scene::{CountedQuantity, Histogram};
 
 /// The default range in typical magnitudes.
@@ -8,23 +8,30 @@ const RANGE: f64 = 6.0;
 
 /// The largest magnitude that a histogram counts.
 pub(super) fn range(model: &Model, asked: &Histogram) -> f64 {
+    let species = asked.species.as_deref();
     let scale = || match asked.quantity {
-        CountedQuantity::Velocity | CountedQuantity::Speed => velocity_scale(model),
-        CountedQuantity::Acceleration => acceleration_scale(model),
+        CountedQuantity::Velocity | CountedQuantity::Speed => velocity_scale(model, species),
+        CountedQuantity::Acceleration => acceleration_scale(model, species),
     };
     asked.range.unwrap_or_else(|| RANGE * scale())
 }
 
-/// The mass of the lightest species that has particles.
-fn lightest(model: &Model) -> f64 {
-    let present = model.species.iter().filter(|species| species.count > 0);
+/// The numbers of the species that have particles; of the one with a name, if one is given.
+fn present<'m>(model: &'m Model, name: Option<&'m str>) -> impl Iterator<Item = (usize, &'m Species)> {
+    let asked = move |species: &Species| species.count > 0 && name.is_none_or(|name| species.name == name);
+    model.species.iter().enumerate().filter(move |(_, species)| asked(species))
+}
+
+/// The mass of the lightest of them.
+fn lightest(model: &Model, name: Option<&str>) -> f64 {
+    let present = present(model, name).map(|(_, species)| species);
     let lightest = present.map(|species| species.mass).fold(f64::INFINITY, f64::min);
     if lightest.is_finite() { lightest } else { 1.0 }
 }
 
 /// A typical component of the velocity of the lightest species: thermal, or that of the unit of momentum.
-fn velocity_scale(model: &Model) -> f64 {
-    let mass = lightest(model);
+fn velocity_scale(model: &Model, name: Option<&str>) -> f64 {
+    let mass = lightest(model, name);
     if model.temperature > 0.0 {
         (model.temperature / mass).sqrt()
     } else {
@@ -36,11 +43,11 @@ fn velocity_scale(model: &Model) -> f64 {
 /// repulsion of evenly spread neighbours makes a frequency ω, ω² = Σ aρV(rc)/rc / (d m), and their friction a rate
 /// Γ = Σ γρ\[ω\]/(d m), whose noise no more than turns a velocity round in a step. Without a temperature it is that
 /// of the strongest contact.
-fn acceleration_scale(model: &Model) -> f64 {
+fn acceleration_scale(model: &Model, name: Option<&str>) -> f64 {
     let Some(force) = model.particles().pair_force.as_ref() else { return 1.0 };
     let dimension = model.units.dimension as f64;
     let step = model.time_step;
-    let squares = model.species.iter().enumerate().filter(|(_, species)| species.count > 0).map(|(a, species)| {
+    let squares = present(model, name).map(|(a, species)| {
         let sum = |coefficient: &dyn Fn(usize) -> f64| -> f64 {
             model.densities(a).map(|(b, density)| coefficient(b) * density).sum()
         };
@@ -59,6 +66,6 @@ fn acceleration_scale(model: &Model) -> f64 {
         return square.sqrt();
     }
     let of_densities = force.many_body.map_or(0.0, |many_body| 2.0 * many_body.repulsion * many_body.contact_density());
-    let contact = force.largest_repulsion().max(of_densities) / lightest(model);
+    let contact = force.largest_repulsion().max(of_densities) / lightest(model, name);
     if contact > 0.0 { contact } else { 1.0 }
 }

@@ -33,7 +33,7 @@ pub(super) use descriptor::Setting;
 use descriptor::{Conclusion, Descriptor, Drawn, Sampling};
 use gathered::{Gathered, Part};
 use planner::SumSampler;
-use results::{NO_SAMPLE, found, windows_missing};
+use results::{NO_SAMPLE, found, of_species, whose, windows_missing};
 
 use crate::families::{Checked, Model};
 use crate::output::Summary;
@@ -135,7 +135,11 @@ pub(crate) fn circulation_change(summary: &Summary) -> Option<f64> {
 #[must_use]
 pub fn printed_results(summary: &Summary) -> Vec<(String, String)> {
     let results = AnalysisId::ALL.into_iter().filter_map(|id| Some((id, summary.results.get(id.name())?)));
-    results.flat_map(|(id, result)| describe(id).printed(result)).collect()
+    let lines = |(id, result): (AnalysisId, &Value)| {
+        let of = whose(result);
+        describe(id).printed(result).into_iter().map(move |(label, value)| (label + &of, value))
+    };
+    results.flat_map(lines).collect()
 }
 
 /// All tables that analyses may leave, with their analysis and their place among its tables.
@@ -148,7 +152,11 @@ pub(super) fn tables() -> impl Iterator<Item = (AnalysisId, usize, AnalysisTable
 /// The chart of a table, with the results of a run that belong to it.
 pub(super) fn chart(id: AnalysisId, place: usize, table: &Table, scene: &Scene, results: &Map<String, Value>) -> Chart {
     let result = results.get(id.name()).unwrap_or(&Value::Null);
-    describe(id).chart(&Drawn { scene, table, place, result })
+    let chart = describe(id).chart(&Drawn { scene, table, place, result });
+    match whose(result) {
+        of if of.is_empty() => chart,
+        of => Chart { title: chart.title.clone() + &of, ..chart },
+    }
 }
 
 #[cfg(test)]

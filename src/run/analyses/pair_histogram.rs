@@ -1,11 +1,12 @@
 //! Pairs counted by distance, for the radial distribution function.
 
 use super::Planner;
+use crate::families::Model;
 use crate::plan::recording::record_histogram;
 use crate::plan::serial_memory::TURNS;
 use crate::plan::{Grid, Kernel, Options, Ordered, Sampler};
-use crate::scene::{AnalysisId, RadialDistribution};
-use crate::shaders::analyses::CountedPairs;
+use crate::scene::{self, AnalysisId, RadialDistribution};
+use crate::shaders::analyses::{CountedPairs, Partial};
 use crate::shaders::core::Dispatches;
 use crate::shaders::{Array, Constant, Entry};
 use crate::state::Units;
@@ -25,6 +26,65 @@ const MOST_DISPATCHES: u64 = 1 << 12;
 /// Enough workgroups to fill an adapter.
 const ENOUGH: u64 = 8192;
 
+/// The pairs of species that have histograms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum SpeciesPairs {
+    /// All particles alike.
+    Alike,
+    /// Two species, the smaller number first.
+    Between([usize; 2]),
+    /// Every two of this number.
+    All(usize),
+}
+
+impl SpeciesPairs {
+    /// Those that a scene asks for.
+    pub fn of(asked: &RadialDistribution, model: &Model) -> Self {
+        let number = |name: &String| model.species_named(name).unwrap_or_default();
+        match &asked.species {
+            None => Self::Alike,
+            Some(scene::CountedPairs::Within(name)) if name == scene::CountedPairs::ALL => {
+                Self::All(model.species.len())
+            }
+            Some(scene::CountedPairs::Within(name)) => Self::Between([number(name); 2]),
+            Some(scene::CountedPairs::Between(names)) => {
+                let [a, b] = [number(&names[0]), number(&names[1])];
+                Self::Between([a.min(b), a.max(b)])
+            }
+        }
+    }
+
+    /// Two species of each histogram, in their order; nothing for all particles alike.
+    pub fn species(self) -> Vec<[usize; 2]> {
+        match self {
+            Self::Alike => Vec::new(),
+            Self::Between(pair) => vec![pair],
+            Self::All(count) => (0..count).flat_map(|b| (0..=b).map(move |a| [a, b])).collect(),
+        }
+    }
+
+    /// Number of histograms.
+    pub fn histograms(self) -> u64 {
+        self.species().len().max(1) as u64
+    }
+
+    fn choice(self) -> Option<Partial> {
+        match self {
+            Self::Alike => None,
+            Self::Between(_) => Some(Partial::Between),
+            Self::All(_) => Some(Partial::All),
+        }
+    }
+
+    fn constants(self, bins: u32) -> Vec<(Constant, f64)> {
+        match self {
+            Self::Alike => Vec::new(),
+            Self::Between([a, b]) => vec![(Constant::FirstSpecies, a as f64), (Constant::SecondSpecies, b as f64)],
+            Self::All(_) => vec![(Constant::PairBins, bins.into())],
+        }
+    }
+}
+
 /// What the kernel that counts pairs has to know.
 pub(super) struct PairHistogram<'a> {
     pub units: &'a Units,
@@ -33,6 +93,7 @@ pub(super) struct PairHistogram<'a> {
     pub grid: &'a Grid,
     pub options: Options,
     pub asked: &'a RadialDistribution,
+    pub pairs: SpeciesPairs,
 }
 
 impl PairHistogram<'_> {
@@ -40,7 +101,7 @@ impl PairHistogram<'_> {
     pub fn add(self, planner: &mut Planner<'_>, ordered: &Ordered) {
         let plan = &mut *planner.plan;
         let mut kernels = ordered.kernels.clone();
-        let bins = u64::from(self.asked.bins);
+        let bins = u64::from(self.asked.bins) * self.pairs.histograms();
         let spans: [u64; 3] = std::array::from_fn(|axis| self.span(axis));
         let (segments, parts) = self.shares(plan.particles, spans);
         let shares = self.grid.rows() * segments * parts;
@@ -48,7 +109,8 @@ impl PairHistogram<'_> {
         let dispatches = dispatches.min(shares);
         let choices = (ordered.choices.clone())
             .with_if(dispatches > 1, Dispatches::InTurn)
-            .with_if(self.walled, CountedPairs::BetweenWalls);
+            .with_if(self.walled, CountedPairs::BetweenWalls)
+            .with_any(self.pairs.choice());
         let shares = shares.div_ceil(dispatches);
         let mut constants = vec![
             (Constant::Bins, bins as f64),
@@ -59,6 +121,7 @@ impl PairHistogram<'_> {
             (Constant::Segments, segments as f64),
             (Constant::Parts, parts as f64),
         ];
+        constants.extend(self.pairs.constants(self.asked.bins));
         if dispatches > 1 {
             constants.push((Constant::Shares, shares as f64));
         }
@@ -79,7 +142,7 @@ impl PairHistogram<'_> {
         }
         plan.add_buffer(Array::Histogram, 8 * bins);
         let (id, samples) = (AnalysisId::RadialDistribution, Array::HistogramSamples);
-        let plain = planner.sampler(id, self.asked.every, samples, self.asked.bins as usize, CAPACITY);
+        let plain = planner.sampler(id, self.asked.every, samples, bins as usize, CAPACITY);
         planner.plan.samplers.push(Sampler { kernels, needs_report: ordered.needs_report, ..plain });
     }
 
@@ -125,7 +188,7 @@ mod tests {
     use super::*;
 
     fn histogram<'a>(units: &'a Units, grid: &'a Grid, asked: &'a RadialDistribution) -> PairHistogram<'a> {
-        PairHistogram { units, walled: false, grid, options: Options::default(), asked }
+        PairHistogram { units, walled: false, grid, options: Options::default(), asked, pairs: SpeciesPairs::Alike }
     }
 
     /// Over a thousand million pairs are shared; a batch may have many histograms of some millions each.
@@ -135,7 +198,7 @@ mod tests {
             let units = Units { dimension: 3, lengths: [50.0; 3], gaps: [0.0; 3], momentum: 1.0 };
             let particles = 125_000;
             let grid = Grid::new(&units, 1.0, particles);
-            let asked = RadialDistribution { every: 1, range, bins: 10 };
+            let asked = RadialDistribution { every: 1, range, bins: 10, species: None };
             let histogram = histogram(&units, &grid, &asked);
             let spans: [u64; 3] = std::array::from_fn(|axis| histogram.span(axis));
             assert_eq!(histogram.dispatches(particles, spans), expected, "{range}");
@@ -150,7 +213,7 @@ mod tests {
             let units = Units { dimension: 3, lengths: [edge; 3], gaps: [0.0; 3], momentum: 1.0 };
             let particles = (density * edge * edge * edge) as u64;
             let grid = Grid::new(&units, 1.0, particles);
-            let asked = RadialDistribution { every: 1, range, bins: 10 };
+            let asked = RadialDistribution { every: 1, range, bins: 10, species: None };
             let histogram = histogram(&units, &grid, &asked);
             let spans: [u64; 3] = std::array::from_fn(|axis| histogram.span(axis));
             let (segments, parts) = histogram.shares(particles, spans);

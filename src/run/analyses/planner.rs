@@ -4,7 +4,7 @@ use crate::families::Model;
 use crate::plan::recording::{SAMPLE_ROWS, record_histogram, record_sums};
 use crate::plan::{Kernel, Options, Ordered, PARTICLE_WORDS, PhysicsPlan, Plan, Reported, Sampler, SamplerId, Window};
 use crate::scene::{AnalysisId, Frame, Output};
-use crate::shaders::analyses::{Frame as CentreFrame, Sampled};
+use crate::shaders::analyses::{Frame as CentreFrame, Measured, Sampled};
 use crate::shaders::{Array, Choices, Constant, Entry};
 
 /// A plan of the physics that samplers are added to.
@@ -195,6 +195,12 @@ impl<'a> Planner<'a> {
             window: None,
             whole: 0..0,
         }
+    }
+
+    /// How kernels choose the particles of a species, where one is named.
+    pub(super) fn particles_of(&self, species: Option<&str>) -> (Option<Measured>, Option<(Constant, f64)>) {
+        let number = species.and_then(|name| self.model.species_named(name));
+        (number.map(|_| Measured::OfSpecies), number.map(|number| (Constant::MeasuredSpecies, number as f64)))
     }
 
     /// How kernels read velocities in a frame, and the kernels that have to run before.

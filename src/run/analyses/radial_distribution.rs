@@ -1,14 +1,16 @@
 //! The radial distribution function.
 
-use super::pair_histogram::PairHistogram;
+use super::pair_histogram::{PairHistogram, SpeciesPairs};
 use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting};
 use crate::engine::Sample;
 use crate::families::Checked;
 use crate::plan::Need;
 use crate::plot::{Chart, radial_distribution_chart};
-use crate::scene::Output;
+use crate::printable;
+use crate::scene::{Output, SpeciesNames};
 use crate::table::Table;
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Columns of the table, and names in the result.
@@ -16,6 +18,9 @@ const DISTANCE: &str = "distance";
 const VALUE: &str = "radial_distribution";
 const PEAK_DISTANCE: &str = "peak_distance";
 const PEAK_HEIGHT: &str = "peak_height";
+/// The pairs of species of a result, and the two species of a pair.
+const PAIRS: &str = "pairs";
+const SPECIES: &str = "species";
 
 /// The radial distribution function.
 pub(super) struct RadialDistribution;
@@ -38,13 +43,19 @@ impl Descriptor for RadialDistribution {
             grid: &ordered.grid,
             options: planner.options,
             asked,
+            pairs: SpeciesPairs::of(asked, model),
         };
         histogram.add(planner, ordered);
     }
 
     fn parts(&self, scene: &Checked) -> Vec<Part> {
         // Samples, and pairs by distance.
-        vec![Part::sums(1 + scene.output.radial_distribution.as_ref().map_or(0, |asked| asked.bins as usize))]
+        let bins = scene
+            .output
+            .radial_distribution
+            .as_ref()
+            .map_or(0, |asked| u64::from(asked.bins) * SpeciesPairs::of(asked, scene.model()).histograms());
+        vec![Part::sums(1 + bins as usize)]
     }
 
     fn numbers_of_sample(&self, _: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
@@ -53,44 +64,128 @@ impl Descriptor for RadialDistribution {
 
     fn conclude(&self, Setting { scene, plan }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
         let model = scene.model();
-        let range = scene.output.radial_distribution.as_ref()?.range;
+        let asked = scene.output.radial_distribution.as_ref()?;
+        let pairs = SpeciesPairs::of(asked, model);
         let (samples, counts) = gathered.part(0).split_first()?;
-        let (units, particles) = (&model.units, (plan.particles - model.frozen_particles()) as f64);
+        let units = &model.units;
         // Distances of walls that face each other.
         let gaps: Vec<f64> = model.particles().walls.iter().map(|walls| units.edges()[walls.axis]).collect();
-        let width = range / counts.len() as f64;
-        let pairs = 0.5 * particles * (particles - 1.0);
+        let width = asked.range / f64::from(asked.bins);
         let ball = |radius: f64| ball(radius, units.dimension, &gaps);
-        let rows = counts.iter().enumerate().map(|(bin, count)| {
-            let inner = bin as f64 * width;
-            let expected = samples * pairs * (ball(inner + width) - ball(inner)) / units.volume();
-            vec![inner + 0.5 * width, count / expected]
+        let shells: Vec<f64> = (0..asked.bins)
+            .map(|bin| (ball(f64::from(bin + 1) * width) - ball(f64::from(bin) * width)) / units.volume())
+            .collect();
+        let of_species = |number: usize| model.species.get(number).filter(|species| !species.frozen);
+        let particles = |number: usize| of_species(number).map_or(0.0, |species| species.count as f64);
+        let species = pairs.species();
+        let numbers_of_pairs: Vec<f64> = match species[..] {
+            [] => {
+                let particles = (plan.particles - model.frozen_particles()) as f64;
+                vec![0.5 * particles * (particles - 1.0)]
+            }
+            _ => species
+                .iter()
+                .map(|&[a, b]| match particles(a) {
+                    of_a if a == b => 0.5 * of_a * (of_a - 1.0),
+                    of_a => of_a * particles(b),
+                })
+                .collect(),
+        };
+        let curves: Vec<Vec<[f64; 2]>> = counts
+            .chunks(asked.bins as usize)
+            .zip(&numbers_of_pairs)
+            .map(|(counts, pairs)| {
+                let value = |(bin, (count, shell)): (usize, (&f64, &f64))| {
+                    [(bin as f64 + 0.5) * width, count / (samples * pairs * shell)]
+                };
+                counts.iter().zip(&shells).enumerate().map(value).collect()
+            })
+            .collect();
+        let rows = (0..shells.len()).map(|bin| {
+            let values = curves.iter().map(|curve| curve[bin][1]);
+            std::iter::once((bin as f64 + 0.5) * width).chain(values).collect()
         });
-        let rows: Vec<Vec<f64>> = rows.collect();
-        let [distance, height] = peak(&rows).map_or([None; 2], |peak| peak.map(Some));
+        let columns: Vec<String> = match pairs {
+            SpeciesPairs::All(_) => species.iter().map(|&pair| column_of(pair)).collect(),
+            _ => vec![VALUE.to_owned()],
+        };
+        let table = Table::new(std::iter::once(DISTANCE.to_owned()).chain(columns), rows.collect());
         let result = if *samples == 0.0 {
             Err(NO_SAMPLE.to_owned())
-        } else if pairs <= 0.0 {
+        } else if numbers_of_pairs.iter().all(|pairs| *pairs <= 0.0) {
             Err("there are no pairs of particles".to_owned())
         } else {
-            Ok(json!({ "samples": samples, PEAK_DISTANCE: distance, PEAK_HEIGHT: height }))
+            let name = |number: usize| model.species.get(number).map_or("", |species| &species.name);
+            let peaks = |curve: &Vec<[f64; 2]>| {
+                let [distance, height] = peak(curve).map_or([None; 2], |peak| peak.map(Some));
+                json!({ PEAK_DISTANCE: distance, PEAK_HEIGHT: height })
+            };
+            let mut result = json!({ "samples": samples });
+            let mut found: Vec<Value> = curves.iter().map(peaks).collect();
+            for (peaks, pair) in found.iter_mut().zip(&species) {
+                peaks[SPECIES] = json!(pair.map(name));
+            }
+            match (pairs, found.first().and_then(Value::as_object)) {
+                (SpeciesPairs::All(_), _) => result[PAIRS] = json!(found),
+                (_, Some(only)) => only.iter().for_each(|(key, value)| result[key] = value.clone()),
+                _ => {}
+            }
+            Ok(result)
         };
-        Some(Conclusion::new(Table::new([DISTANCE, VALUE], rows), result))
+        Some(Conclusion::new(table, result))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
-        radial_distribution_chart(drawn.title(), &drawn.column(DISTANCE), &drawn.column(VALUE))
+        let curves = match drawn.result[PAIRS].as_array() {
+            Some(pairs) => {
+                let species = SpeciesNames::of(drawn.scene);
+                let curve = |pair: &Value| {
+                    let numbers: Option<Vec<usize>> = names(pair).map(|name| species.place(name)).collect();
+                    let [a, b] = numbers?[..] else { return None };
+                    Some((in_words(pair)?, drawn.column(&column_of([a, b]))))
+                };
+                pairs.iter().filter_map(curve).collect()
+            }
+            None => vec![(in_words(drawn.result).unwrap_or_else(|| "g(r)".to_owned()), drawn.column(VALUE))],
+        };
+        radial_distribution_chart(drawn.title(), &drawn.column(DISTANCE), &curves)
     }
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        let Some(height) = result[PEAK_HEIGHT].as_f64() else { return Vec::new() };
-        let distance = result[PEAK_DISTANCE].as_f64().unwrap_or(f64::NAN);
-        vec![("g(r) peak".to_owned(), format!("{height:.3} at {distance:.3}"))]
+        let line = |peaks: &Value| {
+            let [distance, height] = [PEAK_DISTANCE, PEAK_HEIGHT].map(|key| peaks[key].as_f64());
+            let pair = in_words(peaks).map(|pair| format!(" of {pair}")).unwrap_or_default();
+            Some((format!("g(r) peak{pair}"), format!("{:.3} at {:.3}", height?, distance?)))
+        };
+        match result[PAIRS].as_array() {
+            Some(pairs) => pairs.iter().filter_map(line).collect(),
+            None => line(result).into_iter().collect(),
+        }
     }
 
-    fn finds(&self, _: &Checked) -> Vec<&'static str> {
-        vec![PEAK_DISTANCE, PEAK_HEIGHT]
+    fn finds(&self, scene: &Checked) -> Vec<&'static str> {
+        let asked = scene.output.radial_distribution.as_ref();
+        match asked.map(|asked| SpeciesPairs::of(asked, scene.model())) {
+            Some(SpeciesPairs::All(_)) => Vec::new(),
+            _ => vec![PEAK_DISTANCE, PEAK_HEIGHT],
+        }
     }
+}
+
+/// The column of a pair of species, by their numbers.
+fn column_of([a, b]: [usize; 2]) -> String {
+    format!("{VALUE}_{a}_{b}")
+}
+
+/// The names of the species of a pair, if a result is of one.
+fn names(result: &Value) -> impl Iterator<Item = &str> {
+    result[SPECIES].as_array().into_iter().flatten().filter_map(Value::as_str)
+}
+
+/// The same for people.
+fn in_words(result: &Value) -> Option<String> {
+    let names: Vec<Cow<'_, str>> = names(result).map(printable::name).collect();
+    (names.len() == 2).then(|| names.join("–"))
 }
 
 /// The mean volume that particles spread evenly have within a radius around each other: of a ball, less what of it lies
@@ -119,7 +214,7 @@ fn ball(radius: f64, dimension: usize, gaps: &[f64]) -> f64 {
 const PEAK_BINS: usize = 4;
 
 /// Place and height of the maximum of (x, y) rows; none without a positive value. At the edges the highest bin is taken.
-fn peak(rows: &[Vec<f64>]) -> Option<[f64; 2]> {
+fn peak(rows: &[[f64; 2]]) -> Option<[f64; 2]> {
     let highest =
         (0..rows.len()).filter(|bin| rows[*bin][1] > 0.0).max_by(|a, b| rows[*a][1].total_cmp(&rows[*b][1]))?;
     let plain = Some([rows[highest][0], rows[highest][1]]);
@@ -150,14 +245,14 @@ mod tests {
 
     #[test]
     fn the_peak_of_a_parabola_is_found_between_bins() {
-        let rows: Vec<Vec<f64>> = (0..40)
+        let rows: Vec<[f64; 2]> = (0..40)
             .map(|bin| 0.02 * (f64::from(bin) + 0.5))
-            .map(|x| vec![x, 1.2 - 3.0 * (x - 0.433_f64).powi(2)])
+            .map(|x| [x, 1.2 - 3.0 * (x - 0.433_f64).powi(2)])
             .collect();
         let [place, height] = peak(&rows).unwrap();
         assert!((place - 0.433).abs() < 1e-12 && (height - 1.2).abs() < 1e-12, "{place} {height}");
-        assert_eq!(peak(&[vec![1.0, 2.0], vec![2.0, 1.0]]), Some([1.0, 2.0]));
-        assert_eq!(peak(&[vec![1.0, 0.0]]), None);
-        assert_eq!(peak(&[vec![1.0, f64::NAN]]), None);
+        assert_eq!(peak(&[[1.0, 2.0], [2.0, 1.0]]), Some([1.0, 2.0]));
+        assert_eq!(peak(&[[1.0, 0.0]]), None);
+        assert_eq!(peak(&[[1.0, f64::NAN]]), None);
     }
 }

@@ -4,20 +4,38 @@ use crate::families::Model;
 use crate::measure::correlation::WindowedAverage;
 use crate::numbers::with_error;
 use crate::plot::{Found, Mean};
+use crate::printable;
 use serde_json::Value;
 
 /// Why an analysis without samples has no result.
 pub(super) const NO_SAMPLE: &str = "no sample was taken after equilibration";
 
 /// Why windows give no result, if they do not.
-pub(super) fn windows_missing(average: &WindowedAverage, model: &Model) -> Option<String> {
+pub(super) fn windows_missing(average: &WindowedAverage, model: &Model, species: Option<&str>) -> Option<String> {
     if average.windows().len() == 0 {
         Some(format!("the run ends before a window of {} samples is full", average.lags()))
-    } else if model.mobile_particles() == 0 {
-        Some("there are no particles that can move".to_owned())
+    } else if model.mobile_particles_of(species) == 0 {
+        let whose = species.map(|name| format!(" of species `{name}`")).unwrap_or_default();
+        Some(format!("there are no particles{whose} that can move"))
     } else {
         None
     }
+}
+
+/// A result that says which species it is of, if it is of one.
+pub(super) fn of_species(species: Option<&str>, mut result: Value) -> Value {
+    if let Some(name) = species {
+        result[SPECIES] = name.into();
+    }
+    result
+}
+
+/// The key of a result that names its species.
+const SPECIES: &str = "species";
+
+/// The species that a result is of, in words; nothing where it is of all.
+pub(super) fn whose(result: &Value) -> String {
+    result[SPECIES].as_str().map(|name| format!(" of {}", printable::name(name))).unwrap_or_default()
 }
 
 /// A coefficient with its error, from a result.

@@ -584,6 +584,37 @@ pub fn features() -> Vec<Feature> {
             always: true,
         },
         Feature {
+            name: "radial distribution of species",
+            ground: |scene| {
+                no_analyses(scene);
+                write(scene, "radial_distribution", json!({"every": 10, "range": 1.5}));
+            },
+            with: |scene| {
+                write(scene, "radial_distribution", json!({"every": 10, "range": 1.5, "species": "all-pairs"}));
+            },
+            without: |scene| write(scene, "radial_distribution", json!({"every": 10, "range": 1.5, "species": null})),
+            own: Some(&["analyses/partial"]),
+            more: &[],
+            instead: &[],
+            always: true,
+        },
+        Feature {
+            name: "diffusion of a species",
+            ground: |scene| {
+                no_analyses(scene);
+                write(scene, "diffusion", json!({"every": 2, "window": 8}));
+            },
+            with: |scene| {
+                let species = scene["particles"][0]["species"].clone();
+                write(scene, "diffusion", json!({"every": 2, "window": 8, "species": species}));
+            },
+            without: |scene| write(scene, "diffusion", json!({"every": 2, "window": 8, "species": null})),
+            own: Some(&["analyses/measured"]),
+            more: &[],
+            instead: &[],
+            always: true,
+        },
+        Feature {
             name: "diffusion",
             ground: no_analyses,
             with: |scene| write(scene, "diffusion", json!({"every": 2, "window": 8})),

@@ -270,7 +270,13 @@ impl Reference {
     /// ```
     #[must_use]
     pub fn radial_distribution(&self, range: f64, bins: usize) -> Vec<u64> {
-        observables::radial_distribution(self, range, bins)
+        observables::radial_distribution(self, range, bins, None)
+    }
+
+    /// The same of pairs of two species, or within one, by their numbers.
+    #[must_use]
+    pub fn partial_radial_distribution(&self, range: f64, bins: usize, species: [usize; 2]) -> Vec<u64> {
+        observables::radial_distribution(self, range, bins, Some(species))
     }
 
     /// Whether steps are split: they drift in two equal halves, between which a report may fall.

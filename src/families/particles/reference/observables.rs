@@ -79,8 +79,13 @@ fn products(reference: &Reference, report: &Report) -> BathProducts {
     }
 }
 
-/// Counts of unordered pairs in `bins` equal bins of distance up to `range`.
-pub(super) fn radial_distribution(reference: &Reference, range: f64, bins: usize) -> Vec<u64> {
+/// Counts of unordered pairs in `bins` equal bins of distance up to `range`, of two species or of all.
+pub(super) fn radial_distribution(
+    reference: &Reference,
+    range: f64,
+    bins: usize,
+    species: Option<[usize; 2]>,
+) -> Vec<u64> {
     let mut counts = vec![0; bins];
     let (model, state) = (&reference.model, &reference.state);
     // Frozen particles are not counted, nor is anything through the space behind walls.
@@ -90,7 +95,9 @@ pub(super) fn radial_distribution(reference: &Reference, range: f64, bins: usize
         model.particles().walls.iter().any(|walls| apart(walls.axis) >= 1 << 31)
     };
     for pair in find_pairs(&Images::of_step(model, state.step), &state.positions, range) {
-        if frozen(pair.first) || frozen(pair.second) || through(pair.first, pair.second) {
+        let [a, b] = [pair.first, pair.second].map(|id| state.species[id] as usize);
+        let is_asked = species.is_none_or(|asked| asked == [a, b] || asked == [b, a]);
+        if !is_asked || frozen(pair.first) || frozen(pair.second) || through(pair.first, pair.second) {
             continue;
         }
         // Rounding may carry a distance just under the range to the end of the last bin.
