@@ -3,6 +3,7 @@
 mod adapter_argument;
 mod adapters;
 mod check;
+mod event_lines;
 mod failure;
 mod guidance;
 mod heading;

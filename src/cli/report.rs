@@ -13,17 +13,40 @@ use mesoscope::quantity::{Quantity, Unit};
 use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
 
+use super::event_lines::{EventLines, Form, WritingArguments};
 use super::progress::{bar, say};
 use super::table::{aligned, labelled};
 use super::{Failure, RanksArgument, line, print};
 
-/// Executes a run on its ranks and reports on it, with warnings of what they cost before, unless it is to be quiet.
+/// What a run says of itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Telling {
+    /// Errors only.
+    Errors,
+    /// Everything, for people.
+    Words,
+    /// Everything; events for programs.
+    Json,
+}
+
+impl Telling {
+    /// As arguments say.
+    pub fn of(quiet: bool, writing: &WritingArguments) -> Self {
+        match writing.progress {
+            _ if quiet => Self::Errors,
+            Form::Words => Self::Words,
+            Form::Json => Self::Json,
+        }
+    }
+}
+
+/// Executes a run on its ranks and reports on it, with warnings of what they cost before.
 pub fn execute(
     simulation: Simulation,
     processes: Option<&dyn Processes>,
     ranks: &RanksArgument,
     directory: &str,
-    quiet: bool,
+    telling: Telling,
 ) -> Result<(), Failure> {
     let copies = processes.map(Processes::count);
     let division = ranks.division(simulation.scene(), copies)?;
@@ -38,23 +61,28 @@ pub fn execute(
             begun.store(true, Ordering::Relaxed);
         }
     };
-    if quiet {
+    if telling == Telling::Errors {
         simulation.execute_among(processes, choice, &mut |event| note_begin(&event))?;
         return Ok(());
     }
-    let mut reporter = Reporter::new(&simulation);
-    if let Some(warning) = warning {
-        line(&format!("warning: {warning}"));
-    }
-    let mut known = simulation.notices().to_vec();
-    for notice in &known {
-        line(&format!("note: {notice}"));
-    }
-    for warning in families::warnings(simulation.scene()) {
-        line(&format!("warning: {warning}"));
-        known.push(warning.to_string());
-    }
     let scene = simulation.scene().clone();
+    let mut known = simulation.notices().to_vec();
+    let of_scene: Vec<String> = families::warnings(&scene).iter().map(ToString::to_string).collect();
+    if telling == Telling::Json {
+        let mut lines = EventLines::default();
+        warning.iter().chain(&known).chain(&of_scene).for_each(|warning| EventLines::warn(warning));
+        let outcome = simulation.execute_among(processes, choice, &mut |event| {
+            note_begin(&event);
+            lines.show(&event);
+        })?;
+        EventLines::finish(&outcome);
+        return print(&results(&outcome, scene.model(), directory));
+    }
+    let mut reporter = Reporter::new(&simulation);
+    let warned = |warning: &String| format!("warning: {warning}");
+    let notes = known.iter().map(|notice| format!("note: {notice}"));
+    warning.iter().map(warned).chain(notes).chain(of_scene.iter().map(warned)).for_each(|text| line(&text));
+    known.extend(of_scene);
     let result = simulation.execute_among(processes, choice, &mut |event| {
         note_begin(&event);
         reporter.show(event);

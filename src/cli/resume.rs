@@ -8,7 +8,9 @@ use mesoscope::ranks::Processes;
 use mesoscope::run::Simulation;
 use mesoscope::study::Kind;
 
-use super::{Failure, RanksArgument, guidance, heading, print, processes, report, whole_number};
+use super::event_lines::WritingArguments;
+use super::report::{self, Telling};
+use super::{Failure, RanksArgument, guidance, heading, print, processes, whole_number};
 
 /// Continue a run from its last checkpoint
 #[derive(Debug, clap::Args)]
@@ -31,9 +33,8 @@ pub struct Arguments {
     #[command(flatten)]
     ranks: RanksArgument,
 
-    /// Write numbers only; `mesoscope plot DIR` draws the pictures of the end
-    #[arg(long, help_heading = heading::OUTPUT)]
-    no_pictures: bool,
+    #[command(flatten)]
+    writing: WritingArguments,
 
     /// Report errors only
     #[arg(long, help_heading = heading::OUTPUT)]
@@ -71,6 +72,6 @@ fn resume(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<()
             format!("nothing to do: the run in {shown} {state} step {step}; `--steps N` continues to a later step\n");
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
-    let simulation = if arguments.no_pictures { resumed.without_pictures() } else { resumed };
-    report::execute(simulation, processes, &arguments.ranks, &shown, arguments.quiet)
+    let simulation = if arguments.writing.no_pictures { resumed.without_pictures() } else { resumed };
+    report::execute(simulation, processes, &arguments.ranks, &shown, Telling::of(arguments.quiet, &arguments.writing))
 }

@@ -6,7 +6,9 @@ use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::Simulation;
 
-use super::{Failure, RanksArgument, RunArguments, SceneArguments, heading, processes, report};
+use super::event_lines::WritingArguments;
+use super::report::{self, Telling};
+use super::{Failure, RanksArgument, RunArguments, SceneArguments, heading, processes};
 
 /// Simulate a scene and write energies, plots and snapshots
 #[derive(Debug, clap::Args)]
@@ -31,9 +33,8 @@ pub struct Arguments {
     #[command(flatten)]
     ranks: RanksArgument,
 
-    /// Write numbers only; `mesoscope plot DIR` draws the pictures of the end
-    #[arg(long, help_heading = heading::OUTPUT)]
-    no_pictures: bool,
+    #[command(flatten)]
+    writing: WritingArguments,
 
     #[command(flatten)]
     how: RunArguments,
@@ -49,6 +50,12 @@ fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<
     let directory = arguments.out.clone().unwrap_or_else(|| report::stem(&arguments.scene.scene).into());
     let shown = printable::path(&directory);
     let started = Simulation::start(scene, directory, arguments.how.force);
-    let simulation = if arguments.no_pictures { started.without_pictures() } else { started };
-    report::execute(simulation, processes, &arguments.ranks, &shown, arguments.how.quiet)
+    let simulation = if arguments.writing.no_pictures { started.without_pictures() } else { started };
+    report::execute(
+        simulation,
+        processes,
+        &arguments.ranks,
+        &shown,
+        Telling::of(arguments.how.quiet, &arguments.writing),
+    )
 }

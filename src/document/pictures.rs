@@ -72,6 +72,10 @@ pub struct Snapshot {
     pub radius: Option<f64>,
     /// Whether bonds are drawn, where there are any.
     pub bonds: bool,
+    /// The species that are shown; left out, all.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 256))]
+    pub species: Vec<String>,
     /// The quantity that the colour of a particle shows; left out, the species, or the density for Voronoi cells of one species.
     pub color: SnapshotColor,
     /// The lowest and the highest value on the scale of colours, of all pictures of the run; left out, they follow from the
@@ -88,6 +92,7 @@ impl Default for Snapshot {
             height: None,
             radius: None,
             bonds: true,
+            species: Vec::new(),
             color: SnapshotColor::default(),
             range: None,
         }

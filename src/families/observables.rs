@@ -11,7 +11,7 @@ use crate::state::State;
 /// use mesoscope::{families::reference::Reference, scene};
 ///
 /// let scene = scene::load("ideal-dissipative-gas", &["space.box=[4,4,4]".to_owned(), "output={}".to_owned()])?;
-/// let model = scene.model();
+/// let model = scene.model().clone();
 /// let state = mesoscope::families::initial_state(&scene);
 /// let found = Reference::new(model, state).observe()?;
 /// assert_eq!((found.potential_energy, found.total_energy()), (0.0, found.kinetic_energy));

@@ -16,11 +16,11 @@ use std::path::Path;
 /// use mesoscope::output::Id;
 ///
 /// let scene = |set: &str| mesoscope::scene::load("dpd-fluid", &[set.to_owned()]);
-/// let id = Id::of_run(&scene("seed=1")?);
+/// let id = Id::of_run(&*scene("seed=1")?);
 /// assert_eq!(id.to_string().len(), 17);
 /// assert_eq!(Id::parse(&id.to_string()), Some(id));
-/// assert_eq!(Id::of_run(&scene("time.steps=50000")?), id);
-/// assert_ne!(Id::of_run(&scene("seed=2")?), id);
+/// assert_eq!(Id::of_run(&*scene("time.steps=50000")?), id);
+/// assert_ne!(Id::of_run(&*scene("seed=2")?), id);
 /// # Ok::<(), mesoscope::scene::SceneError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -68,7 +68,7 @@ impl Id {
     /// ```
     /// use mesoscope::output::Id;
     ///
-    /// let run = Id::of_run(&mesoscope::scene::load("dpd-fluid", &[])?);
+    /// let run = Id::of_run(&*mesoscope::scene::load("dpd-fluid", &[])?);
     /// assert_ne!(Id::of_sweep([run]), Id::of_sweep([run, run]));
     /// assert!(Id::of_sweep([run]).to_string().starts_with('s'));
     /// # Ok::<(), mesoscope::scene::SceneError>(())

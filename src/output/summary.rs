@@ -24,7 +24,7 @@ const CHECKSUM: &str = "checksum";
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("run.json");
 /// let scene = mesoscope::scene::load("dpd-fluid", &[])?;
-/// let mut summary = Summary::new(Id::of_run(&scene), scene, AdapterSummary::default(), 24_000);
+/// let mut summary = Summary::new(Id::of_run(&scene), scene.into_scene(), AdapterSummary::default(), 24_000);
 /// summary.set_duration(2000, 2000, 12.0);
 /// summary.add_mean("temperature", estimate(&[0.75, 1.25]).as_ref());
 /// summary.save(&path)?;

@@ -18,6 +18,7 @@ use crate::plot::{
     ShownValues, averages_note, energetic_cells_chart, energies_chart, mesh_energies_chart, missing_glyphs,
     snapshot_size,
 };
+use crate::printable;
 use crate::scene::{AnalysisTable, Scene, Snapshot, SnapshotColor, WrittenScene};
 use crate::shaders::Array;
 use crate::state::{Reported, crossings};
@@ -224,20 +225,30 @@ impl<'a> Pictures<'a> {
             let place = units.position(*position);
             std::array::from_fn(|axis| place[axis] + 0.5 * (lengths[axis] - edges[axis]))
         };
-        let positions: Vec<[f64; 3]> = state.positions.iter().map(place).collect();
+        let asked = &self.scene.output.snapshot;
+        let is_shown = |name: &String| asked.species.is_empty() || asked.species.contains(name);
+        let of_species: Vec<bool> = model.species.iter().map(|species| is_shown(&species.name)).collect();
+        let particles: Vec<usize> =
+            (0..state.len()).filter(|&index| of_species[state.species[index] as usize]).collect();
+        let positions: Vec<[f64; 3]> = particles.iter().map(|&index| place(&state.positions[index])).collect();
+        let species: Vec<u32> = particles.iter().map(|&index| state.species[index]).collect();
         let by_speed = self.scene.output.snapshot.color == SnapshotColor::Speed;
-        let speed = |(momentum, species): (&[i32; 3], &u32)| {
-            let mass = model.species.get(*species as usize).map_or(f64::NAN, |species| species.mass);
-            units.momentum(*momentum).iter().map(|component| component * component).sum::<f64>().sqrt() / mass
+        let speed = |&index: &usize| {
+            let mass = model.species[state.species[index] as usize].mass;
+            units.momentum(state.momenta[index]).iter().map(|component| component * component).sum::<f64>().sqrt()
+                / mass
         };
-        let speeds: Option<Vec<f64>> = by_speed.then(|| state.momenta.iter().zip(&state.species).map(speed).collect());
+        let speeds: Option<Vec<f64>> = by_speed.then(|| particles.iter().map(speed).collect());
         let names: Vec<String> = model.species.iter().map(|species| species.name.clone()).collect();
         let mut subtitle = at_time(state, model);
         if shown.numbers.is_some() {
             let [some, all] = [state.len() as u64, model.particle_count()].map(grouped);
             subtitle = format!("{subtitle}; {some} of {all} particles");
         }
-        let asked = &self.scene.output.snapshot;
+        if !asked.species.is_empty() {
+            let names: Vec<_> = asked.species.iter().map(|name| printable::name(name)).collect();
+            subtitle = format!("{subtitle}; {} only", names.join(", "));
+        }
         let range = speeds.as_ref().map(|speeds| {
             let begin = || colour_ranges::of_speeds(speeds, model.temperature, lightest(model));
             self.ranges.of("speed", asked.range, begin)
@@ -245,13 +256,15 @@ impl<'a> Pictures<'a> {
         let bonds: Vec<[u32; 2]> = match &model.particles().bonds {
             Some(bonds) if asked.bonds => {
                 // A rod knows no copy that is displaced.
-                let across = |ends: [u32; 2]| {
-                    let [a, b] = ends.map(|end| state.positions[end as usize]);
+                let across = |ends: [usize; 2]| {
+                    let [a, b] = ends.map(|end| state.positions[end]);
                     model.particles().shear.is_some_and(|shear| crossings(a, b)[shear.gradient] != 0)
                 };
-                let place = |end: u32| shown.place(end).map(|place| place as u32);
-                let ends = bonds.iter().filter_map(|bond| Some([place(bond.ends[0])?, place(bond.ends[1])?]));
-                ends.filter(|ends| !across(*ends)).collect()
+                let ends =
+                    bonds.iter().filter_map(|bond| Some([shown.place(bond.ends[0])?, shown.place(bond.ends[1])?]));
+                let place = |index: usize| particles.binary_search(&index).ok().map(|place| place as u32);
+                let drawn = ends.filter(|ends| !across(*ends));
+                drawn.filter_map(|ends| Some([place(ends[0])?, place(ends[1])?])).collect()
             }
             _ => Vec::new(),
         };
@@ -259,7 +272,7 @@ impl<'a> Pictures<'a> {
             dimension: units.dimension as u32,
             lengths,
             positions: &positions,
-            species: &state.species,
+            species: &species,
             species_names: &names,
             speeds: speeds.as_deref(),
             bonds: &bonds,
@@ -415,7 +428,7 @@ fn averages(summary: &Summary) -> Averages {
 ///
 /// let scene = scene::load("dpd-fluid", &["title=Flow of ∇水".to_owned()])?;
 /// assert!(run::lettering(&scene).is_some_and(|warning| warning.contains("∇水")));
-/// assert_eq!(run::lettering(&scene::load("dpd-fluid", &[])?), None);
+/// assert_eq!(run::lettering(&*scene::load("dpd-fluid", &[])?), None);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]

@@ -339,7 +339,7 @@ impl Scene {
     /// ```
     /// use mesoscope::scene::{self, SceneError};
     ///
-    /// let mut scene = scene::load("dpd-fluid", &[])?.into_scene();
+    /// let mut scene = scene::load("dpd-fluid", &["output={}".to_owned()])?.into_scene();
     /// scene.space.lengths = vec![4.0; 3];
     /// assert_eq!(scene.check()?.model().particle_count(), 192);
     /// scene.temperature = f64::NAN;

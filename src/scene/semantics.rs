@@ -252,6 +252,9 @@ fn check_species_of_analyses(scene: &Scene, species: &SpeciesNames<'_>, problems
             problems.refuse(path, format!("\"{name}\", which is held"), accepted);
         }
     }
+    for (index, name) in scene.output.snapshot.species.iter().enumerate() {
+        species.check(name, &format!("output.snapshot.species[{index}]"), problems);
+    }
     let Some(radial) = &scene.output.radial_distribution else { return };
     let path = "output.radial_distribution.species";
     let names: Vec<(String, &str)> = match &radial.species {

@@ -5,6 +5,7 @@ use crate::families::{Checked, PictureKind};
 use crate::output::{RunDirectory, files as run_files, read_npy, read_table};
 use crate::scene::{AnalysisId, FieldQuantity};
 use crate::study::{StudyError, by_key, each_once};
+use crate::table::Table;
 
 /// How the names of these measures end.
 pub(super) const DISTANCE: &str = "_distance";
@@ -61,12 +62,14 @@ pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<
     let [own, other] = [run, finer].map(|place| place.file(&format!("{name}.csv")));
     if own.exists() && other.exists() {
         let [own, other] = [read_table(&own)?, read_table(&other)?];
-        if let (Some(own), Some(other)) = (own.column(name), other.column(name))
-            && own.len() == other.len()
-            && !own.is_empty()
-        {
-            let squares: f64 = own.iter().zip(&other).map(|(a, b)| (a - b).powi(2)).sum();
-            found.push(measured(name, DISTANCE, (squares / own.len() as f64).sqrt(), None));
+        // Of several pairs of species the curves of all; a pair without particles has none.
+        let values =
+            |table: &Table| -> Vec<f64> { table.rows.iter().flat_map(|row| row.iter().skip(1).copied()).collect() };
+        let (own_values, other_values) = (values(&own), values(&other));
+        let differences = own_values.iter().zip(&other_values).map(|(a, b)| (a - b).powi(2));
+        let squares: Vec<f64> = differences.filter(|square| square.is_finite()).collect();
+        if own.columns == other.columns && own_values.len() == other_values.len() && !squares.is_empty() {
+            found.push(measured(name, DISTANCE, (squares.iter().sum::<f64>() / squares.len() as f64).sqrt(), None));
         }
     }
     Ok(found)

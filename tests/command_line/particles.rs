@@ -5,11 +5,11 @@ use std::path::Path;
 
 use mesoscope::output::{Summary, checkpoint, files, read_table};
 use mesoscope::scene::AnalysisId;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::support::gsd;
 use crate::support::program::{
-    Place, bytes, colours, contents, fails, listing, mesoscope, picture, size, succeeds, text,
+    Place, bytes, colours, contents, fails, listing, mesoscope, picture, size, succeeds, succeeds_and_tells, text,
 };
 
 /// A scene of 375 particles that takes small pictures.
@@ -578,6 +578,33 @@ fn a_run_without_pictures_can_be_drawn_later() {
     assert_eq!(left, ["snapshot-000001.png", "snapshot-000002.png"]);
     let said = resumed(&["--steps", "90"]);
     assert!(said.contains("3 numbered snapshots") && said.contains("energies.png"), "{said}");
+}
+
+/// Every line on standard error is an event, from the start to the end, also of a run that goes on.
+#[test]
+fn progress_can_be_read_by_programs() {
+    let place = place().with("/time/steps", json!(40));
+    let (scene, out) = (place.scene(), place.argument("out"));
+    let events = |arguments: &[&str]| -> Vec<Value> {
+        let (_, said) = succeeds_and_tells(&[arguments, &["--progress", "json"]].concat());
+        said.lines().map(|line| serde_json::from_str(line).unwrap_or_else(|_| panic!("no event: {line}"))).collect()
+    };
+    let coarse = ["run", &scene, "--out", &out, "--steps", "36", "--set", "time.step=0.09"];
+    for (arguments, first, last) in [(&coarse[..], 0, 36), (&["resume", &out, "--steps", "60"][..], 36, 60)] {
+        let events = events(arguments);
+        let named = |name: &str| events.iter().filter(|event| event["event"] == name).collect::<Vec<_>>();
+        assert_eq!(named("started")[0]["first_step"], first);
+        let warned = named("warned");
+        assert!(warned.iter().any(|event| event["warning"].as_str().unwrap().starts_with("time.step: ")), "{warned:?}");
+        let advanced = named("advanced");
+        assert_eq!((&advanced.last().unwrap()["step"], &advanced[0]["last_step"]), (&json!(last), &json!(last)));
+        assert!(advanced.last().unwrap()["temperature"].as_f64().unwrap() > 0.1, "{advanced:?}");
+        let end = &events[events.len() - 2..];
+        assert_eq!((&end[0], &end[1]["event"]), (&json!({"event": "finishing"}), &json!("finished")));
+        assert!(end[1]["files"].as_array().unwrap().contains(&json!("run.json")), "{end:?}");
+    }
+    fails(&["run", &scene, "--out", &out, "--progress", "json", "--quiet"], 2, &["--quiet"]);
+    fails(&["run", &scene, "--out", &out, "--progress", "xml"], 2, &["json"]);
 }
 
 #[test]

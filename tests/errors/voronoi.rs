@@ -188,6 +188,10 @@ fn analyses_of_particles() {
          cells; pairs have no range here",
     );
     CELLS.refused(
+        &[r#"output={"snapshot":{"species":["A"]}}"#],
+        "output.snapshot.species: found some species; accepted: no `species` in Voronoi DPD: its cells fill the box",
+    );
+    CELLS.refused(
         &[r#"output={"autocorrelations":[{"quantity":"force","every":1,"window":9}]}"#],
         "output.autocorrelations[0].quantity: found \"force\"; accepted: \"velocity\" in Voronoi DPD, where momentum moves \
          with mass",

@@ -59,6 +59,43 @@ fn all_pictures_of_a_run_share_one_range_of_colours() {
     assert!(ticks(&place, "out/snapshot.png") != first, "the user's range");
 }
 
+/// A species that is shown alone keeps its colour, and its bonds; nothing is left of the other.
+#[test]
+fn a_picture_shows_the_species_that_are_asked_for() {
+    let place = Place::of(json!({
+        "title": "two species",
+        "space": {"box": [8, 8]},
+        "time": {"step": 0.01, "steps": 1},
+        "temperature": 1,
+        "particles": [
+            {"species": "A", "count": 60, "chain": {"beads": 2}}, {"species": "B", "count": 60, "chain": {"beads": 2}},
+        ],
+        "interactions": [{"type": "bonds", "potential": {"type": "harmonic", "stiffness": 9}}],
+        "output": {"energies": {"every": 1}, "plot": {"width": 320, "height": 240}, "snapshot": {"width": 300}},
+    }));
+    let directory = place.argument("out");
+    succeeds(&["run", &place.scene(), "--out", &directory, "--quiet"]);
+    let coloured = |species: &str| {
+        succeeds(&["plot", &directory, "--set", &format!("output.snapshot.species={species}")]);
+        // Discs are shaded, letters and bonds are grey.
+        let mut counts = [0, 0];
+        for pixel in picture(&place.path("out/snapshot.png")).pixels() {
+            let (red, blue) = (i32::from(pixel[0]), i32::from(pixel[2]));
+            counts[0] += i32::from(blue > red + 60);
+            counts[1] += i32::from(red > blue + 60);
+        }
+        counts
+    };
+    let [all, first, second] = [r#"["B","A"]"#, r#"["A"]"#, r#"["B"]"#].map(coloured);
+    assert!(all[0] > 5000 && all[1] > 5000, "{all:?}");
+    assert!(
+        first[0] >= all[0] && first[1] == 0 && second[0] == 0 && second[1] >= all[1],
+        "{first:?} {second:?} {all:?}"
+    );
+    let refusal = "output.snapshot.species[0]: found \"C\"; accepted: a species of some particle group: A, B";
+    fails(&["plot", &directory, "--set", r#"output.snapshot.species=["C"]"#], 2, &[refusal]);
+}
+
 #[test]
 fn a_run_that_paused_has_the_same_pictures() {
     let whole = cooling();

@@ -99,6 +99,10 @@ fn check_output(scene: &Scene, voronoi: &VoronoiInteraction, problems: &mut Prob
     if let Some(radius) = output.snapshot.radius {
         problems.refuse("output.snapshot.radius", radius, "no `radius` in Voronoi DPD: pictures show cells, not discs");
     }
+    if !output.snapshot.species.is_empty() {
+        let accepted = "no `species` in Voronoi DPD: its cells fill the box";
+        problems.refuse("output.snapshot.species", "some species", accepted);
+    }
     if output.radial_distribution.is_some() {
         let accepted = "`neighbours`, which counts the neighbours of cells; pairs have no range here";
         problems.refuse("output.radial_distribution", "in a scene of Voronoi DPD", accepted);

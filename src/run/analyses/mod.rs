@@ -136,7 +136,7 @@ pub(crate) fn circulation_change(summary: &Summary) -> Option<f64> {
 pub fn printed_results(summary: &Summary) -> Vec<(String, String)> {
     let results = AnalysisId::ALL.into_iter().filter_map(|id| Some((id, summary.results.get(id.name())?)));
     let lines = |(id, result): (AnalysisId, &Value)| {
-        let of = whose(result);
+        let of = whose(result).map(|name| format!(" of {name}")).unwrap_or_default();
         describe(id).printed(result).into_iter().map(move |(label, value)| (label + &of, value))
     };
     results.flat_map(lines).collect()
@@ -152,11 +152,10 @@ pub(super) fn tables() -> impl Iterator<Item = (AnalysisId, usize, AnalysisTable
 /// The chart of a table, with the results of a run that belong to it.
 pub(super) fn chart(id: AnalysisId, place: usize, table: &Table, scene: &Scene, results: &Map<String, Value>) -> Chart {
     let result = results.get(id.name()).unwrap_or(&Value::Null);
-    let chart = describe(id).chart(&Drawn { scene, table, place, result });
-    match whose(result) {
-        of if of.is_empty() => chart,
-        of => Chart { title: chart.title.clone() + &of, ..chart },
-    }
+    let mut chart = describe(id).chart(&Drawn { scene, table, place, result });
+    let parts = [whose(result).map(|name| format!("species {name}")), Some(chart.subtitle)];
+    chart.subtitle = parts.into_iter().flatten().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ");
+    chart
 }
 
 #[cfg(test)]

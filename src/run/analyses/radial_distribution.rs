@@ -213,13 +213,14 @@ fn ball(radius: f64, dimension: usize, gaps: &[f64]) -> f64 {
 /// Bins on each side of the highest that a parabola is fitted to: noise makes the highest single bin too high.
 const PEAK_BINS: usize = 4;
 
-/// Place and height of the maximum of (x, y) rows; none without a positive value. At the edges the highest bin is taken.
+/// Place and height of the maximum of (x, y) rows; none without a positive value, nor where the last bins are the highest: what lies
+/// beyond the range may be higher. Near contact the highest bin is taken.
 fn peak(rows: &[[f64; 2]]) -> Option<[f64; 2]> {
     let highest =
         (0..rows.len()).filter(|bin| rows[*bin][1] > 0.0).max_by(|a, b| rows[*a][1].total_cmp(&rows[*b][1]))?;
     let plain = Some([rows[highest][0], rows[highest][1]]);
     let Some(first) = highest.checked_sub(PEAK_BINS) else { return plain };
-    let Some(window) = rows.get(first..=highest + PEAK_BINS) else { return plain };
+    let window = rows.get(first..=highest + PEAK_BINS)?;
     // Least squares in units of bins from the middle, where odd moments vanish.
     let half = PEAK_BINS as f64;
     let offsets = || (0..window.len()).map(|bin| bin as f64 - half);
@@ -253,6 +254,8 @@ mod tests {
         assert!((place - 0.433).abs() < 1e-12 && (height - 1.2).abs() < 1e-12, "{place} {height}");
         assert_eq!(peak(&[[1.0, 2.0], [2.0, 1.0]]), Some([1.0, 2.0]));
         assert_eq!(peak(&[[1.0, 0.0]]), None);
+        let rising: Vec<[f64; 2]> = (0..20).map(|bin| [f64::from(bin), f64::from(bin)]).collect();
+        assert_eq!(peak(&rising), None);
         assert_eq!(peak(&[[1.0, f64::NAN]]), None);
     }
 }

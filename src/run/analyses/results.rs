@@ -6,6 +6,7 @@ use crate::numbers::with_error;
 use crate::plot::{Found, Mean};
 use crate::printable;
 use serde_json::Value;
+use std::borrow::Cow;
 
 /// Why an analysis without samples has no result.
 pub(super) const NO_SAMPLE: &str = "no sample was taken after equilibration";
@@ -33,9 +34,9 @@ pub(super) fn of_species(species: Option<&str>, mut result: Value) -> Value {
 /// The key of a result that names its species.
 const SPECIES: &str = "species";
 
-/// The species that a result is of, in words; nothing where it is of all.
-pub(super) fn whose(result: &Value) -> String {
-    result[SPECIES].as_str().map(|name| format!(" of {}", printable::name(name))).unwrap_or_default()
+/// The species that a result is of, for people; none where it is of all.
+pub(super) fn whose(result: &Value) -> Option<Cow<'_, str>> {
+    result[SPECIES].as_str().map(printable::name)
 }
 
 /// A coefficient with its error, from a result.

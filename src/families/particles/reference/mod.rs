@@ -129,7 +129,7 @@ struct Report {
 ///
 /// let small = ["space.box=[4,4,4]", "output={}"].map(str::to_owned);
 /// let scene = scene::load("dpd-fluid", &small)?;
-/// let model = scene.model();
+/// let model = scene.model().clone();
 /// let start = mesoscope::families::initial_state(&scene);
 /// let mut reference = Reference::new(model, start.clone());
 /// reference.run(20)?;
@@ -139,7 +139,7 @@ struct Report {
 ///
 /// // Oscillators in baths with memory, which exchange momentum with what is outside.
 /// let scene = scene::load("gle-oscillator", &["particles.0.count=20".to_owned()])?;
-/// let model = scene.model();
+/// let model = scene.model().clone();
 /// assert!(model.has_memory() && !model.conserves_momentum());
 /// let start = mesoscope::families::initial_state(&scene);
 /// let mut reference = Reference::new(model, start.clone());
@@ -260,7 +260,7 @@ impl Reference {
     /// ```
     /// # use mesoscope::{families::reference::Reference, scene, state::State};
     /// # let scene = scene::load("dpd-fluid", &[])?;
-    /// # let model = scene.model();
+    /// # let model = scene.model().clone();
     /// // Three particles in a row, 0.6 and 1.8 apart.
     /// let positions = [0.0, 0.6, 2.4].map(|x| model.units.fraction([x, 0.0, 0.0])).to_vec();
     /// let state = State { positions, momenta: vec![[0; 3]; 3], species: vec![0; 3], ..State::default() };

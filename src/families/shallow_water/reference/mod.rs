@@ -70,7 +70,7 @@ struct Report {
 ///
 /// let small = ["interactions.0.mesh=[16,16]", "interactions.0.smoothing.length=0.8", "particles.0.count=1024"];
 /// let scene = scene::load("shallow-water", &small.map(str::to_owned))?;
-/// let model = scene.model();
+/// let model = scene.model().clone();
 /// let start = mesoscope::families::initial_state(&scene);
 /// let mut reference = ShallowWaterReference::new(model, start).ok_or("no shallow water")?;
 /// let energy = reference.observe()?.total_energy();

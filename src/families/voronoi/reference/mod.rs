@@ -50,7 +50,7 @@ use faces::{Cells, Face, dot};
 ///
 /// let small = ["space.box=[6,6]", "particles.0.count=36", "output={}"].map(str::to_owned);
 /// let scene = scene::load("voronoi-dpd", &small)?;
-/// let model = scene.model();
+/// let model = scene.model().clone();
 /// let start = mesoscope::families::initial_state(&scene);
 /// let mass = |masses: &[u32]| masses.iter().map(|&units| u64::from(units)).sum::<u64>();
 /// let mut reference = VoronoiReference::new(model, start.clone()).ok_or("no Voronoi cells")?;
