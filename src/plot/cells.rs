@@ -58,7 +58,7 @@ pub(super) fn lay_out(picture: &CellPicture<'_>, style: &Snapshot, theme: Theme)
     let mut page = Page::new(style, theme, picture.lengths)?;
     let key = match picture.shown {
         Some(ShownValues { label, values }) => Key::scale(label, style.range, fitting_range(values), values),
-        None => Key::species(picture.species_names, picture.species, &page.canvas.inks),
+        None => Key::species(picture.species_names, picture.species, &[], &page.canvas.inks),
     };
     let mut notes = vec![picture.subtitle.to_owned()];
     // In a film this would flicker; the arrowheads of the scale say it there.

@@ -136,7 +136,7 @@ pub(super) fn lay_out(
             let fitting = [0.0, if fastest > 0.0 { fastest } else { 1.0 }];
             Key::scale("speed (length/time)", style.range, fitting, speeds)
         }
-        _ => Key::species(picture.species_names, picture.species, &page.canvas.inks),
+        _ => Key::species(picture.species_names, picture.species, &style.species, &page.canvas.inks),
     };
     let frame = page.frame(picture.title, vec![picture.subtitle.to_owned()], &key);
 

@@ -32,18 +32,24 @@ pub(super) fn check(
 /// What the colours of a picture mean.
 pub(super) enum Key<'a> {
     /// The species of each particle or cell, by name.
-    Species { names: &'a [String], species: &'a [u32], counts: Vec<u64>, colours: Vec<Colour> },
+    Species { names: Vec<String>, species: &'a [u32], counts: Vec<u64>, colours: Vec<Colour>, listed: Vec<usize> },
     /// The value of each on a scale, and whether some lie beyond its lower and its upper end.
     Scale { name: &'a str, values: &'a [f64], map: AxisMap, beyond: [bool; 2] },
 }
 
 impl<'a> Key<'a> {
-    pub(super) fn species(names: &'a [String], species: &'a [u32], inks: &Inks) -> Self {
+    /// Of those species that are `shown`, or of all where none is named.
+    pub(super) fn species(names: &[String], species: &'a [u32], shown: &[String], inks: &Inks) -> Self {
         let mut counts = vec![0; names.len()];
         for species in species {
             counts[*species as usize] += 1;
         }
-        Self::Species { names, species, counts, colours: species_colours(inks, names.len()) }
+        let is_listed = |place: &usize| shown.is_empty() || shown.contains(&names[*place]);
+        let listed: Vec<usize> = (0..names.len()).filter(is_listed).collect();
+        let counts = listed.iter().map(|place| counts[*place]).collect();
+        let colours = species_colours(inks, names.len());
+        let names = listed.iter().map(|place| names[*place].clone()).collect();
+        Self::Species { names, species, counts, colours, listed }
     }
 
     /// Values on a scale with these ends, or where they are left out with those that fit.
@@ -235,8 +241,8 @@ impl Page {
         let top = self.height - self.margin - self.footer_height() + self.gap;
         let style = self.text(self.canvas.inks.ink);
         match key {
-            Key::Species { colours, .. } => {
-                let mut species = 0;
+            Key::Species { colours, listed, .. } => {
+                let mut entry = 0;
                 let (size, rows) = self.legend.clone();
                 let style = Type { size, ..style };
                 for (row, entries) in rows.into_iter().enumerate() {
@@ -245,11 +251,11 @@ impl Page {
                     for (text, width) in entries {
                         if width > 0.0 {
                             let radius = 0.36 * size;
-                            self.canvas.disc([x + radius, y], radius, colours[species % colours.len()]);
+                            self.canvas.disc([x + radius, y], radius, colours[listed[entry] % colours.len()]);
                         }
                         self.canvas.text_centred(&text, [x + 1.1 * size, y], Anchor::Start, style);
                         x += width;
-                        species += 1;
+                        entry += 1;
                     }
                 }
             }
