@@ -1,8 +1,7 @@
 //! What is known of the errors of scenes before they run: by theory, where the scheme is solved, or by tradeoffs that were made once and are
 //! shipped with the program.
 
-use crate::families::Checked;
-use crate::families::ExactMean;
+use crate::families::{Checked, ExactMean};
 use crate::numbers::three_digits;
 use crate::scene::{self, Scene};
 use crate::tradeoff::{Choice, ChoiceState, Deviation, Measured, Reference, Source, TradeoffSummary, error_in_words};

@@ -38,7 +38,7 @@ fn count_pairs_by_distance(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin
 
 fn counts_pair(position: vec4<u32>, other: vec4<u32>) -> bool { return position.w < other.w; }
 fn bins_of_pair() -> u32 { return BINS; }
-fn first_bin(index: u32, other: u32) -> u32 { return 0u; }
+fn count_in_bin(index: u32, other: u32, bin: u32) { atomicAdd(&local_bins[bin], 1u); }
 
 // Counts the pairs of one particle in its part of the rows.
 fn count_pairs(row: u32, part: u32, index: u32) {
@@ -55,10 +55,7 @@ fn count_pairs(row: u32, part: u32, index: u32) {
                 let there = position_at(other);
                 let d = separation(position, there);
                 let bin = u32(sqrt(dot(d, d)) * (f32(bins_of_pair()) / HISTOGRAM_RANGE));
-                if (counts_pair(position, there) && bin < bins_of_pair()) {
-                    let first = first_bin(index, other);
-                    if (first < BINS) { atomicAdd(&local_bins[first + bin], 1u); }
-                }
+                if (counts_pair(position, there) && bin < bins_of_pair()) { count_in_bin(index, other, bin); }
             }
         }
     }

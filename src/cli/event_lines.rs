@@ -1,10 +1,11 @@
 //! Lines of JSON on standard error that say how far a run is, for programs that read them.
 
-use std::io::{self, Write as _};
 use std::time::{Duration, Instant};
 
 use mesoscope::run::{Event, Outcome};
 use serde_json::{Value, json};
+
+use super::print::write_error;
 
 /// How a run says how far it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
@@ -84,6 +85,5 @@ impl EventLines {
 }
 
 fn write(line: &Value) {
-    // There is nobody to inform if standard error is closed.
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    write_error(&line.to_string());
 }

@@ -27,11 +27,15 @@ pub fn print_exactly(text: &str) -> Result<(), Failure> {
     }
 }
 
+/// A line on standard error as it is; an error of a stream that is closed has no reader.
+pub fn write_error(text: &str) {
+    let _ = writeln!(io::stderr().lock(), "{text}");
+}
+
 /// A message on standard error, without what acts on a terminal; on one, lines break at blanks.
 pub fn line(text: &str) {
     let text = fitted(text, width(&io::stderr()));
-    // There is nobody to inform if standard error is closed.
-    let _ = writeln!(io::stderr().lock(), "{}", printable::message(&text));
+    write_error(&printable::message(&text));
 }
 
 /// The columns of a terminal; none where it is none.

@@ -18,7 +18,7 @@ use super::progress::{bar, say};
 use super::table::{aligned, labelled};
 use super::{Failure, RanksArgument, line, print};
 
-/// What a run says of itself.
+/// The reports of a run on its progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Telling {
     /// Errors only.

@@ -150,7 +150,7 @@ pub struct RadialDistribution {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum CountedPairs {
-    /// Pairs of one species, or with the name [`Self::ALL`] the pairs of every two.
+    /// Pairs within a species; or those of every two, by the name `all-pairs`.
     Within(String),
     /// Pairs of two species with each other.
     Between([String; 2]),

@@ -38,7 +38,7 @@ impl Checked {
         Self(Arc::new(Content { scene, model, notices: Vec::new() }))
     }
 
-    /// The same with a change that leaves it without mistakes.
+    /// The same with a change that leaves it without mistakes; notices of the scene before do not hold any more.
     pub(crate) fn changed(self, change: impl FnOnce(&mut Scene)) -> Self {
         let mut scene = self.into_scene();
         change(&mut scene);
@@ -50,7 +50,7 @@ impl Checked {
         Self(Arc::new(Content { notices, ..Arc::unwrap_or_clone(self.0) }))
     }
 
-    /// What was shortened in the scene to suit its number of steps, and what of its file is not used.
+    /// The parts of the scene that were shortened to suit its number of steps, and those of its file that are not used.
     #[must_use]
     pub fn notices(&self) -> &[Warning] {
         &self.0.notices
@@ -62,13 +62,13 @@ impl Checked {
         &self.0.model
     }
 
-    /// What `check` says of it, name by name, beside what all families have; `cells` are those of the plan in words.
+    /// Rows of `check`, name by name, beside those that all families have; `cells` are those of the plan in words.
     #[must_use]
     pub fn description(&self, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
         self.model().physics().description(self, plan, cells)
     }
 
-    /// What the particles of a file or of molecules are, and what acts on which of them, name by name.
+    /// The particles of a file or of molecules, and the interactions that act on each species, name by name.
     #[must_use]
     pub fn composition(&self) -> Vec<(&'static str, String)> {
         self.model().physics().composition(self)

@@ -147,8 +147,10 @@ fn rank(info: &wgpu::AdapterInfo) -> u32 {
 
 fn adapters() -> Vec<wgpu::Adapter> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-    // Indirect sizes are zero or those of the plan, which have been checked: checking them each time would cost as much as the
-    // kernels that are skipped.
+    // A layer that is installed is loaded if `WGPU_VALIDATION` asks for it, by builds for debugging too: that of Debian 12 crashes where
+    // threads open devices. Indirect sizes are zero or those of the plan, which have been checked: checking them each time would cost
+    // as much as the kernels that are skipped.
+    descriptor.flags = wgpu::InstanceFlags::empty().with_env();
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     let instance = wgpu::Instance::new(descriptor);
     let mut adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));

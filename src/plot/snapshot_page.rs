@@ -38,7 +38,7 @@ pub(super) enum Key<'a> {
 }
 
 impl<'a> Key<'a> {
-    /// Of those species that are `shown`, or of all where none is named.
+    /// The species that are `shown`, or all where none is named.
     pub(super) fn species(names: &[String], species: &'a [u32], shown: &[String], inks: &Inks) -> Self {
         let mut counts = vec![0; names.len()];
         for species in species {

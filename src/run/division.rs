@@ -2,8 +2,7 @@
 
 use super::RunError;
 use super::plan::plan;
-use crate::families::Checked;
-use crate::families::Model;
+use crate::families::{Checked, Model};
 use crate::numbers::grouped;
 use crate::plan::{Division, Domain, Hardware, Options, PARTICLE_WORDS, Part, PlannedPart, Sampler, SamplerId};
 use crate::scene::AnalysisId;

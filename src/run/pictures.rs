@@ -229,7 +229,7 @@ impl<'a> Pictures<'a> {
         let is_shown = |name: &String| asked.species.is_empty() || asked.species.contains(name);
         let of_species: Vec<bool> = model.species.iter().map(|species| is_shown(&species.name)).collect();
         let particles: Vec<usize> =
-            (0..state.len()).filter(|&index| of_species[state.species[index] as usize]).collect();
+            (0..state.len()).filter(|&index| of_species.get(state.species[index] as usize) == Some(&true)).collect();
         let positions: Vec<[f64; 3]> = particles.iter().map(|&index| place(&state.positions[index])).collect();
         let species: Vec<u32> = particles.iter().map(|&index| state.species[index]).collect();
         let by_speed = self.scene.output.snapshot.color == SnapshotColor::Speed;
@@ -242,7 +242,9 @@ impl<'a> Pictures<'a> {
         let names: Vec<String> = model.species.iter().map(|species| species.name.clone()).collect();
         let mut subtitle = at_time(state, model);
         if shown.numbers.is_some() {
-            let [some, all] = [state.len() as u64, model.particle_count()].map(grouped);
+            let all: u64 =
+                model.species.iter().filter(|species| is_shown(&species.name)).map(|species| species.count).sum();
+            let [some, all] = [particles.len() as u64, all].map(grouped);
             subtitle = format!("{subtitle}; {some} of {all} particles");
         }
         if !asked.species.is_empty() {

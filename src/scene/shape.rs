@@ -202,7 +202,7 @@ impl Walker {
                 is_right
             }
             (Kind::Tagged(kinds), _) => self.check_tagged(schema, kinds, value, path),
-            (Kind::Alternatives(all), _) => self.check_alternatives(all, value, path),
+            (Kind::Alternatives(all), _) => self.check_alternatives(schema, all, value, path),
             (Kind::Any, _) | (Kind::Boolean, Value::Bool(_)) => true,
             (Kind::Number(range), Value::Number(_)) => self.check_number(schema, range, value, path),
             (Kind::Text(least), Value::String(text)) => {
@@ -231,20 +231,33 @@ impl Walker {
         self.problems.push(Problem::new(path, phrase, accepted).suggest(suggestion));
     }
 
-    fn check_alternatives(&mut self, all: &[Schema<'_>], value: &mut Value, path: &Path<'_>) -> bool {
-        // Whatever the value comes nearest to being is what its author meant.
+    fn check_alternatives(
+        &mut self,
+        schema: &Schema<'_>,
+        all: &[Schema<'_>],
+        value: &mut Value,
+        path: &Path<'_>,
+    ) -> bool {
+        // Whatever the value comes nearest to being is what its author meant; a value that is none of them as a whole may be any.
         let mut fewest: Option<(Problems, Value, bool)> = None;
+        let (found, own) = (found(value), path.to_string());
+        let mut is_foreign = true;
         for branch in all {
             let mut attempt = Self { problems: Problems::default(), ..*self };
             let mut mended = value.clone();
             let readable = attempt.check(branch, &mut mended, path);
+            is_foreign &= attempt.problems.iter().any(|problem| problem.path == own);
             if fewest.as_ref().is_none_or(|(problems, ..)| attempt.problems.count() < problems.count()) {
                 fewest = Some((attempt.problems, mended, readable));
             }
         }
         fewest.is_some_and(|(problems, mended, readable)| {
             *value = mended;
-            self.problems.append(problems);
+            if is_foreign {
+                self.report(schema, path, found, None);
+            } else {
+                self.problems.append(problems);
+            }
             readable
         })
     }

@@ -2,9 +2,8 @@
 
 use super::Finding;
 use crate::engine::{Engine, EngineError};
-use crate::families::Checked;
-use crate::families::reference::Stepper;
 use crate::families::{self, KeptQuantity, Model};
+use crate::families::{Checked, reference::Stepper};
 use crate::gpu::{Gpu, GpuError, Requirements};
 use crate::plan::{Hardware, Options, Plan};
 use crate::run::{self, plan};

@@ -1,8 +1,7 @@
 //! What a map of stability is asked for.
 
 use super::range::{Range, Spacing, number_of};
-use crate::families::Checked;
-use crate::families::StepCheck;
+use crate::families::{Checked, StepCheck};
 use crate::output::Id;
 use crate::quantity::{Quantity, Unit};
 use crate::run;

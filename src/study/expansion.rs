@@ -4,8 +4,7 @@ use super::error::{Mistake, StudyError};
 use super::lists::each_once;
 use super::naming::{self, ShortKeys};
 use super::variation::{Setting, Variation, settings};
-use crate::families::Checked;
-use crate::families::StepCheck;
+use crate::families::{Checked, StepCheck};
 use crate::scene::{self, SceneError, StateFiles, WrittenScene};
 use serde_json::Value;
 

@@ -1,8 +1,7 @@
 //! What is measured of a choice.
 
 use super::fields;
-use crate::families::Checked;
-use crate::families::column;
+use crate::families::{Checked, column};
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::run;
 use crate::study::StudyError;

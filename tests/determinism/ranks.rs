@@ -23,6 +23,8 @@ const DIFFUSING: &str = r#"output.diffusion={"every":14,"window":3}"#;
 const OPPOSED: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
     {"type":"body-force","force":[0.3,0,0.1],"profile":"opposed","axis":"z"}]"#;
 const RADIAL: &str = r#"output.radial_distribution={"every":5,"range":2.4,"bins":40}"#;
+const PARTIAL: &str = r#"output.radial_distribution.species="all-pairs""#;
+const DIFFUSING_B: &str = "output.diffusion.species=B";
 const OPPOSED_IN_PLANE: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
     {"type":"body-force","force":[0.3,0.1],"profile":"opposed","axis":"y"}]"#;
 const COUETTE: &str = r#"space.walls={"y":{"upper_velocity":[1.5,0,0]}}"#;
@@ -45,7 +47,21 @@ fn cases() -> Vec<(Vec<&'static str>, Vec<[u32; 3]>)> {
         (vec![STAGED, "space.box=[4,4,15]"], vec![[1, 1, 3]]),
         (vec![GROOT_WARREN, "space.box=[5,5,9]", FOLLOWED, "temperature=9"], vec![[2, 2, 2], [1, 1, 3], [1, 2, 4]]),
         (vec![SPLITTING, "space.box=[4,4,10]", FOLLOWED, DIFFUSING, "temperature=9"], vec![[1, 1, 3]]),
-        (vec![PREDICTED, "space.box=[12,16]", MIXTURE, MIXTURE_FORCE], vec![[1, 4, 1], [4, 2, 1]]),
+        (
+            vec![
+                PREDICTED,
+                "space.box=[12,16]",
+                MIXTURE,
+                MIXTURE_FORCE,
+                RADIAL,
+                PARTIAL,
+                FOLLOWED,
+                DIFFUSING,
+                DIFFUSING_B,
+                "temperature=9",
+            ],
+            vec![[1, 4, 1], [4, 2, 1]],
+        ),
         (vec![SPLITTING, "space.box=[4,4,13]", OPPOSED], vec![[1, 1, 3]]),
         (vec![GROOT_WARREN, "space.box=[4,7,9]", OPPOSED, COUETTE], vec![[1, 2, 1], [1, 2, 3]]),
         (vec![SPLITTING, "space.box=[6,5,9]", COUETTE], vec![[1, 1, 2]]),

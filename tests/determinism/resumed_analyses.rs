@@ -163,7 +163,8 @@ fn couplings_with_memory_go_on() {
     text["interactions"] = serde_json::from_str(bonds).unwrap();
     text["integrator"] = serde_json::json!({"type": "cotter-reich"});
     let scene = scene::parse("test", &text.to_string(), &[]).unwrap_or_else(|error| panic!("{error}"));
-    let changes = [&[r#"output.chain_sizes={"every":3}"#][..], EVERYTHING].concat();
+    let of_species = ["output.radial_distribution.species=all-pairs", "output.diffusion.species=B"];
+    let changes = [&[r#"output.chain_sizes={"every":3}"#][..], EVERYTHING, &of_species].concat();
     goes_on(&small(&scene, &changes), &[12]);
 }
 

@@ -324,7 +324,10 @@ fn lengths_and_durations() {
             r#"radial_distribution={"every":1,"range":2,"species":["tail","tall"]}"#,
             "radial_distribution.species[1]: found \"tall\"",
         ),
-        (r#"radial_distribution={"every":1,"range":2,"species":["tail"]}"#, "radial_distribution.species: "),
+        (
+            r#"radial_distribution={"every":1,"range":2,"species":["tail"]}"#,
+            "species: found a list of 1; accepted: text, or a list of 2 entries, each text",
+        ),
         (
             r#"radial_distribution={"every":1,"range":2,"bins":700,"species":"all-pairs"}"#,
             "found 6 pairs of species with 700 bins each; accepted: at most 4096 bins in all: `bins` up to 682, or `species`",

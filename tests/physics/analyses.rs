@@ -313,8 +313,8 @@ fn species_have_results_of_their_own() {
     for (column, pairs) in [(1, 179_700.0), (2, 180_000.0), (3, 44_850.0)] {
         for row in &curves.rows[2..] {
             let shell = 4.0 / 3.0 * std::f64::consts::PI * ((row[0] + 0.125).powi(3) - (row[0] - 0.125).powi(3));
-            // Of 21 samples, between which a gas forgets the distances of its particles in part.
-            let error = (3.0 / (21.0 * pairs * shell / 125.0)).sqrt();
+            // Of 21 samples, between which particles fly on by a box or so.
+            let error = (21.0 * pairs * shell / 125.0_f64).sqrt().recip();
             assert!((row[column] - 1.0).abs() < 5.0 * error, "{column}: {row:?} ± {error}");
         }
     }
@@ -330,6 +330,27 @@ fn species_have_results_of_their_own() {
         let expected = heavy * row[0] * row[0];
         assert!((row[1] / expected - 1.0).abs() < 1e-4, "{row:?}: {expected}");
     }
+}
+
+/// A pair of species without particles has no curve; without any pair there is no result, and the run goes to its end.
+#[test]
+fn pairs_without_particles_have_no_curve() {
+    let run_with = |groups: &str| {
+        let directory = tempfile::tempdir().unwrap();
+        let radial = r#"output.radial_distribution={"every":5,"range":2,"bins":4,"species":"all-pairs"}"#;
+        let particles = format!("particles=[{groups}]");
+        let outcome = run(fluid(&["time.step=0.01", "time.steps=10", &particles, radial]), directory.path());
+        (outcome, table(directory.path(), "radial_distribution.csv").columns)
+    };
+    let (outcome, columns) =
+        run_with(r#"{"species":"none","count":0},{"species":"A","count":200},{"species":"B","count":1}"#);
+    let pairs = outcome.summary.results["radial_distribution"]["pairs"].as_array().unwrap();
+    let species: Vec<&Value> = pairs.iter().map(|pair| &pair["species"]).collect();
+    assert_eq!(species, [&json!(["A", "A"]), &json!(["A", "B"])]);
+    assert_eq!(columns, ["distance", "radial_distribution_1_1", "radial_distribution_1_2"]);
+    let (outcome, _) = run_with(r#"{"species":"A","count":1}"#);
+    assert!(!outcome.summary.results.contains_key("radial_distribution"));
+    assert!(outcome.summary.warnings.iter().any(|warning| warning.contains("there are no pairs of particles")));
 }
 
 /// The surface tension across walls belongs to their distance, not to the period of positions, which is longer.

@@ -77,13 +77,8 @@ fn unneeded(scene: &Checked, plan: &Plan, hardware: Hardware) -> Vec<String> {
         }
     }
     found.extend(scene.unneeded());
-    let idle: Vec<&str> = scene
-        .model()
-        .species
-        .iter()
-        .filter(|species| species.count == 0)
-        .map(|species| species.name.as_str())
-        .collect();
+    let idle = scene.model().species.iter().filter(|species| species.count == 0);
+    let idle: Vec<&str> = idle.map(|species| species.name.as_str()).collect();
     if !idle.is_empty() {
         found.push(format!("species without particles: {}", idle.join(", ")));
     }

@@ -78,83 +78,73 @@ impl Descriptor for RadialDistribution {
         let of_species = |number: usize| model.species.get(number).filter(|species| !species.frozen);
         let particles = |number: usize| of_species(number).map_or(0.0, |species| species.count as f64);
         let species = pairs.species();
-        let numbers_of_pairs: Vec<f64> = match species[..] {
-            [] => {
-                let particles = (plan.particles - model.frozen_particles()) as f64;
-                vec![0.5 * particles * (particles - 1.0)]
-            }
-            _ => species
-                .iter()
-                .map(|&[a, b]| match particles(a) {
-                    of_a if a == b => 0.5 * of_a * (of_a - 1.0),
-                    of_a => of_a * particles(b),
-                })
-                .collect(),
+        let alike = (plan.particles - model.frozen_particles()) as f64;
+        let within = |particles: f64| 0.5 * particles * (particles - 1.0);
+        let number_of_pairs = |place: usize| match species.get(place) {
+            None => within(alike),
+            Some([a, b]) if a == b => within(particles(*a)),
+            Some([a, b]) => particles(*a) * particles(*b),
         };
-        let curves: Vec<Vec<[f64; 2]>> = counts
-            .chunks(asked.bins as usize)
-            .zip(&numbers_of_pairs)
-            .map(|(counts, pairs)| {
-                let value = |(bin, (count, shell)): (usize, (&f64, &f64))| {
-                    [(bin as f64 + 0.5) * width, count / (samples * pairs * shell)]
-                };
-                counts.iter().zip(&shells).enumerate().map(value).collect()
-            })
-            .collect();
+        let exist = |place: &usize| number_of_pairs(*place) > 0.0;
+        let places = 0..counts.len() / shells.len();
+        // A pair of species without particles has no curve, beside others that have one.
+        let some = places.clone().any(|place| exist(&place));
+        let places: Vec<usize> = places.filter(|place| !some || exist(place)).collect();
+        let curve = |&place: &usize| -> Vec<[f64; 2]> {
+            let counts = &counts[place * shells.len()..][..shells.len()];
+            let expected = shells.iter().map(|shell| samples * number_of_pairs(place) * shell);
+            let values = counts.iter().zip(expected).map(|(count, expected)| count / expected);
+            values.enumerate().map(|(bin, value)| [(bin as f64 + 0.5) * width, value]).collect()
+        };
+        let curves: Vec<Vec<[f64; 2]>> = places.iter().map(curve).collect();
         let rows = (0..shells.len()).map(|bin| {
             let values = curves.iter().map(|curve| curve[bin][1]);
             std::iter::once((bin as f64 + 0.5) * width).chain(values).collect()
         });
-        let columns: Vec<String> = match pairs {
-            SpeciesPairs::All(_) => species.iter().map(|&pair| column_of(pair)).collect(),
-            _ => vec![VALUE.to_owned()],
-        };
-        let table = Table::new(std::iter::once(DISTANCE.to_owned()).chain(columns), rows.collect());
+        let is_of_all_pairs = matches!(pairs, SpeciesPairs::All(_));
+        let column = |place: &usize| if is_of_all_pairs { column_of(species[*place]) } else { VALUE.to_owned() };
+        let table = Table::new([DISTANCE.to_owned()].into_iter().chain(places.iter().map(column)), rows.collect());
         let result = if *samples == 0.0 {
             Err(NO_SAMPLE.to_owned())
-        } else if numbers_of_pairs.iter().all(|pairs| *pairs <= 0.0) {
+        } else if !some {
             Err("there are no pairs of particles".to_owned())
         } else {
             let name = |number: usize| model.species.get(number).map_or("", |species| &species.name);
-            let peaks = |curve: &Vec<[f64; 2]>| {
+            let found = places.iter().zip(&curves).map(|(place, curve)| {
                 let [distance, height] = peak(curve).map_or([None; 2], |peak| peak.map(Some));
-                json!({ PEAK_DISTANCE: distance, PEAK_HEIGHT: height })
-            };
-            let mut result = json!({ "samples": samples });
-            let mut found: Vec<Value> = curves.iter().map(peaks).collect();
-            for (peaks, pair) in found.iter_mut().zip(&species) {
-                peaks[SPECIES] = json!(pair.map(name));
-            }
-            match (pairs, found.first().and_then(Value::as_object)) {
-                (SpeciesPairs::All(_), _) => result[PAIRS] = json!(found),
-                (_, Some(only)) => only.iter().for_each(|(key, value)| result[key] = value.clone()),
-                _ => {}
-            }
-            Ok(result)
+                let mut found = json!({ "samples": samples, PEAK_DISTANCE: distance, PEAK_HEIGHT: height });
+                if let Some(pair) = species.get(*place) {
+                    found[SPECIES] = json!(pair.map(name));
+                }
+                found
+            });
+            let mut found: Vec<Value> = found.collect();
+            Ok(if is_of_all_pairs { json!({ PAIRS: found }) } else { found.swap_remove(0) })
         };
         Some(Conclusion::new(table, result))
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
-        let curves = match drawn.result[PAIRS].as_array() {
-            Some(pairs) => {
-                let species = SpeciesNames::of(drawn.scene);
-                let curve = |pair: &Value| {
-                    let numbers: Option<Vec<usize>> = names(pair).map(|name| species.place(name)).collect();
-                    let [a, b] = numbers?[..] else { return None };
-                    Some((in_words(pair)?, drawn.column(&column_of([a, b]))))
-                };
-                pairs.iter().filter_map(curve).collect()
-            }
-            None => vec![(in_words(drawn.result).unwrap_or_else(|| "g(r)".to_owned()), drawn.column(VALUE))],
+        let species = SpeciesNames::of(drawn.scene);
+        let label = |column: &String| {
+            let numbers: Option<Vec<usize>> =
+                column.strip_prefix(VALUE)?.split('_').skip(1).map(|number| number.parse().ok()).collect();
+            let names: Option<Vec<&&str>> = numbers?.into_iter().map(|number| species.names().get(number)).collect();
+            pair_in_words(names?.into_iter().copied())
         };
+        let curve = |column: &String| {
+            let label = label(column).or_else(|| pair_in_words(names(drawn.result)));
+            (label.unwrap_or_else(|| "g(r)".to_owned()), drawn.column(column))
+        };
+        let curves: Vec<(String, Vec<f64>)> =
+            drawn.table.columns.iter().filter(|column| column.starts_with(VALUE)).map(curve).collect();
         radial_distribution_chart(drawn.title(), &drawn.column(DISTANCE), &curves)
     }
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
         let line = |peaks: &Value| {
             let [distance, height] = [PEAK_DISTANCE, PEAK_HEIGHT].map(|key| peaks[key].as_f64());
-            let pair = in_words(peaks).map(|pair| format!(" of {pair}")).unwrap_or_default();
+            let pair = pair_in_words(names(peaks)).map(|pair| format!(" of {pair}")).unwrap_or_default();
             Some((format!("g(r) peak{pair}"), format!("{:.3} at {:.3}", height?, distance?)))
         };
         match result[PAIRS].as_array() {
@@ -182,9 +172,9 @@ fn names(result: &Value) -> impl Iterator<Item = &str> {
     result[SPECIES].as_array().into_iter().flatten().filter_map(Value::as_str)
 }
 
-/// The same for people.
-fn in_words(result: &Value) -> Option<String> {
-    let names: Vec<Cow<'_, str>> = names(result).map(printable::name).collect();
+/// The names of two species for people; none if these are not two.
+fn pair_in_words<'a>(names: impl Iterator<Item = &'a str>) -> Option<String> {
+    let names: Vec<Cow<'_, str>> = names.map(printable::name).collect();
     (names.len() == 2).then(|| names.join("–"))
 }
 

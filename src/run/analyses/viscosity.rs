@@ -41,15 +41,8 @@ impl Descriptor for Viscosity {
 
     fn numbers_of_sample(&self, Setting { scene, .. }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
         // exp(-ikr) = cos kr - i sin kr.
-        let signs = [1.0, -1.0].into_iter().cycle();
-        Some(
-            sample
-                .sums
-                .iter()
-                .zip(signs)
-                .map(|(sum, sign)| sign * (*sum as f64 * scene.model().units.momentum))
-                .collect(),
-        )
+        let (signs, unit) = ([1.0, -1.0].into_iter().cycle(), scene.model().units.momentum);
+        Some(sample.sums.iter().zip(signs).map(|(sum, sign)| sign * (*sum as f64 * unit)).collect())
     }
 
     fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {

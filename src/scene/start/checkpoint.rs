@@ -22,8 +22,7 @@ pub(super) fn of(path: &Path) -> Option<PathBuf> {
 /// An earlier run, as its checkpoint has it.
 #[derive(Debug)]
 pub(super) struct Run {
-    seed: u64,
-    model: Model,
+    scene: Checked,
     state: State,
 }
 
@@ -31,22 +30,22 @@ impl Run {
     /// What a scene has of it that goes on with it.
     pub fn earlier(&self) -> EarlierRun {
         EarlierRun {
-            seed: self.model.seed,
-            steps: self.model.clock(self.state.step),
-            momentum_unit: self.model.units.momentum,
-            expected_velocity: self.model.expected_velocity,
+            seed: self.scene.model().seed,
+            steps: self.scene.model().clock(self.state.step),
+            momentum_unit: self.scene.model().units.momentum,
+            expected_velocity: self.scene.model().expected_velocity,
         }
     }
 
     /// The integrator of it, whose rule of relaxation a scene takes that names none.
     pub fn integrator(&self) -> &Integrator {
-        &self.model.integrator
+        &self.scene.model().integrator
     }
 
     /// Whether a scene has the seed, forces, baths and time step of it, so that it goes on with it: a model of the scene was made with
     /// [`Self::earlier`].
-    pub fn goes_on_with(&self, scene: &Checked) -> bool {
-        scene.seed == self.seed && scene.model().has_the_steps_of(&self.model)
+    pub fn goes_on_with(&self, seed: u64, model: &Model) -> bool {
+        seed == self.scene.seed && model.has_the_steps_of(self.scene.model())
     }
 
     /// The state where the other run begins.
@@ -66,11 +65,15 @@ impl Run {
     /// Velocities at the report point, where those in a checkpoint are half a step behind: the float64 reference closes the step with
     /// the forces, baths and time step of the run itself.
     pub fn velocities(&self) -> Result<Vec<[f64; 3]>, Mistake> {
-        let reference = self.model.physics().reference(&self.model, &self.state);
+        let reference = self.scene.model().physics().reference(self.scene.model(), &self.state);
         let momenta = reference.and_then(|reference| reference.reported_momenta().ok());
         let momenta = momenta.ok_or_else(|| damaged("the last step of its run cannot be completed"))?;
         let velocity = |(momentum, species): (&[i32; 3], &u32)| {
-            self.model.units.momentum(*momentum).map(|part| part / self.model.species[*species as usize].mass)
+            self.scene
+                .model()
+                .units
+                .momentum(*momentum)
+                .map(|part| part / self.scene.model().species[*species as usize].mass)
         };
         Ok(momenta.iter().zip(&self.state.species).map(velocity).collect())
     }
@@ -91,9 +94,8 @@ pub(super) fn particles(path: &Path, fits: &Fits<'_>) -> Result<(ParticleFile, R
     let start = start.and_then(|(_, bytes)| FileStart::from_bytes(bytes)).map(Arc::new);
     let written = WrittenScene::new("its scene", content.scene);
     let scene = written.check_kept(start).map_err(|error| damaged(&format!("its scene is refused ({error})")))?;
-    let model = scene.model();
-    let particles = of_state(model, &content.state)?;
-    Ok((particles, Run { seed: scene.seed, model: model.clone(), state: content.state }))
+    let particles = of_state(scene.model(), &content.state)?;
+    Ok((particles, Run { scene, state: content.state }))
 }
 
 fn refusal(error: &ContentError) -> Mistake {

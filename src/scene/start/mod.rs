@@ -12,8 +12,7 @@ use super::{
     Scene, SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities, Velocities, Warning, nearest,
 };
 use crate::document::{FilePlaces, ParticleGroup, number_of_copies};
-use crate::families::Checked;
-use crate::families::{self};
+use crate::families::{self, Model};
 use crate::host_memory;
 use crate::numbers::counted;
 use crate::state::MOST_PARTICLES;
@@ -318,7 +317,7 @@ impl<'a> Reader<'a> {
                 scene.integrator = run.integrator().clone();
             }
             // A model needs a scene that makes sense.
-            let goes_on = semantics::check(scene).is_empty() && run.goes_on_with(&Checked::presumed(scene.clone()));
+            let goes_on = semantics::check(scene).is_empty() && run.goes_on_with(scene.seed, &Model::new(scene));
             start.places = places.map(|places| FilePlaces { state: goes_on.then(|| run.state()), ..places });
             if goes_on {
                 return start;

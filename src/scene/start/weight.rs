@@ -2,8 +2,7 @@
 
 use super::super::semantics;
 use crate::document::{Interaction, Molecule, Placement, Problems, Scene, SceneError, number_of_copies};
-use crate::families::Checked;
-use crate::families::{self, StepCheck};
+use crate::families::{self, Checked, StepCheck};
 use crate::numbers::counted;
 use crate::state_file::{self, Mistake};
 use std::cell::RefCell;

@@ -5,9 +5,8 @@ pub(crate) mod reference;
 pub(crate) mod scene;
 
 use crate::document::{Problems, Scene, Shear};
-use crate::families::Checked;
-use crate::families::Model;
 use crate::families::particles::terms::{PlannedTerm, ReferenceTerm, Term};
+use crate::families::{Checked, Model};
 
 /// Periodic boundaries that move along x past each other.
 #[derive(Debug, Clone, Copy, PartialEq)]
