@@ -46,6 +46,12 @@ pub enum Unit {
     Energy,
     /// Units of energy over those of volume, which is an area in two dimensions.
     Pressure,
+    /// Units of a pressure times those of length.
+    Tension,
+    /// Units of a pressure times those of time.
+    Viscosity,
+    /// One over the unit of volume.
+    Density,
     /// Another unit, in words.
     Other(&'static str),
 }
@@ -61,11 +67,20 @@ impl Unit {
     #[must_use]
     pub const fn in_words(self, dimension: Option<usize>) -> &'static str {
         match (self, dimension) {
-            (Self::Temperature | Self::Energy, _) => "energy units",
+            (Self::Temperature | Self::Energy, _) | (Self::Tension, Some(1)) => "energy units",
             (Self::Pressure, None) => "energy units/volume",
-            (Self::Pressure, Some(1)) => "energy units/length unit",
-            (Self::Pressure, Some(2)) => "energy units/length unit²",
+            (Self::Pressure, Some(1)) | (Self::Tension, Some(2)) => "energy units/length unit",
+            (Self::Pressure, Some(2)) | (Self::Tension, Some(_)) => "energy units/length unit²",
             (Self::Pressure, Some(_)) => "energy units/length unit³",
+            (Self::Tension, None) => "energy units/volume × length units",
+            (Self::Viscosity, None) => "energy units/volume × time units",
+            (Self::Viscosity, Some(1)) => "mass units × length units/time unit",
+            (Self::Viscosity, Some(2)) => "mass units/time unit",
+            (Self::Viscosity, Some(_)) => "mass units/(length unit × time unit)",
+            (Self::Density, None) => "1/volume",
+            (Self::Density, Some(1)) => "1/length unit",
+            (Self::Density, Some(2)) => "1/length unit²",
+            (Self::Density, Some(_)) => "1/length unit³",
             (Self::Other(words), _) => words,
         }
     }
@@ -115,7 +130,8 @@ pub const QUANTITIES: [Quantity; 30] = [
     quantity("solver_residual", "r", Other("part of the right side"), "residual of the friction of cells"),
 ];
 
-const fn quantity(name: &'static str, symbol: &'static str, unit: Unit, meaning: &'static str) -> Quantity {
+/// A quantity that no chart of energies shows.
+pub(crate) const fn quantity(name: &'static str, symbol: &'static str, unit: Unit, meaning: &'static str) -> Quantity {
     Quantity { name, symbol, unit, meaning, look: None, settles: false }
 }
 
@@ -126,6 +142,14 @@ const fn settling(name: &'static str, symbol: &'static str, unit: Unit, meaning:
 impl Quantity {
     const fn looks(self, legend: &'static str, ink: usize) -> Self {
         Self { look: Some(Look { legend, ink }), ..self }
+    }
+
+    /// Its name with symbol and unit, for an axis or a bar of colours.
+    #[must_use]
+    pub fn label(&self, dimension: usize) -> String {
+        let mut letters = self.meaning.chars();
+        let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
+        format!("{first}{} {} ({})", letters.as_str(), self.symbol, self.unit.in_words(Some(dimension)))
     }
 
     /// The quantity of a column, if it is one of the table of energies.

@@ -224,7 +224,7 @@ fn results(outcome: &Outcome, model: &Model, directory: &str) -> String {
             continue;
         }
         let label = if is_conservative_part { "pressure, conservative part" } else { &column.replace('_', " ") };
-        if let Some(value) = summary.means.get(column).and_then(run::printed_mean) {
+        if let Some(value) = summary.means.get(column).and_then(run::printed_estimate) {
             let spoilt = summary.unequilibrated.as_ref().is_some_and(|found| found.includes(column));
             rows.push(vec![label.to_owned(), marked(value, spoilt)]);
         }

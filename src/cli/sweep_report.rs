@@ -2,7 +2,7 @@
 
 use mesoscope::families;
 use mesoscope::output::summary::Unequilibrated;
-use mesoscope::run::printed_mean;
+use mesoscope::run::printed_estimate;
 use mesoscope::sweep::{SweepOutcome, Variant, VariantState};
 use serde_json::{Map, Value};
 
@@ -66,14 +66,14 @@ pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     let variants = &outcome.summary.variants;
     let columns: Vec<&str> = SHOWN
         .into_iter()
-        .filter(|name| variants.iter().any(|v| v.means.get(*name).and_then(printed_mean).is_some()))
+        .filter(|name| variants.iter().any(|v| v.means.get(*name).and_then(printed_estimate).is_some()))
         .collect();
     let mut header = vec!["VARIANT".to_owned()];
     header.extend(columns.iter().map(|name| name.replace('_', " ").to_uppercase()));
     header.push("TIME".to_owned());
     let mut rows = vec![header];
     let shown = |means: &Map<String, Value>, is_spoilt: &dyn Fn(&str) -> bool| -> Vec<String> {
-        let cell = |name: &&str| Some(marked(means.get(*name).and_then(printed_mean)?, is_spoilt(name)));
+        let cell = |name: &&str| Some(marked(means.get(*name).and_then(printed_estimate)?, is_spoilt(name)));
         columns.iter().map(|name| cell(name).unwrap_or_default()).collect()
     };
     for variant in variants {

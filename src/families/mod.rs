@@ -67,6 +67,7 @@ pub use warnings::warnings;
 use crate::document::{FieldQuantity, ParticleGroup, Problems, Scene, SnapshotColor, Warning};
 use crate::numbers::grouped;
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
+use crate::quantity::Quantity;
 use crate::state::{Reported, State};
 use crate::tessellation::Tessellation;
 use pictures::{CellValues, EnergyChart, MeshPictures};
@@ -271,6 +272,11 @@ pub(crate) trait Physics {
 
     /// Fields of a state with such a depth on the nodes; of [`PictureKind::Fields`] only.
     fn mesh_pictures(&self, _: &[FieldQuantity], _: &Reported, _: &[f64], _: &Model) -> Option<MeshPictures> {
+        None
+    }
+
+    /// The quantities of the fields that a scene asks for, and the nodes along x and y that they have values on.
+    fn fields(&self, _: &Scene) -> Option<([usize; 2], Vec<Quantity>)> {
         None
     }
 

@@ -2,6 +2,7 @@
 
 use super::Field;
 use crate::document::FieldQuantity;
+use crate::quantity::Quantity;
 
 /// What pictures of a state are of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,8 +62,8 @@ pub(crate) struct MeshPictures {
 pub(crate) struct ShownField {
     /// What it is.
     pub quantity: FieldQuantity,
-    /// What its files are called.
-    pub stem: &'static str,
+    /// Its files have this name.
+    pub described: Quantity,
     /// The value in the middle of its colours, if they diverge from one.
     pub centre: Option<f64>,
     /// Whether its range begins at zero.

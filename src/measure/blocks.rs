@@ -2,14 +2,11 @@
 
 use super::statistics::{Estimate, estimate};
 
-/// The most blocks; one more, and neighbours are added in pairs.
-const MOST_BLOCKS: usize = 512;
-
 /// Sums of rows of numbers over blocks of equal numbers of samples.
 ///
-/// There are at most 512 blocks: whenever these are full, neighbours become one block of twice as many samples. More than 256
-/// blocks remain, however long the series is: enough for the errors of [`estimate`] to settle where the run is a few hundred times as
-/// long as the correlation.
+/// Whenever a number of blocks is full, neighbours become one block of twice as many samples: more than half of them remain, however long the
+/// series is. Those of [`BlockSums::new`], more than 256, are enough for the errors of [`estimate`] to settle where the run is a few hundred
+/// times as long as the correlation.
 ///
 /// ```
 /// use mesoscope::measure::blocks::BlockSums;
@@ -22,12 +19,13 @@ const MOST_BLOCKS: usize = 512;
 /// }
 /// assert_eq!(sums.total(1), 1999.0);
 /// let ratio = sums.ratio(|row| row[0], |row| row[1]).ok_or("nothing was counted")?;
-/// assert_eq!((ratio.mean, ratio.standard_error), (5.0, Some(0.0)));
+/// assert_eq!((ratio.value, ratio.error), (5.0, Some(0.0)));
 /// # Ok::<(), &str>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockSums {
     width: usize,
+    most: u64,
     samples: u64,
     /// Rows of sums, one a block; the last may not be full.
     blocks: Vec<f64>,
@@ -37,31 +35,37 @@ impl BlockSums {
     /// Begins with rows of so many numbers.
     #[must_use]
     pub fn new(width: usize) -> Self {
-        Self { width, samples: 0, blocks: Vec::new() }
+        Self::with_most(width, 512)
+    }
+
+    /// Begins with rows of so many numbers in at most so many blocks: 64 know an error to some tenth, in an eighth of the memory.
+    #[must_use]
+    pub fn with_most(width: usize, most: u64) -> Self {
+        Self { width, most: most.max(2), samples: 0, blocks: Vec::new() }
     }
 
     /// Continues from the sums of blocks that so many samples have left.
-    #[must_use]
-    pub fn of(width: usize, samples: u64, blocks: &[f64]) -> Self {
-        Self { width, samples, blocks: blocks.to_vec() }
+    pub fn restore(&mut self, samples: u64, blocks: &[f64]) {
+        self.samples = samples;
+        self.blocks = blocks.to_vec();
     }
 
     /// Samples in a full block after so many.
-    fn length(samples: u64) -> u64 {
-        samples.div_ceil(MOST_BLOCKS as u64).next_power_of_two()
+    fn length(&self, samples: u64) -> u64 {
+        samples.div_ceil(self.most).next_power_of_two()
     }
 
     /// Number of blocks after so many samples, the last of which may not be full.
     #[must_use]
-    pub fn blocks_after(samples: u64) -> u64 {
-        samples.div_ceil(Self::length(samples))
+    pub fn blocks_after(&self, samples: u64) -> u64 {
+        samples.div_ceil(self.length(samples))
     }
 
     /// Adds a sample; numbers beyond the width are left out, and missing ones count as zero.
     pub fn add(&mut self, row: &[f64]) {
-        let before = Self::length(self.samples);
+        let before = self.length(self.samples);
         self.samples += 1;
-        let length = Self::length(self.samples);
+        let length = self.length(self.samples);
         if length > before {
             self.join();
         }
@@ -115,27 +119,28 @@ impl BlockSums {
     /// correlation are those of whole blocks.
     #[must_use]
     pub fn ratio(&self, numerator: impl Fn(&[f64]) -> f64, denominator: impl Fn(&[f64]) -> f64) -> Option<Estimate> {
-        let pairs: Vec<[f64; 2]> = self.rows().map(|row| [numerator(row), denominator(row)]).collect();
+        self.ratio_of(&self.rows().map(|row| [numerator(row), denominator(row)]).collect::<Vec<_>>())
+    }
+
+    fn ratio_of(&self, pairs: &[[f64; 2]]) -> Option<Estimate> {
         let total = pairs.iter().fold([0.0; 2], |sum, pair| [sum[0] + pair[0], sum[1] + pair[1]]);
         if total[1] == 0.0 {
             return None;
         }
         let value = total[0] / total[1];
-        let full = (self.samples / Self::length(self.samples)) as usize;
+        let full = (self.samples / self.length(self.samples)) as usize;
         let full = &pairs[..full.min(pairs.len())];
         let mean = full.iter().map(|pair| pair[1]).sum::<f64>() / full.len().max(1) as f64;
         let deviations: Vec<f64> = full.iter().map(|pair| (pair[0] - value * pair[1]) / mean).collect();
         let samples = self.samples as usize;
         Some(match estimate(&deviations) {
             Some(found) => Estimate {
-                mean: value,
+                value,
                 samples,
-                correlation_samples: found.correlation_samples.map(|blocks| blocks * Self::length(self.samples) as f64),
+                correlation_samples: found.correlation_samples.map(|blocks| blocks * self.length(self.samples) as f64),
                 ..found
             },
-            None => {
-                Estimate { mean: value, standard_error: None, samples, correlation_samples: None, converged: false }
-            }
+            None => Estimate::new(value, None, samples),
         })
     }
 
@@ -143,13 +148,36 @@ impl BlockSums {
     #[must_use]
     pub fn mean(&self, number: impl Fn(&[f64]) -> f64) -> Option<Estimate> {
         // What every sample counts once is a quantity of its own.
-        let length = Self::length(self.samples) as f64;
+        let length = self.length(self.samples) as f64;
         let last = self.rows().count().saturating_sub(1);
         let left = self.samples as f64 - last as f64 * length;
-        let lengths = self.rows().enumerate().map(|(block, _)| if block == last { left } else { length });
-        let mut counted = Self { width: self.width + 1, samples: self.samples, blocks: Vec::new() };
-        counted.blocks = self.rows().zip(lengths).flat_map(|(row, length)| [row, &[length]].concat()).collect();
-        counted.ratio(|row| number(&row[..self.width]), |row| row[self.width])
+        let counted =
+            self.rows().enumerate().map(|(block, row)| [number(row), if block == last { left } else { length }]);
+        self.ratio_of(&counted.collect::<Vec<_>>())
+    }
+
+    /// A number that is made of the means of all quantities, by a jackknife over the blocks that are full. There is no error with fewer than
+    /// two of them, nor where the number does not exist without one of them.
+    #[must_use]
+    pub fn jackknife(&self, number: impl Fn(&[f64]) -> Option<f64>) -> Option<Estimate> {
+        let totals: Vec<f64> = (0..self.width).map(|quantity| self.total(quantity)).collect();
+        let mean = |row: Option<&[f64]>| {
+            let less = if row.is_some() { self.length(self.samples) } else { 0 };
+            let left = (self.samples - less) as f64;
+            let sums = totals.iter().enumerate().map(|(index, total)| total - row.map_or(0.0, |row| row[index]));
+            number(&sums.map(|sum| sum / left).collect::<Vec<f64>>())
+        };
+        let value = mean(None)?;
+        let full = (self.samples / self.length(self.samples)) as usize;
+        let without = Estimate::new(value, None, self.samples as usize);
+        if full < 2 {
+            return Some(without);
+        }
+        let count = full as f64;
+        let pseudovalue = |row| Some(count * value - (count - 1.0) * mean(Some(row))?);
+        let pseudovalues: Option<Vec<f64>> = self.rows().take(full).map(pseudovalue).collect();
+        let found = pseudovalues.and_then(|values| estimate(&values));
+        Some(found.map_or(without, |found| Estimate { value, samples: self.samples as usize, ..found }))
     }
 }
 
@@ -165,11 +193,13 @@ mod tests {
             let mut sums = BlockSums::new(2);
             (0..samples).for_each(|sample| sums.add(&[1.0, sample as f64]));
             let blocks = sums.sums().len() as u64 / 2;
-            assert_eq!(blocks, BlockSums::blocks_after(samples), "{samples}");
+            assert_eq!(blocks, sums.blocks_after(samples), "{samples}");
             assert!(blocks <= 512 && (samples < 512 || blocks > 256), "{samples}: {blocks}");
             assert_eq!((sums.total(0), sums.samples()), (samples as f64, samples));
             assert_eq!(sums.total(1), (samples * samples.saturating_sub(1) / 2) as f64);
-            assert_eq!(BlockSums::of(2, samples, sums.sums()), sums);
+            let mut restored = BlockSums::new(2);
+            restored.restore(samples, sums.sums());
+            assert_eq!(restored, sums);
         }
     }
 
@@ -178,8 +208,24 @@ mod tests {
         let mut sums = BlockSums::new(1);
         // 513 samples make 257 blocks, of which the last has one.
         (0..513).for_each(|sample| sums.add(&[f64::from(sample)]));
-        assert_eq!(sums.mean(|row| row[0]).unwrap().mean, 256.0);
+        assert_eq!(sums.mean(|row| row[0]).unwrap().value, 256.0);
         assert_eq!(BlockSums::new(1).mean(|row| row[0]), None);
+    }
+
+    /// The square of the mean 2 of numbers of unit variance has the error 4/√n, and the jackknife of a mean is the mean.
+    #[test]
+    fn a_jackknife_knows_the_errors_of_other_numbers() {
+        let samples = 10_000_u64;
+        let mut sums = BlockSums::with_most(1, 64);
+        (0..samples).for_each(|sample| sums.add(&[2.0 + noise::gaussian(noise::step_key(4, 99, sample))]));
+        assert!(sums.sums().len() <= 64);
+        let square = sums.jackknife(|means| Some(means[0] * means[0])).unwrap();
+        let (error, exact) = (square.error.unwrap(), 4.0 / (samples as f64).sqrt());
+        assert!((error / exact - 1.0).abs() < 0.5 && !square.few, "{square:?}");
+        assert!((square.value - 4.0).abs() < 4.0 * exact, "{square:?}");
+        let [mean, same] = [sums.mean(|row| row[0]), sums.jackknife(|means| Some(means[0]))].map(Option::unwrap);
+        assert!((mean.error.unwrap() / same.error.unwrap() - 1.0).abs() < 0.05, "{mean:?} {same:?}");
+        assert_eq!(sums.jackknife(|_| None), None);
     }
 
     /// Numbers of unit variance, each seen twice: the error of the mean of n is √(2/n).
@@ -189,9 +235,9 @@ mod tests {
         let mut sums = BlockSums::new(1);
         (0..samples).for_each(|sample| sums.add(&[noise::gaussian(noise::step_key(3, 99, sample / 2))]));
         let mean = sums.mean(|row| row[0]).unwrap();
-        let (error, exact) = (mean.standard_error.unwrap(), (2.0 / samples as f64).sqrt());
+        let (error, exact) = (mean.error.unwrap(), (2.0 / samples as f64).sqrt());
         // 313 blocks of 64, of which hardly one knows of the next.
-        assert!(mean.converged && (error / exact - 1.0).abs() < 0.64, "{error} against {exact}");
-        assert!(mean.mean.abs() < 4.0 * exact, "{}", mean.mean);
+        assert!(!mean.few && (error / exact - 1.0).abs() < 0.64, "{error} against {exact}");
+        assert!(mean.value.abs() < 4.0 * exact, "{}", mean.value);
     }
 }

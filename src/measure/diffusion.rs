@@ -1,7 +1,8 @@
 //! Diffusion coefficients from displacements and velocities.
 
-use super::correlation::{Coefficient, WindowedAverage};
+use super::correlation::WindowedAverage;
 use super::line::weighted_line;
+use super::statistics::{Estimate, independent};
 use std::ops::Range;
 
 /// The least of the velocity autocorrelation that one sample may leave. An exponential is then integrated to 1 % by the trapezoidal rule, whose
@@ -98,7 +99,7 @@ impl DiffusionWindows {
     /// # Errors
     /// [`DiffusionError`] where more than 1 % of the velocity autocorrelation is left in the second half of the window, or the
     /// displacement bends there, by more than what statistics explain.
-    pub fn einstein(&self) -> Result<Coefficient, DiffusionError> {
+    pub fn einstein(&self) -> Result<Estimate, DiffusionError> {
         let lags = self.displacement.lags();
         let start = lags.div_ceil(2);
         if lags < 4 {
@@ -112,7 +113,7 @@ impl DiffusionWindows {
         if let Some((early, late)) = halves.filter(|_| middle > start + 1) {
             let changes: Vec<f64> = early.iter().zip(&late).map(|(early, late)| late - early).collect();
             let change = coefficient(&changes)?;
-            let excess = change.value.abs() - BEND_ERRORS * change.standard_error.unwrap_or(f64::INFINITY);
+            let excess = change.value.abs() - BEND_ERRORS * change.error.unwrap_or(f64::INFINITY);
             if excess > BEND * found.value.abs() {
                 return Err(DiffusionError::Bent { change: (change.value / found.value).abs() });
             }
@@ -126,7 +127,7 @@ impl DiffusionWindows {
     /// # Errors
     /// [`DiffusionError`] where less than 70 % of the velocity autocorrelation is left after one sample, or significantly more than 1 % at
     /// the end of the window.
-    pub fn green_kubo(&self) -> Result<Coefficient, DiffusionError> {
+    pub fn green_kubo(&self) -> Result<Estimate, DiffusionError> {
         let lags = self.velocity.lags();
         let second = self.velocity.normalised().get(1).map(|second| second.value).ok_or(DiffusionError::Few)?;
         if second < KEPT_BY_A_SAMPLE {
@@ -153,18 +154,18 @@ impl DiffusionWindows {
 
     /// Whether velocities are forgotten from a lag on.
     fn check_forgotten(&self, from: usize) -> Result<(), DiffusionError> {
-        let Some(Coefficient { value: left, standard_error }) = self.velocity.normalised_mean(from) else {
+        let Some(Estimate { value: left, error, .. }) = self.velocity.normalised_mean(from) else {
             return Err(DiffusionError::Few);
         };
-        if left - LEFT_ERRORS * standard_error.unwrap_or(0.0) > LEFT {
+        if left - LEFT_ERRORS * error.unwrap_or(0.0) > LEFT {
             return Err(DiffusionError::Short { left, time: from as f64 * self.interval });
         }
         Ok(())
     }
 }
 
-fn coefficient(values: &[f64]) -> Result<Coefficient, DiffusionError> {
-    Coefficient::of_independent(values).filter(|found| found.value.is_finite()).ok_or(DiffusionError::Few)
+fn coefficient(values: &[f64]) -> Result<Estimate, DiffusionError> {
+    independent(values).filter(|found| found.value.is_finite()).ok_or(DiffusionError::Few)
 }
 
 #[cfg(test)]
@@ -192,7 +193,7 @@ mod tests {
         let found = windows(&[line(5.0), line(7.0)], 1.0, 3).einstein().unwrap();
         assert!((found.value - 1.0).abs() < 1e-12);
         // Of two values, 1 ± 1/6, with Student's factor of 1.837.
-        assert!((found.standard_error.unwrap() - 1.8367 / 6.0).abs() < 1e-3, "{found:?}");
+        assert!((found.error.unwrap() - 1.8367 / 6.0).abs() < 1e-3, "{found:?}");
         let none =
             DiffusionWindows { displacement: WindowedAverage::from_samples(21, &[]), ..windows(&[line(1.0)], 1.0, 3) };
         assert_eq!(none.einstein(), Err(DiffusionError::Few));
@@ -215,7 +216,7 @@ mod tests {
             sums
         };
         let found = windows(&(0..50).map(walk).collect::<Vec<_>>(), 1.0, 2).einstein().unwrap();
-        let error = found.standard_error.unwrap();
+        let error = found.error.unwrap();
         assert!((found.value - 0.01).abs() < 4.0 * error, "{found:?}");
         // A single window's slope scatters by a good part of 1/√walkers; over 50 windows a few percent at most.
         assert!(error > 1e-5 && error < 8e-4, "{found:?}");
@@ -239,7 +240,7 @@ mod tests {
         let found = fine.green_kubo().unwrap();
         // ∫ exp(-t) = 1; the trapezoidal rule adds h²/12, the cut takes e⁻²⁰.
         assert!((found.value - 1.0 - interval * interval / 12.0).abs() < 1e-8);
-        assert_eq!(found.standard_error, None);
+        assert_eq!(found.error, None);
         // At the limit the rule is 1 % off; beyond it there is no value.
         fine = exponential(0.35, 30);
         fine.dimension = 1;

@@ -57,8 +57,8 @@ pub fn transient(series: &[f64]) -> Option<Transient> {
     let samples = if settles { cut } else { series.len() / 2 };
     let rest = estimate(&series[samples..])?;
     let whole = series.iter().sum::<f64>() / series.len() as f64;
-    let spoils = (whole - rest.mean).abs() > rest.standard_error.unwrap_or(0.0);
-    spoils.then_some(Transient { samples, settles, mean: rest.mean })
+    let spoils = (whole - rest.value).abs() > rest.error.unwrap_or(0.0);
+    spoils.then_some(Transient { samples, settles, mean: rest.value })
 }
 
 /// Numbers of blocks, with the largest deviation of the first at φ = 0 and what is added to that at φ = 1: of fewer
@@ -126,7 +126,7 @@ fn deviation(values: &[f64]) -> Option<(f64, f64)> {
 fn largest_difference(series: &[f64]) -> f64 {
     let second = &series[series.len().div_ceil(2)..];
     let Some(half) = estimate(second).filter(|_| second.len() >= ENOUGH) else { return 0.0 };
-    let (Some(error), Some(correlation)) = (half.standard_error, half.correlation_samples) else { return 0.0 };
+    let (Some(error), Some(correlation)) = (half.error, half.correlation_samples) else { return 0.0 };
     if correlation * ENOUGH_CORRELATIONS > second.len() as f64 {
         return 0.0;
     }
@@ -135,7 +135,7 @@ fn largest_difference(series: &[f64]) -> f64 {
         let first = &series[..series.len() / part];
         let mean = first.iter().sum::<f64>() / first.len() as f64;
         let variance = variance_of_one / first.len() as f64 + error * error;
-        (mean - half.mean).abs() / variance.sqrt()
+        (mean - half.value).abs() / variance.sqrt()
     };
     [8, 4, 2].map(difference).into_iter().fold(0.0, f64::max)
 }

@@ -1,7 +1,7 @@
 //! Curves fitted to decays by nonlinear least squares.
 
-use super::correlation::{Coefficient, WindowedAverage};
-use super::statistics::jackknife_error;
+use super::correlation::WindowedAverage;
+use super::statistics::{Estimate, jackknife};
 use crate::scene::DecayFit;
 
 /// Steps of the solver after which a fit counts as failed.
@@ -18,7 +18,7 @@ pub struct FittedDecay {
     values: Vec<f64>,
     /// Parameters in the order of the formula, by name. Errors come from a jackknife over windows; there are none with
     /// fewer than five.
-    pub parameters: Vec<(&'static str, Coefficient)>,
+    pub parameters: Vec<(&'static str, Estimate)>,
     /// Root of the mean squared deviation from the points.
     pub deviation: f64,
 }
@@ -91,7 +91,7 @@ impl FittedDecay {
         let replicates: Vec<Vec<f64>> = replicates.collect::<Option<_>>().unwrap_or_default();
         let parameters = names(shape).iter().enumerate().map(|(index, name)| {
             let column: Vec<f64> = replicates.iter().map(|values| values[index]).collect();
-            (*name, Coefficient { value: values[index], standard_error: jackknife_error(&column) })
+            (*name, jackknife(values[index], &column))
         });
         let parameters = parameters.collect();
         let deviation = (sum_of_squares(&points, shape, &values) / points.len() as f64).sqrt();
@@ -309,7 +309,7 @@ mod tests {
         for (shape, parameters) in CASES {
             let fit = FittedDecay::of_windows(&windows(*shape, parameters, 5, 0.0), INTERVAL, *shape).unwrap();
             for (found, exact) in fit.parameters.iter().zip(*parameters) {
-                let (name, Coefficient { value, .. }) = *found;
+                let (name, Estimate { value, .. }) = *found;
                 assert!((value - exact).abs() < 1e-5 * exact.abs(), "{shape:?} {parameters:?}: {name} = {value}");
             }
             assert!(fit.deviation < 1e-7 && (fit.at(0.3) - value(*shape, parameters, 0.3)).abs() < 1e-6);
@@ -336,7 +336,7 @@ mod tests {
                     .map(|(a, b)| column[a] * first[a][b] * column[b])
                     .sum();
                 let variance = (column[index] - known) * noise * noise / count as f64;
-                let (exact, error) = (variance.sqrt(), found.standard_error.unwrap());
+                let (exact, error) = (variance.sqrt(), found.error.unwrap());
                 // An error from 20 blocks is itself known to 1/√38.
                 assert!((error / exact).ln().abs() < 4.0 / 38_f64.sqrt(), "{shape:?} {name}: {error} against {exact}");
                 let off = (found.value - parameters[index]).abs();
@@ -373,7 +373,7 @@ mod tests {
         let error = FittedDecay::of_windows(&short, 1.0, DecayFit::StretchedExponential);
         assert_eq!(error, Err(FitError::TooFewPoints { parameters: 3, points: 3 }));
         let single = FittedDecay::of_windows(&short, 1.0, DecayFit::Exponential).unwrap();
-        assert_eq!(single.parameters[0].1.standard_error, None);
+        assert_eq!(single.parameters[0].1.error, None);
         assert_eq!(
             FittedDecay::of_windows(&WindowedAverage::from_samples(9, &[]), 1.0, DecayFit::Exponential),
             Err(FitError::NoDecay)

@@ -1,6 +1,6 @@
 //! The shear viscosity from the autocorrelation of the stress.
 
-use super::correlation::Coefficient;
+use super::statistics::{Estimate, independent};
 
 /// The least of the autocorrelation that a sample may leave, where samples are not those of every step: of an exponential 1 % is then missing.
 const KEPT_BY_A_SAMPLE: f64 = 0.7;
@@ -17,11 +17,11 @@ const FEWEST_BLOCKS: usize = 5;
 #[derive(Debug, Clone, PartialEq)]
 pub struct StressCorrelation {
     /// V/kT times the autocorrelation of a shear component.
-    pub autocorrelation: Vec<Coefficient>,
+    pub autocorrelation: Vec<Estimate>,
     /// The viscosity that its sum up to a lag gives.
-    pub viscosity: Vec<Coefficient>,
+    pub viscosity: Vec<Estimate>,
     /// What the second half of the lags adds to it.
-    pub growth: Option<Coefficient>,
+    pub growth: Option<Estimate>,
 }
 
 /// Why no viscosity comes out.
@@ -56,7 +56,7 @@ impl StressCorrelation {
     /// # Errors
     /// [`GreenKuboError`] where samples that are further apart forget the stress, or the second half of the lags adds more than a tenth and
     /// than statistics explain.
-    pub fn longest(&self, every_step: bool) -> Result<Coefficient, GreenKuboError> {
+    pub fn longest(&self, every_step: bool) -> Result<Estimate, GreenKuboError> {
         let found = *self.viscosity.last().ok_or(GreenKuboError::Few)?;
         if let [first, second, ..] = self.autocorrelation[..]
             && !every_step
@@ -64,7 +64,7 @@ impl StressCorrelation {
         {
             return Err(GreenKuboError::Coarse { kept: (second.value / first.value).max(0.0) });
         }
-        if let Some(Coefficient { value: growth, standard_error: Some(error) }) = self.growth
+        if let Some(Estimate { value: growth, error: Some(error), .. }) = self.growth
             && growth.abs() - GROWTH_ERRORS * error > GROWTH * found.value.abs()
         {
             return Err(GreenKuboError::Short { part: growth / found.value });
@@ -142,14 +142,14 @@ pub fn stress_correlation(
         let here: Vec<f64> = correlations.iter().map(|correlation| factor * correlation[lag]).collect();
         sums.iter_mut().zip(&here).for_each(|(sum, value)| *sum += weight * interval * value);
         for (values, averages) in [(&here, &mut found.autocorrelation), (&sums, &mut found.viscosity)] {
-            averages.extend(Coefficient::of_independent(values));
+            averages.extend(independent(values));
         }
         if lag == longest_lag / 2 {
             half.clone_from(&sums);
         }
     }
     let growth: Vec<f64> = sums.iter().zip(&half).map(|(all, half)| all - half).collect();
-    found.growth = Coefficient::of_independent(&growth);
+    found.growth = independent(&growth);
     found
 }
 
@@ -193,7 +193,7 @@ mod tests {
         // The sum up to a lag t scatters by 2√(t/T) of itself, T = 4000 for each of five components.
         let scatter = 2.0 * (8.0_f64 / (5.0 * 4000.0)).sqrt();
         assert!((viscosity.value - exact).abs() < 4.0 * scatter, "{viscosity:?} against {exact}");
-        let error = viscosity.standard_error.unwrap();
+        let error = viscosity.error.unwrap();
         // Of 20 blocks: known to 16 %.
         assert!(error < 1.64 * scatter && error > 0.2 * scatter, "{error} against {scatter}");
         assert!((found.autocorrelation[0].value - 1.0).abs() < 0.1);
@@ -214,6 +214,6 @@ mod tests {
         let series = vec![[1.0; 6]; 10];
         assert_eq!(stress_correlation(&series, 2, 1.0, 1.0, 10).longest(true), Err(GreenKuboError::Few));
         let one = stress_correlation(&series, 2, 1.0, 1.0, 4);
-        assert_eq!((one.viscosity.len(), one.longest(true).unwrap().standard_error), (5, None));
+        assert_eq!((one.viscosity.len(), one.longest(true).unwrap().error), (5, None));
     }
 }

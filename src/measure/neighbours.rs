@@ -104,14 +104,14 @@ mod tests {
     fn random_points_have_the_fractions_of_the_literature() {
         let count = 60_000;
         let counts = NeighbourCounts::from_samples(&[NeighbourCounts::of_cells(&random(count))]);
-        assert_eq!(counts.mean().unwrap().mean, 6.0);
+        assert_eq!(counts.mean().unwrap().value, 6.0);
         for (neighbours, expected) in RANDOM_POINTS.iter().enumerate() {
-            let found = counts.fraction(neighbours).unwrap().mean;
+            let found = counts.fraction(neighbours).unwrap().value;
             // Four deviations of independent cells, of which real ones have less, and the last digit.
             let error = 4.0 * (expected / f64::from(count)).sqrt() + 2e-4;
             assert!((found - expected).abs() < error, "{neighbours}: {found}, not {expected}");
         }
-        let variance = counts.variance().unwrap().mean;
+        let variance = counts.variance().unwrap().value;
         assert!((variance - 1.78).abs() < 0.04, "{variance}");
     }
 
@@ -121,6 +121,6 @@ mod tests {
         let samples = [Tessellation::new([4.0, 4.0], &places), random(16)];
         let counts = NeighbourCounts::from_samples(&samples.each_ref().map(NeighbourCounts::of_cells));
         assert_eq!((counts.len(), counts.samples[0][4]), (2, 16.0));
-        assert_eq!(counts.mean().unwrap().mean, 5.0);
+        assert_eq!(counts.mean().unwrap().value, 5.0);
     }
 }

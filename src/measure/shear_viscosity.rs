@@ -1,8 +1,7 @@
 //! The shear viscosity from transverse momentum waves.
 
-use super::correlation::Coefficient;
 use super::line::{Line, weighted_line};
-use super::statistics::{FEWEST_REPLICATES, jackknife_error};
+use super::statistics::{Estimate, FEWEST_REPLICATES, jackknife};
 use serde::{Deserialize, Serialize};
 
 /// A Fourier mode of the momentum density perpendicular to its wave vector: Σ p_⊥ exp(-i k·r), sampled in time.
@@ -18,9 +17,9 @@ pub struct TransverseMode {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ShearViscosity {
     /// Dynamic viscosity η: the mean over wave numbers.
-    pub viscosity: Coefficient,
+    pub viscosity: Estimate,
     /// Kinematic viscosity η/ρ.
-    pub kinematic_viscosity: Coefficient,
+    pub kinematic_viscosity: Estimate,
     /// The result of each wave number, smallest first. If they fall with k by more than their errors, the waves are
     /// too short for hydrodynamics and the first is the best.
     pub waves: Vec<WaveViscosity>,
@@ -34,7 +33,7 @@ pub struct WaveViscosity {
     /// Number of modes averaged.
     pub modes: usize,
     /// Dynamic viscosity η.
-    pub viscosity: Coefficient,
+    pub viscosity: Estimate,
     /// The normalised autocorrelation C, one value per lag, up to the end of the fit.
     pub autocorrelation: Vec<f64>,
     /// First lag of the fit; the last is the end of `autocorrelation`.
@@ -114,7 +113,7 @@ const BLOCKS: usize = 20;
 /// });
 /// let mode = TransverseMode { wave_number: 0.5, amplitudes: amplitudes.collect() };
 /// let found = shear_viscosity(&[mode], 3.0, 0.5, 500)?.viscosity;
-/// let error = found.standard_error.unwrap_or(f64::NAN);
+/// let error = found.error.unwrap_or(f64::NAN);
 /// assert!((found.value - 0.8).abs() < 4.0 * error && error < 0.2);
 /// # Ok::<(), mesoscope::measure::shear_viscosity::ViscosityError>(())
 /// ```
@@ -167,7 +166,7 @@ pub fn shear_viscosity(
         results.push(WaveViscosity {
             wave_number,
             modes: wave.len(),
-            viscosity: Coefficient { value, standard_error: jackknife_error(&replicates) },
+            viscosity: jackknife(value, &replicates),
             autocorrelation: decay.autocorrelation.clone(),
             fit_from: decay.fit_from,
             fit: decay.fit(),
@@ -175,11 +174,8 @@ pub fn shear_viscosity(
     }
     let complete = without.iter().filter(|values| values.len() == waves.len());
     let replicates: Vec<f64> = complete.map(|values| weighted(values)).collect();
-    let viscosity = Coefficient { value: weighted(&values), standard_error: jackknife_error(&replicates) };
-    let kinematic_viscosity = Coefficient {
-        value: viscosity.value / density,
-        standard_error: viscosity.standard_error.map(|error| error / density),
-    };
+    let viscosity = jackknife(weighted(&values), &replicates);
+    let kinematic_viscosity = viscosity.times(1.0 / density);
     Ok(ShearViscosity { viscosity, kinematic_viscosity, waves: results })
 }
 
@@ -327,7 +323,7 @@ mod tests {
                 })
                 .collect();
             let found = shear_viscosity(&modes, density, interval, 500).unwrap();
-            let error = found.viscosity.standard_error.unwrap();
+            let error = found.viscosity.error.unwrap();
             assert!((found.viscosity.value - viscosity).abs() < 4.0 * error, "run {run}: {:?}", found.viscosity);
             // No estimator of the rate of a complex mode does better than √(1/(rate · time)); a fit to part of C
             // should do within a factor of a few of that.
@@ -341,7 +337,7 @@ mod tests {
             assert!(error > 0.5 * best && error < 4.0 * best, "run {run}: {error} against {best}");
             squares += ((found.viscosity.value - viscosity) / error).powi(2);
             assert_eq!(found.waves.iter().map(|wave| wave.modes).collect::<Vec<_>>(), [4, 2]);
-            assert_eq!(found.kinematic_viscosity.value, found.viscosity.value / density);
+            assert!((found.kinematic_viscosity.value * density / found.viscosity.value - 1.0).abs() < 1e-15);
         }
         // Errors neither too small nor too large: Σ z² has mean near 12 and standard deviation near √24.
         assert!(squares > 2.0 && squares < 12.0 + 4.0 * 24.0_f64.sqrt(), "Σ z² = {squares}");
@@ -357,7 +353,7 @@ mod tests {
             amplitude[1] += 0.2 * gaussian(71, step as u64);
         }
         let found = shear_viscosity(&[mode], 1.0, 1.0, 400).unwrap().viscosity;
-        assert!((found.value - rate).abs() < 4.0 * found.standard_error.unwrap(), "{found:?}");
+        assert!((found.value - rate).abs() < 4.0 * found.error.unwrap(), "{found:?}");
     }
 
     #[test]
@@ -384,7 +380,7 @@ mod tests {
     #[test]
     fn a_short_series_has_a_value_and_no_error() {
         let found = shear_viscosity(&[relaxing_mode(3, 1.0, 0.02, 200)], 1.0, 1.0, 150).unwrap();
-        assert_eq!(found.viscosity.standard_error, None);
+        assert_eq!(found.viscosity.error, None);
         assert!(found.viscosity.value > 0.0);
     }
 }

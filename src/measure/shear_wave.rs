@@ -1,7 +1,6 @@
 //! The decay of a shear wave, and the viscosity that follows from it.
 
-use super::correlation::Coefficient;
-use super::statistics::jackknife_error;
+use super::statistics::{Estimate, jackknife};
 
 /// How fast a shear wave decays.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,7 +8,7 @@ pub struct WaveDecay {
     /// The first amplitude.
     pub amplitude: f64,
     /// The rate of the exponential decay.
-    pub rate: Coefficient,
+    pub rate: Estimate,
 }
 
 /// A decay is measured over lags in which the wave falls by about this exponent.
@@ -58,8 +57,8 @@ impl WaveDecay {
         let total = [0, 1].map(|index| parts.iter().map(|part| part[index]).sum::<f64>());
         let left: Option<Vec<f64>> =
             parts.iter().map(|part| decay([total[0] - part[0], total[1] - part[1]], lag, interval)).collect();
-        let standard_error = left.and_then(|left| jackknife_error(&left));
-        Some(Self { amplitude: amplitudes[0], rate: Coefficient { value, standard_error } })
+        let found = jackknife(value, &left.unwrap_or_default());
+        Some(Self { amplitude: amplitudes[0], rate: found })
     }
 
     /// The decay at a time after the first amplitude.
@@ -114,7 +113,7 @@ mod tests {
         let amplitudes: Vec<f64> = (0..100).map(|sample| 0.7 * (-0.03 * f64::from(sample)).exp()).collect();
         let found = WaveDecay::of(&amplitudes, 0.5).unwrap();
         assert!((found.rate.value - 0.06).abs() < 1e-12, "{found:?}");
-        assert!(found.rate.standard_error.unwrap() < 1e-12, "{found:?}");
+        assert!(found.rate.error.unwrap() < 1e-12, "{found:?}");
         assert_eq!(found.amplitude, 0.7);
         assert!((found.at(10.0) - 0.7 * (-0.6_f64).exp()).abs() < 1e-12);
     }
@@ -126,7 +125,7 @@ mod tests {
             (0..count).map(|seed| WaveDecay::of(&wave(seed, rate, 0.03, 0.01, 300), 1.0).unwrap()).collect();
         let mean = found.iter().map(|decay| decay.rate.value).sum::<f64>() / count as f64;
         let deviations = found.iter().map(|decay| (decay.rate.value - rate).powi(2)).sum::<f64>() / count as f64;
-        let told = found.iter().map(|decay| decay.rate.standard_error.unwrap().powi(2)).sum::<f64>() / count as f64;
+        let told = found.iter().map(|decay| decay.rate.error.unwrap().powi(2)).sum::<f64>() / count as f64;
         // Theory: twice the noise over the amplitude, 6 %, for a wave that is seen to its end.
         assert!((deviations.sqrt() / rate - 0.06).abs() < 0.015, "{}", deviations.sqrt() / rate);
         // The mean of 200 to four of its errors, and 2 % for the noise of samples and the logarithm.

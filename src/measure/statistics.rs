@@ -1,6 +1,8 @@
 //! Means of correlated series, with errors.
 
+use crate::numbers::with_error;
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// The most values whose correlation is summed: longer series are averaged in pairs first, which changes no sum over all lags.
 const MOST_VALUES: usize = 1024;
@@ -17,22 +19,51 @@ const LEAST_INEFFICIENCY: f64 = 0.5;
 /// Degrees of freedom from which an error counts as settled: it is then known to a quarter, 1/√(2 · 8).
 const ENOUGH_FREEDOM: f64 = 8.0;
 
-/// A mean and how well it is known.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// A measured number: a mean, a transport coefficient, a parameter of a fit.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Estimate {
-    /// Mean of the samples.
-    pub mean: f64,
-    /// Standard error of the mean: the true mean lies within it with the probability of 68 %, however few the samples are. None with fewer
-    /// than two samples.
-    pub standard_error: Option<f64>,
-    /// Number of samples.
+    /// Its value.
+    pub value: f64,
+    /// Standard error: the true value lies within it with the probability of 68 %, however few the samples are. None where these are too few.
+    pub error: Option<f64>,
+    /// Number of samples, windows or blocks whose scatter is the error.
+    #[serde(default)]
     pub samples: usize,
-    /// Statistical inefficiency: how many successive samples count as one independent one. At least about 1 for
-    /// positively correlated samples; none where the samples do not vary or are fewer than two.
+    /// Statistical inefficiency of a series: how many successive samples count as one independent one. At least about 1 for
+    /// positively correlated samples; none where the samples do not vary, are fewer than two, or are no series.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub correlation_samples: Option<f64>,
-    /// Whether the series is long enough for the error to be known to a quarter of itself. A series shorter than some ten times its
-    /// correlation hides how long that is: its error may be larger than `standard_error`.
-    pub converged: bool,
+    /// True if the samples are too few for the error to be known to a quarter of itself. A series shorter than some ten times its
+    /// correlation hides how long that is: its error may be larger than `error`.
+    #[serde(default)]
+    pub few: bool,
+}
+
+impl Estimate {
+    /// A value with an error from the scatter of so many independent values.
+    #[must_use]
+    pub fn new(value: f64, error: Option<f64>, samples: usize) -> Self {
+        let few = error.is_none() || error != Some(0.0) && samples as f64 - 1.0 < ENOUGH_FREEDOM;
+        Self { value, error, samples, correlation_samples: None, few }
+    }
+
+    /// The number times a positive factor that is known exactly.
+    #[must_use]
+    pub fn times(self, factor: f64) -> Self {
+        Self { value: self.value * factor, error: self.error.map(|error| error * factor), ..self }
+    }
+
+    /// Value and error as cells of a table, in which an error that is not known is empty.
+    pub(crate) fn cells(self) -> [f64; 2] {
+        [self.value, self.error.unwrap_or(f64::NAN)]
+    }
+}
+
+/// The value with its error, as text: `0.500 ± 0.020`.
+impl fmt::Display for Estimate {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&with_error(self.value, self.error))
+    }
 }
 
 /// Estimates the mean of a series in the order of time; values that are not finite are left out.
@@ -52,9 +83,9 @@ pub struct Estimate {
 /// let number = |step: u64| noise::gaussian(noise::step_key(1, 99, step / 4));
 /// let series: Vec<f64> = (0..4096).map(number).collect();
 /// let found = estimate(&series).ok_or("there is no number to average")?;
-/// let error = found.standard_error.unwrap_or(f64::NAN);
-/// assert!(found.mean.abs() < 4.0 * error && (error - 1.0 / 32.0).abs() < 0.01);
-/// assert!(found.converged && found.correlation_samples.is_some_and(|samples| samples > 2.5 && samples < 6.0));
+/// let error = found.error.unwrap_or(f64::NAN);
+/// assert!(found.value.abs() < 4.0 * error && (error - 1.0 / 32.0).abs() < 0.01);
+/// assert!(!found.few && found.correlation_samples.is_some_and(|samples| samples > 2.5 && samples < 6.0));
 /// # Ok::<(), &str>(())
 /// ```
 #[must_use]
@@ -70,10 +101,10 @@ pub fn estimate(series: &[f64]) -> Option<Estimate> {
         *value -= origin;
     }
     let mean = origin + values.iter().sum::<f64>() / samples as f64;
-    let without_error = Estimate { mean, standard_error: None, samples, correlation_samples: None, converged: false };
+    let without_error = Estimate::new(mean, None, samples);
     let Some(first) = variance_of_mean(&values) else { return Some(without_error) };
     if first == 0.0 {
-        return Some(Estimate { standard_error: Some(0.0), converged: true, ..without_error });
+        return Some(Estimate { error: Some(0.0), few: false, ..without_error });
     }
     while values.len() > MOST_VALUES {
         values = values.chunks_exact(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect();
@@ -81,9 +112,9 @@ pub fn estimate(series: &[f64]) -> Option<Estimate> {
     let (variance, freedom) =
         if samples < FEWEST_CORRELATED { (first, samples as f64 - 1.0) } else { correlated_variance(&values) };
     Some(Estimate {
-        standard_error: Some(variance.sqrt() * student(freedom)),
+        error: Some(variance.sqrt() * student(freedom)),
         correlation_samples: Some(variance / first),
-        converged: freedom >= ENOUGH_FREEDOM,
+        few: freedom < ENOUGH_FREEDOM,
         ..without_error
     })
 }
@@ -131,39 +162,40 @@ fn variance_of_mean(values: &[f64]) -> Option<f64> {
     Some(squares / (count * (count - 1.0)))
 }
 
-/// Mean and standard error of independent values; none where there are no values. The true mean lies within the error with the probability
+/// The mean of independent values; none where there are no values. The true mean lies within the error with the probability
 /// of 68 %, by Student's distribution for as many values as there are.
 ///
 /// ```
 /// use mesoscope::measure::statistics::independent;
-/// let (mean, error) = independent(&[1.0, 2.0, 3.0]).unwrap_or((f64::NAN, None));
+/// let mean = independent(&[1.0, 2.0, 3.0]).unwrap_or_default();
 /// // s/√n, and 1.32 times that because three values say little of s.
-/// assert!(mean == 2.0 && error.is_some_and(|error| (error - 1.32 / 3.0_f64.sqrt()).abs() < 2e-3));
-/// assert_eq!(independent(&[7.0]), Some((7.0, None)));
+/// assert!(mean.value == 2.0 && mean.error.is_some_and(|error| (error - 1.32 / 3.0_f64.sqrt()).abs() < 2e-3));
+/// assert!(mean.few && independent(&[7.0]).is_some_and(|one| one.value == 7.0 && one.error.is_none()));
 /// assert_eq!(independent(&[]), None);
 /// ```
 #[must_use]
-pub fn independent(values: &[f64]) -> Option<(f64, Option<f64>)> {
+pub fn independent(values: &[f64]) -> Option<Estimate> {
     let first = *values.first()?;
     // Differences from one of them lose no digits where the mean is large and the scatter small.
     let differences: Vec<f64> = values.iter().map(|value| value - first).collect();
     let mean = first + differences.iter().sum::<f64>() / values.len() as f64;
     let widened = |variance: f64| variance.sqrt() * student(values.len() as f64 - 1.0);
-    Some((mean, variance_of_mean(&differences).map(widened)))
+    Some(Estimate::new(mean, variance_of_mean(&differences).map(widened), values.len()))
 }
 
 /// Fewest values of a jackknife that give an error.
 pub(super) const FEWEST_REPLICATES: usize = 5;
 
-/// The jackknife's standard error from the values with one block left out each, widened as that of [`independent`] values.
-pub(super) fn jackknife_error(replicates: &[f64]) -> Option<f64> {
+/// A value with the jackknife's standard error from the values with one block left out each, widened as that of [`independent`] values.
+pub(super) fn jackknife(value: f64, replicates: &[f64]) -> Estimate {
     if replicates.len() < FEWEST_REPLICATES {
-        return None;
+        return Estimate::new(value, None, replicates.len());
     }
     let count = replicates.len() as f64;
     let mean = replicates.iter().sum::<f64>() / count;
     let squares: f64 = replicates.iter().map(|value| (value - mean).powi(2)).sum();
-    Some((squares * (count - 1.0) / count).sqrt() * student(count - 1.0))
+    let error = (squares * (count - 1.0) / count).sqrt() * student(count - 1.0);
+    Estimate::new(value, Some(error), replicates.len())
 }
 
 #[cfg(test)]
@@ -195,11 +227,11 @@ mod tests {
     /// The root mean square of errors over the exact one, and of means over their errors.
     fn ratios(runs: u64, exact: f64, series: impl Fn(u64) -> Vec<f64>) -> [f64; 2] {
         let found: Vec<Estimate> = (0..runs).map(|seed| estimate(&series(seed)).unwrap()).collect();
-        let error = |estimate: &Estimate| estimate.standard_error.unwrap();
+        let error = |estimate: &Estimate| estimate.error.unwrap();
         let of = |value: &dyn Fn(&Estimate) -> f64| {
             (found.iter().map(|one| value(one).powi(2)).sum::<f64>() / runs as f64).sqrt()
         };
-        [of(&|one| error(one) / exact), of(&|one| one.mean / error(one))]
+        [of(&|one| error(one) / exact), of(&|one| one.value / error(one))]
     }
 
     /// Means scatter by what is printed, whether the series is a thousand or twenty correlations long.
@@ -240,11 +272,11 @@ mod tests {
         for memory in [0.0, 0.5, 0.9] {
             let found = estimate(&autoregressive(3, memory, 1 << 15)).unwrap();
             let correlation = (1.0 + memory) / (1.0 - memory);
-            assert!(found.converged, "{found:?}");
+            assert!(!found.few, "{found:?}");
             assert!((found.correlation_samples.unwrap() / correlation - 1.0).abs() < 0.3, "{found:?}");
         }
         let short = estimate(&autoregressive(1, 0.999, 1000)).unwrap();
-        assert!(!short.converged && short.correlation_samples.unwrap() > 10.0, "{short:?}");
+        assert!(short.few && short.correlation_samples.unwrap() > 10.0, "{short:?}");
     }
 
     /// Few independent values: their means lie within the error as often as those of many.
@@ -255,7 +287,7 @@ mod tests {
         }
         for count in [2, 3, 5, 10] {
             let within = |seed: &u64| {
-                let (mean, error) = independent(&autoregressive(*seed, 0.0, count)).unwrap();
+                let Estimate { value: mean, error, .. } = independent(&autoregressive(*seed, 0.0, count)).unwrap();
                 mean.abs() < error.unwrap()
             };
             let found = (0..2000).filter(within).count() as f64 / 2000.0;
@@ -269,12 +301,12 @@ mod tests {
         assert_eq!(estimate(&[]), None);
         assert_eq!(estimate(&[f64::NAN, f64::INFINITY]), None);
         let one = estimate(&[3.0]).unwrap();
-        assert_eq!((one.mean, one.standard_error, one.samples), (3.0, None, 1));
+        assert_eq!((one.value, one.error, one.samples), (3.0, None, 1));
         let two = estimate(&[1.0, 2.0]).unwrap();
-        assert_eq!((two.mean, two.samples, two.converged), (1.5, 2, false));
-        assert!((two.standard_error.unwrap() / (0.5 * 1.8367) - 1.0).abs() < 1e-3, "{two:?}");
+        assert_eq!((two.value, two.samples, two.few), (1.5, 2, true));
+        assert!((two.error.unwrap() / (0.5 * 1.8367) - 1.0).abs() < 1e-3, "{two:?}");
         let constant = estimate(&[0.1; 1000]).unwrap();
-        assert_eq!((constant.mean, constant.standard_error, constant.correlation_samples), (0.1, Some(0.0), None));
+        assert_eq!((constant.value, constant.error, constant.correlation_samples), (0.1, Some(0.0), None));
     }
 
     #[test]
@@ -290,6 +322,6 @@ mod tests {
         let shifted: Vec<f64> = autoregressive(5, 0.5, 4096).iter().map(|value| value + 1e9).collect();
         let shifted = estimate(&shifted).unwrap();
         // Adding 1e9 rounds each sample to 1.2e-7.
-        assert!((shifted.standard_error.unwrap() - clean.standard_error.unwrap()).abs() < 1e-7);
+        assert!((shifted.error.unwrap() - clean.error.unwrap()).abs() < 1e-7);
     }
 }

@@ -30,7 +30,8 @@ const CHECKSUM: &str = "checksum";
 /// summary.save(&path)?;
 /// let found = Summary::load(&path)?;
 /// assert_eq!(found.particle_steps_per_second, 4e6);
-/// assert_eq!(found.means["temperature"]["mean"], 1.0);
+/// assert_eq!(found.means["temperature"]["value"], 1.0);
+/// assert_eq!(found.means["temperature"]["unit"], "energy units");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -58,9 +59,15 @@ pub struct Summary {
     pub wall_seconds: f64,
     /// Particles times steps over wall-clock time.
     pub particle_steps_per_second: f64,
-    /// The columns of the table of energies, after the step.
+    /// The columns of every table but their first, which counts steps in that of energies; and what arrays of fields hold.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub columns: BTreeMap<String, Vec<ColumnSummary>>,
+    /// The nodes that arrays of fields belong to.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mesh: Option<MeshSummary>,
+    /// Steps and times of numbered pictures and arrays.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub columns: Vec<ColumnSummary>,
+    pub numbered: Vec<NumberedFrame>,
     /// Mean of each column of the table of energies after equilibration, in the order of the table; null where a
     /// column has no values.
     pub means: serde_json::Map<String, serde_json::Value>,
@@ -84,7 +91,35 @@ pub struct Summary {
     pub scene: Scene,
 }
 
-/// A column of the table of energies, in words.
+/// A numbered picture, or the numbered arrays of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct NumberedFrame {
+    /// Its number.
+    pub number: u64,
+    /// Its step.
+    pub step: u64,
+    /// Its time, in time units.
+    pub time: f64,
+}
+
+/// The nodes of a periodic mesh: node (k, l) is at `k * spacing[0]`, `l * spacing[1]`, and its value at place `[k, l]` of an array.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct MeshSummary {
+    /// Nodes along x and y.
+    pub nodes: [usize; 2],
+    /// Their distances along x and y, in length units.
+    pub spacing: [f64; 2],
+}
+
+impl MeshSummary {
+    /// The nodes of a box with edges of these lengths.
+    #[must_use]
+    pub fn new(nodes: [usize; 2], lengths: [f64; 2]) -> Self {
+        Self { nodes, spacing: std::array::from_fn(|axis| lengths[axis] / nodes[axis] as f64) }
+    }
+}
+
+/// A column of a table, in words.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct ColumnSummary {
     /// Its name.
@@ -95,19 +130,28 @@ pub struct ColumnSummary {
     pub unit: String,
     /// The definition of its quantity.
     pub meaning: String,
+    /// The species that it is of, in the order of the numbers in its name; nothing where it is of all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub species: Vec<String>,
 }
 
 impl ColumnSummary {
-    /// The columns of the table of a model.
+    /// A column of a quantity in a box of this dimension.
     #[must_use]
-    pub fn of(model: &Model) -> Vec<Self> {
-        let summary = |column: Column| {
-            let Quantity { symbol, unit, meaning, .. } = Quantity::of_column(column.name)?;
-            let unit = unit.in_words(Some(model.units.dimension)).to_owned();
-            let [name, symbol, meaning] = [column.name, symbol, meaning].map(str::to_owned);
-            Some(Self { name, symbol, unit, meaning })
-        };
-        model.physics().columns(model).into_iter().filter_map(summary).collect()
+    pub fn new(name: &str, quantity: &Quantity, dimension: usize) -> Self {
+        let Quantity { symbol, unit, meaning, .. } = quantity;
+        let error = if name.ends_with("_error") { "standard error of: " } else { "" };
+        let (unit, meaning) = (unit.in_words(Some(dimension)).to_owned(), format!("{error}{meaning}"));
+        Self { name: name.to_owned(), symbol: (*symbol).to_owned(), unit, meaning, species: Vec::new() }
+    }
+
+    /// The columns of the table of energies of a model.
+    #[must_use]
+    pub fn of_energies(model: &Model) -> Vec<Self> {
+        let columns = model.physics().columns(model).into_iter();
+        let summary =
+            |column: Column| Some(Self::new(column.name, Quantity::of_column(column.name)?, model.units.dimension));
+        columns.filter_map(summary).collect()
     }
 }
 
@@ -277,7 +321,9 @@ impl Summary {
             steps: 0,
             wall_seconds: 0.0,
             particle_steps_per_second: 0.0,
-            columns: Vec::new(),
+            columns: BTreeMap::new(),
+            mesh: None,
+            numbered: Vec::new(),
             means: serde_json::Map::new(),
             unequilibrated: None,
             results: serde_json::Map::new(),
@@ -349,7 +395,11 @@ impl Summary {
     /// Adds the mean of a column; `None` where the column has no values.
     pub fn add_mean(&mut self, column: &str, estimate: Option<&Estimate>) {
         // Plain numbers and nothing else: this conversion cannot fail.
-        let value = serde_json::to_value(estimate).unwrap_or_default();
+        let mut value = serde_json::to_value(estimate).unwrap_or_default();
+        if let (Some(number), Some(quantity)) = (value.as_object_mut(), Quantity::of_column(column)) {
+            let unit = quantity.unit.in_words(Some(self.scene.space.lengths.len()));
+            number.insert("unit".to_owned(), unit.into());
+        }
         self.means.insert(column.to_owned(), value);
     }
 

@@ -202,6 +202,14 @@ impl Series {
         if errors.iter().any(|error| error.is_finite()) { self.with_errors(errors) } else { self }
     }
 
+    /// The series in a band of errors, if any of them is known.
+    #[must_use]
+    pub(crate) fn with_band(self, errors: Vec<f64>) -> Self {
+        let series = self.with_known_errors(errors);
+        let style = if series.errors.is_some() { SeriesStyle::Band } else { SeriesStyle::Line };
+        Self { style, ..series }
+    }
+
     /// The series with an error for every point.
     #[must_use]
     pub fn with_errors(mut self, errors: Vec<f64>) -> Self {

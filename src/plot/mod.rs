@@ -85,4 +85,4 @@ pub use quantities::{Averages, averages_note, quantity_label};
 pub use renderer::Plotter;
 pub use stress_charts::{stress_chart, stress_correlation_chart};
 pub use text::missing_glyphs;
-pub use transport_charts::{ChainKind, Found, chain_sizes_chart, diffusion_chart, viscosity_chart};
+pub use transport_charts::{ChainKind, chain_sizes_chart, diffusion_chart, viscosity_chart};

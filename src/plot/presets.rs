@@ -113,20 +113,20 @@ pub fn circulation_chart(title: &str, table: &Table) -> Chart {
 /// The radial distribution function g(r), of all particles or of pairs of species, with the value 1 of an ideal gas as a reference.
 ///
 /// ```
-/// use mesoscope::plot::radial_distribution_chart;
+/// use mesoscope::plot::{Series, radial_distribution_chart};
 ///
-/// let curve = ("g(r)".to_owned(), vec![0.0, 1.8, 1.1]);
-/// let chart = radial_distribution_chart("Hard discs", &[0.5, 1.0, 1.5], &[curve]);
+/// let curve = Series::line("g(r)", vec![[0.5, 0.0], [1.0, 1.8], [1.5, 1.1]]);
+/// let chart = radial_distribution_chart("Hard discs", vec![curve]);
 /// assert_eq!(chart.panels[0].x.range, Some([0.0, 1.5]));
 /// ```
 #[must_use]
-pub fn radial_distribution_chart(title: &str, distances: &[f64], curves: &[(String, Vec<f64>)]) -> Chart {
+pub fn radial_distribution_chart(title: &str, curves: Vec<Series>) -> Chart {
     let mut panel =
         Panel::new("Distance r (length units)", "Radial distribution g(r)").with_reference("ideal gas", 1.0);
-    panel.series.extend(curves.iter().map(|(name, values)| Series::line(name, pairs(distances, values))));
-    let values = curves.iter().flat_map(|(_, values)| values.iter().copied());
-    panel.y.range = Some([0.0, 1.1 * highest(values).max(1.0)]);
-    panel.x.range = Some([0.0, highest(distances.iter().copied())]);
+    let [x, y] = [0, 1].map(|axis| highest(curves.iter().flat_map(|curve| &curve.points).map(|point| point[axis])));
+    panel.y.range = Some([0.0, 1.1 * y.max(1.0)]);
+    panel.x.range = Some([0.0, x]);
+    panel.series = curves;
     Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![panel] }
 }
 

@@ -1,9 +1,8 @@
 //! Charts of the pressure tensor.
 
-use super::chart::{Chart, Mean, Panel, Series, SeriesInk, SeriesStyle};
+use super::chart::{Chart, Mean, Panel, Series, SeriesInk};
 use super::quantities::{TIME, pressure_label};
-use super::transport_charts::Found;
-use crate::numbers::with_error;
+use crate::measure::statistics::Estimate;
 use crate::table::Table;
 
 /// Normal and shear components of the pressure tensor over time, with their means.
@@ -46,29 +45,26 @@ pub fn stress_chart(title: &str, table: &Table, means: &dyn Fn(&str) -> Option<M
 /// The columns are `time`, `autocorrelation`, `viscosity` and their errors, whose names end in `_error`.
 ///
 /// ```
+/// use mesoscope::measure::statistics::Estimate;
 /// use mesoscope::plot::stress_correlation_chart;
 /// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "autocorrelation", "autocorrelation_error", "viscosity", "viscosity_error"];
 /// let table = Table::new(columns, vec![vec![0.0, 9.0, 0.1, 0.2, 0.01], vec![0.1, 3.0, 0.1, 0.5, 0.02]]);
-/// let chart = stress_correlation_chart("A fluid", &table, Some((0.5, Some(0.02))));
+/// let viscosity = Estimate::new(0.5, Some(0.02), 20);
+/// let chart = stress_correlation_chart("A fluid", &table, Some(viscosity));
 /// assert_eq!(chart.panels[1].series[0].name, "η = 0.500 ± 0.020 at the longest lag");
 /// ```
 #[must_use]
-pub fn stress_correlation_chart(title: &str, table: &Table, viscosity: Option<Found>) -> Chart {
+pub fn stress_correlation_chart(title: &str, table: &Table, viscosity: Option<Estimate>) -> Chart {
     let panel = |column: &str, label: &str, name: &str| {
         let mut panel = Panel::new("Lag (time units)", label);
         if let Some(points) = table.over_time(column, 1.0) {
-            let series = Series::line(name, points).with_known_errors(table.values(&format!("{column}_error")));
-            let style = if series.errors.is_some() { SeriesStyle::Band } else { SeriesStyle::Line };
-            panel.series.push(Series { style, ..series });
+            panel.series.push(Series::line(name, points).with_band(table.values(&format!("{column}_error"))));
         }
         panel.with_reference("zero", 0.0)
     };
-    let name = viscosity.map_or_else(
-        || "sum up to the lag".to_owned(),
-        |(value, error)| format!("η = {} at the longest lag", with_error(value, error)),
-    );
+    let name = viscosity.map_or("sum up to the lag".to_owned(), |found| format!("η = {found} at the longest lag"));
     let correlation = panel("autocorrelation", "Autocorrelation of the shear stress, times V/kT", "autocorrelation");
     let sum = panel("viscosity", "Viscosity from its sum (mass units/(length unit · time unit))", &name);
     // Noise of a single step would take the whole axis.

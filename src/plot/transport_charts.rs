@@ -2,13 +2,11 @@
 
 use super::chart::{Axis, Chart, Mean, Panel, Series, SeriesInk};
 use super::quantities::TIME;
+use crate::measure::statistics::Estimate;
 use crate::numbers::with_error;
 use crate::table::Table;
 
 const LAG: &str = "Lag (time units)";
-
-/// A number that a fit gave, with its standard error where that is known.
-pub type Found = (f64, Option<f64>);
 
 /// Mean squared displacement (on logarithmic axes) and velocity autocorrelation over the lag, with what they say of diffusion;
 /// a column that is not in the table leaves its panel out.
@@ -18,13 +16,15 @@ pub type Found = (f64, Option<f64>);
 /// of the autocorrelation.
 ///
 /// ```
+/// use mesoscope::measure::statistics::Estimate;
 /// use mesoscope::plot::diffusion_chart;
 /// use mesoscope::table::Table;
 ///
 /// let columns = ["time", "mean_squared_displacement"];
 /// // ⟨Δr²⟩ = 6 D t - 0.1 with D = ½.
 /// let rows = (0..20).map(|lag| vec![0.1 * f64::from(lag), 0.3 * f64::from(lag) - 0.1]).collect();
-/// let chart = diffusion_chart("A fluid", &Table::new(columns, rows), 3, Some((0.5, Some(0.02))), None);
+/// let einstein = Estimate::new(0.5, Some(0.02), 20);
+/// let chart = diffusion_chart("A fluid", &Table::new(columns, rows), 3, Some(einstein), None);
 /// let fit = &chart.panels[0].series[1];
 /// assert!(fit.name.contains("D = 0.500 ± 0.020"), "{}", fit.name);
 /// assert!((fit.points[0][1] - 2.9).abs() < 1e-9);
@@ -34,8 +34,8 @@ pub fn diffusion_chart(
     title: &str,
     table: &Table,
     dimension: usize,
-    einstein: Option<Found>,
-    green_kubo: Option<Found>,
+    einstein: Option<Estimate>,
+    green_kubo: Option<Estimate>,
 ) -> Chart {
     let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
     if let Some(points) = table.over_time("mean_squared_displacement", 1.0) {
@@ -44,9 +44,9 @@ pub fn diffusion_chart(
         // At lag zero the displacement is zero by definition and has no logarithm.
         let shown = points.iter().copied().filter(|point| point[0] > 0.0).collect();
         panel.series.push(Series::line("displacement", shown));
-        if let Some((coefficient, error)) = einstein {
-            let slope = 2.0 * dimension as f64 * coefficient;
-            let name = format!("{} D t + b, D = {}", 2 * dimension, with_error(coefficient, error));
+        if let Some(found) = einstein {
+            let slope = 2.0 * dimension as f64 * found.value;
+            let name = format!("{} D t + b, D = {found}", 2 * dimension);
             panel.series.push(Series::compared(&name, displacement_line(&points, slope)));
         }
         chart.panels.push(panel);
@@ -55,7 +55,7 @@ pub fn diffusion_chart(
         let panel = Panel::new(LAG, "Velocity autocorrelation (length units²/time unit²)");
         let name = green_kubo.map_or_else(
             || "autocorrelation".to_owned(),
-            |(coefficient, error)| format!("autocorrelation; from its integral D = {}", with_error(coefficient, error)),
+            |found| format!("autocorrelation; from its integral D = {found}"),
         );
         chart.panels.push(panel.with(Series::line(&name, points)).with_reference("zero", 0.0));
     }
@@ -81,17 +81,19 @@ fn displacement_line(points: &[[f64; 2]], slope: f64) -> Vec<[f64; 2]> {
 /// of all of them.
 ///
 /// ```
+/// use mesoscope::measure::statistics::Estimate;
 /// use mesoscope::plot::viscosity_chart;
 /// use mesoscope::table::Table;
 ///
 /// let columns = ["wave_number", "time", "autocorrelation", "fit"];
 /// let rows = vec![vec![0.5, 0.0, 1.0, f64::NAN], vec![0.5, 1.0, 0.8, 0.79], vec![0.9, 0.0, 1.0, f64::NAN]];
-/// let chart = viscosity_chart("Waves", &Table::new(columns, rows), &[(0.9, Some(0.1))], Some((0.9, Some(0.1))));
+/// let viscosity = Estimate::new(0.9, Some(0.1), 20);
+/// let chart = viscosity_chart("Waves", &Table::new(columns, rows), &[viscosity], Some(viscosity));
 /// assert_eq!(chart.panels[0].series[0].name, "k = 0.5/length unit, η = 0.90 ± 0.10");
 /// assert_eq!(chart.subtitle, "shear viscosity η = 0.90 ± 0.10");
 /// ```
 #[must_use]
-pub fn viscosity_chart(title: &str, table: &Table, viscosities: &[Found], all: Option<Found>) -> Chart {
+pub fn viscosity_chart(title: &str, table: &Table, viscosities: &[Estimate], all: Option<Estimate>) -> Chart {
     let label = "Normalised autocorrelation of transverse momentum waves";
     let mut panel = Panel::new(LAG, label);
     panel.y = Axis::log(label);
@@ -100,8 +102,8 @@ pub fn viscosity_chart(title: &str, table: &Table, viscosities: &[Found], all: O
     for (number, wave) in table.rows.chunk_by(|a, b| cell(a, 0) == cell(b, 0)).enumerate() {
         let column = |index: usize| wave.iter().map(|row| [cell(row, 1), cell(row, index)]).collect::<Vec<_>>();
         let mut name = format!("k = {}/length unit", with_error(cell(&wave[0], 0), None));
-        if let Some((value, error)) = viscosities.get(number) {
-            name = format!("{name}, η = {}", with_error(*value, *error));
+        if let Some(found) = viscosities.get(number) {
+            name = format!("{name}, η = {found}");
         }
         panel.series.push(Series::line(&name, column(2)));
         let fit: Vec<[f64; 2]> = column(3).into_iter().filter(|point| point[1].is_finite()).collect();
@@ -111,7 +113,7 @@ pub fn viscosity_chart(title: &str, table: &Table, viscosities: &[Found], all: O
         }
     }
     panel.series.extend(fits);
-    let subtitle = all.map(|(value, error)| format!("shear viscosity η = {}", with_error(value, error)));
+    let subtitle = all.map(|found| format!("shear viscosity η = {found}"));
     Chart { title: title.to_owned(), subtitle: subtitle.unwrap_or_default(), panels: vec![panel] }
 }
 

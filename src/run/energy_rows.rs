@@ -100,7 +100,7 @@ fn ratio_of_means(pairs: &[[f64; 2]]) -> Option<Estimate> {
         return None;
     }
     let deviations: Vec<f64> = pairs.iter().map(|[above, below]| (above - ratio * below) / mean_below).collect();
-    estimate(&deviations).map(|error| Estimate { mean: ratio, ..error })
+    estimate(&deviations).map(|error| Estimate { value: ratio, ..error })
 }
 
 #[cfg(test)]
@@ -112,9 +112,9 @@ mod tests {
     #[test]
     fn a_mean_ratio_weighs_by_its_denominator() {
         let found = ratio_of_means(&[[1.0, 1.0], [9.0, 3.0]]).unwrap();
-        assert_eq!(found.mean, 2.5);
+        assert_eq!(found.value, 2.5);
         // Deviations (1 - 2.5)/2 and (9 - 7.5)/2: ±0.75, whose mean has the error 0.75.
-        assert!((found.standard_error.unwrap() - 0.75 * student(1.0)).abs() < 1e-15);
+        assert!((found.error.unwrap() - 0.75 * student(1.0)).abs() < 1e-15);
         assert_eq!(found.samples, 2);
         assert_eq!(ratio_of_means(&[]), None);
         assert_eq!(ratio_of_means(&[[0.0, 0.0]]), None);

@@ -15,7 +15,7 @@ use crate::engine::{EngineError, Sample, Shown, Stepper};
 use crate::families::{Checked, KeptQuantity, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
-use crate::output::summary::{AdapterSummary, ColumnSummary, RanksSummary, StartSummary};
+use crate::output::summary::{AdapterSummary, ColumnSummary, MeshSummary, NumberedFrame, RanksSummary, StartSummary};
 use crate::output::{
     Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files, own_file,
 };
@@ -313,7 +313,20 @@ impl<'a> Run<'a> {
         let mut summary =
             Summary::new(self.task.id, self.scene.clone().into_scene(), adapter, self.scene.model().particle_count());
         summary.start = StartSummary::new(self.scene);
-        summary.columns = ColumnSummary::of(self.scene.model());
+        let model = self.scene.model();
+        summary.columns.insert(files::ENERGIES.to_owned(), ColumnSummary::of_energies(model));
+        summary.numbered = self
+            .schedule
+            .numbered()
+            .map(|(number, step)| NumberedFrame { number, step, time: step as f64 * model.time_step })
+            .collect();
+        if let Some((nodes, quantities)) = model.physics().fields(self.scene) {
+            let columns = quantities.iter().map(|quantity| {
+                (files::field(quantity.name, None, "npy"), vec![ColumnSummary::new(quantity.name, quantity, 2)])
+            });
+            summary.columns.extend(columns);
+            summary.mesh = Some(MeshSummary::new(nodes, [model.units.lengths[0], model.units.lengths[1]]));
+        }
         let last_step = self.scene.time.steps;
         summary.set_duration(last_step, steps, spent.as_secs_f64());
         if let Some(earlier) = self.task.earlier.as_deref().filter(|earlier| steps == 0 && earlier.steps == last_step) {

@@ -60,7 +60,7 @@ mod trial;
 
 pub use adapter::{adapter_for, adapter_for_rank};
 pub(crate) use analyses::circulation_change;
-pub use analyses::{AskedAnalysis, asked_analyses, printed_mean, printed_results};
+pub use analyses::{AskedAnalysis, asked_analyses, printed_estimate, printed_results};
 pub(crate) use conservation::kept;
 pub use division::{Ranks, Share, divide, share_of};
 pub(crate) use energies::{quantities, read as read_energies};

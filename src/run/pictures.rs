@@ -346,7 +346,10 @@ impl<'a> Pictures<'a> {
             let subtitle = at_time(state, model);
             let given = asked.ranges.of(shown.quantity);
             let range = if asked.every > 0 {
-                Some(self.ranges.of(shown.stem, given, || colour_ranges::of_field(field.extrema(), shown.from_zero)))
+                Some(
+                    self.ranges
+                        .of(shown.described.name, given, || colour_ranges::of_field(field.extrema(), shown.from_zero)),
+                )
             } else {
                 given
             };
@@ -358,13 +361,13 @@ impl<'a> Pictures<'a> {
                 curves: &curves,
                 ..FieldPicture::new(field)
             };
-            let name = files::field(shown.stem, number, "png");
+            let name = files::field(shown.described.name, number, "png");
             let style = &self.scene.output.plot;
             if self.draws {
                 self.draw(&name, |plotter| plotter.draw_field(&picture, style))?;
                 written.push(name);
             }
-            let name = files::field(shown.stem, number, "npy");
+            let name = files::field(shown.described.name, number, "npy");
             let path = self.directory.file(&name);
             // Those that are there are the run's.
             if self.arrays.is_some() || !path.exists() {

@@ -55,6 +55,11 @@ impl Schedule {
         self.snapshot.filter(|every| step.is_multiple_of(*every)).map(|every| step / every + 1)
     }
 
+    /// Numbers and steps of all snapshots.
+    pub(super) fn numbered(&self) -> impl Iterator<Item = (u64, u64)> {
+        self.snapshot.into_iter().flat_map(|every| (0..=self.last / every).map(move |place| (place + 1, place * every)))
+    }
+
     /// Number of snapshots taken before a step.
     pub(super) fn snapshots_before(&self, step: u64) -> u64 {
         self.snapshot.map_or(0, |every| step.div_ceil(every))
@@ -101,6 +106,7 @@ mod tests {
     fn snapshots_are_numbered_without_gaps() {
         let numbers: Vec<u64> = (0..=100).filter_map(|step| SCHEDULE.snapshot(step)).collect();
         assert_eq!(numbers, [1, 2, 3, 4]);
+        assert_eq!(SCHEDULE.numbered().collect::<Vec<_>>(), [(1, 0), (2, 30), (3, 60), (4, 90)]);
         for step in 0..=100 {
             let before = (0..step).filter(|earlier| SCHEDULE.snapshot(*earlier).is_some()).count() as u64;
             assert_eq!(SCHEDULE.snapshots_before(step), before);

@@ -169,7 +169,7 @@ fn compare(
         let Some(reference) = given.known(measure, scene) else { continue };
         let mean = || {
             let found = means.iter().find(|(name, _)| name == measure)?.1?;
-            Some(Measured::mean(measure.clone(), found.mean, found.standard_error, !found.converged))
+            Some(Measured::mean(measure.clone(), found.value, found.error, found.few))
         };
         let measured = further.iter().find(|found| found.measure == *measure).cloned().or_else(mean);
         match measured.map(|measured| Deviation::new(&measured, &reference)).filter(|found| found.error.is_finite()) {

@@ -64,7 +64,7 @@ impl Group<'_> {
             let all = || std::iter::once(&observable).chain(rest.iter().copied());
             let values: Vec<f64> = all().map(|observable| observable.value).collect();
             let unequilibrated = all().any(|observable| observable.unequilibrated);
-            let (value, error) = independent(&values)?;
+            let Estimate { value, error, .. } = independent(&values)?;
             Some(Observable { name: observable.name, value, error, from_few_samples: false, unequilibrated })
         };
         observables(first).into_iter().filter_map(average).collect()
@@ -81,9 +81,8 @@ pub(super) fn averages(variants: &[VariantSummary]) -> Vec<SeedAverage> {
             let settings = group.settings;
             let spoilt = observables.iter().filter(|observable| observable.unequilibrated);
             let unequilibrated = spoilt.map(|observable| observable.name.clone()).collect();
-            let means = observables.into_iter().map(|Observable { name, value: mean, error, .. }| {
-                let (standard_error, samples, correlation_samples) = (error, seeds, None);
-                let estimate = Estimate { mean, standard_error, samples, correlation_samples, converged: true };
+            let means = observables.into_iter().map(|Observable { name, value, error, .. }| {
+                let estimate = Estimate { few: false, ..Estimate::new(value, error, seeds) };
                 // Plain numbers and nothing else: this conversion cannot fail.
                 (name, serde_json::to_value(estimate).unwrap_or_default())
             });
@@ -102,7 +101,7 @@ mod tests {
     fn variant(settings: &[(&str, Value)], state: VariantState, temperature: f64) -> VariantSummary {
         let settings: Vec<Setting> =
             settings.iter().map(|(key, value)| Setting { key: (*key).to_owned(), value: value.clone() }).collect();
-        let means = json!({"temperature": {"mean": temperature, "standard_error": 0.5}});
+        let means = json!({"temperature": {"value": temperature, "error": 0.5}});
         let results = json!({"diffusion": {"windows": 3, "einstein": {"value": temperature}}});
         let object = |value: Value| value.as_object().cloned().unwrap_or_default();
         VariantSummary { state, means: object(means), results: object(results), ..VariantSummary::blank(settings) }
@@ -128,11 +127,11 @@ mod tests {
         );
         assert_eq!(found.iter().map(|average| average.seeds).collect::<Vec<_>>(), [3, 2]);
         let temperature = &found[0].means["temperature"];
-        assert_eq!(temperature["mean"], json!(3.0));
-        assert_eq!(temperature["standard_error"].as_f64(), independent(&[1.0, 2.0, 6.0]).and_then(|(_, error)| error));
-        assert_eq!((&temperature["samples"], &found[0].means["diffusion.windows"]["mean"]), (&json!(3), &json!(3.0)));
-        assert_eq!(found[0].means["diffusion.einstein"]["mean"], json!(3.0));
-        assert_eq!(found[1].means["temperature"]["standard_error"], json!(0.0));
+        assert_eq!(temperature["value"], json!(3.0));
+        assert_eq!(temperature["error"].as_f64(), independent(&[1.0, 2.0, 6.0]).and_then(|found| found.error));
+        assert_eq!((&temperature["samples"], &found[0].means["diffusion.windows"]["value"]), (&json!(3), &json!(3.0)));
+        assert_eq!(found[0].means["diffusion.einstein"]["value"], json!(3.0));
+        assert_eq!(found[1].means["temperature"]["error"], json!(0.0));
         // A variant alone keeps its own error, and without seeds nothing is averaged.
         let groups = groups(&variants);
         assert_eq!(groups.len(), 3);

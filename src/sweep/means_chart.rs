@@ -169,9 +169,9 @@ mod tests {
         let mut summary = SweepSummary::before(&sweep);
         for (number, variant) in summary.variants.iter_mut().enumerate() {
             variant.state = VariantState::Finished;
-            let value = json!({"mean": temperature(number), "standard_error": 0.125});
+            let value = json!({"value": temperature(number), "error": 0.125});
             variant.means.insert("momentum_x".to_owned(), value.clone());
-            variant.means.insert("pressure".to_owned(), json!({"mean": 3.0, "standard_error": 0.5}));
+            variant.means.insert("pressure".to_owned(), json!({"value": 3.0, "error": 0.5}));
             variant.means.insert("temperature".to_owned(), value);
         }
         charts(&sweep, &summary, &Look::default())
@@ -210,7 +210,7 @@ mod tests {
         let mut summary = SweepSummary::before(&sweep);
         for (number, variant) in summary.variants.iter_mut().enumerate() {
             variant.state = VariantState::Finished;
-            let value = json!({"mean": number, "standard_error": 0.125});
+            let value = json!({"value": number, "error": 0.125});
             variant.means.insert("pressure".to_owned(), value.clone());
             variant.means.insert("temperature".to_owned(), value);
         }

@@ -1,6 +1,8 @@
 //! The numbers that came out of a variant: means of the table of energies and results of the analyses.
 
 use super::variant::VariantSummary;
+use crate::measure::statistics::Estimate;
+use serde::Deserialize;
 use serde_json::{Map, Value};
 
 /// A quantity with its standard error, which may be missing.
@@ -36,10 +38,9 @@ pub(crate) fn numbers_of(means: &Map<String, Value>, results: &Map<String, Value
     means.chain(results.iter().flat_map(of_analysis)).collect()
 }
 
-/// A number, or an object with a mean or a value and maybe a standard error.
+/// A number, as such or with its error.
 pub(super) fn observable(name: String, found: &Value) -> Option<Observable> {
-    let value = found.as_f64().or_else(|| found["mean"].as_f64()).or_else(|| found["value"].as_f64())?;
-    let error = found["standard_error"].as_f64();
-    let from_few_samples = error.is_some() && found["converged"] == false;
-    Some(Observable { name, value, error, from_few_samples, unequilibrated: false })
+    let exact = || found.as_f64().map(|value| Estimate { value, ..Estimate::default() });
+    let Estimate { value, error, few, .. } = Estimate::deserialize(found).ok().or_else(exact)?;
+    Some(Observable { name, value, error, from_few_samples: error.is_some() && few, unequilibrated: false })
 }

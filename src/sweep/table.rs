@@ -80,10 +80,10 @@ mod tests {
 
     #[test]
     fn every_variant_is_a_row_with_means_errors_and_results() {
-        let means = json!({"temperature": {"mean": 1.5, "standard_error": 0.25}, "pressure": null});
-        let results = json!({"diffusion": {"windows": 3, "einstein": {"value": 0.3, "standard_error": null}}});
+        let means = json!({"temperature": {"value": 1.5, "error": 0.25}, "pressure": null});
+        let results = json!({"diffusion": {"windows": 3, "einstein": {"value": 0.3, "error": null}}});
         let first = variant("b=one,two", Some(json!("one,two")), means, results);
-        let further = variant("c=1", None, json!({"temperature": {"mean": 2.0, "standard_error": null}}), json!({}));
+        let further = variant("c=1", None, json!({"temperature": {"value": 2.0, "error": null}}), json!({}));
         let mut failed = variant("b=[1,2]", Some(json!([1, 2])), json!({}), json!({}));
         (failed.state, failed.steps) = (VariantState::Failed, 0);
         let summary = SweepSummary {

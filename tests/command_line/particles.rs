@@ -84,9 +84,9 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     assert!(summary.not_conserved.iter().any(|entry| entry.contains("heat bath")));
     let temperature = energies.column("temperature").unwrap();
     let mean = temperature[4..].iter().sum::<f64>() / 17.0;
-    assert!((summary.means["temperature"]["mean"].as_f64().unwrap() - mean).abs() < 1e-12);
+    assert!((summary.means["temperature"]["value"].as_f64().unwrap() - mean).abs() < 1e-12);
     assert_eq!(summary.means["temperature"]["samples"], 17);
-    assert!((summary.means["configurational_temperature"]["mean"].as_f64().unwrap() - 1.0).abs() < 0.5);
+    assert!((summary.means["configurational_temperature"]["value"].as_f64().unwrap() - 1.0).abs() < 0.5);
     let pairs = read_table(&out.join(AnalysisId::RadialDistribution.table())).unwrap();
     let g = pairs.column("radial_distribution").unwrap();
     assert_eq!(g.len(), 40);

@@ -66,9 +66,9 @@ fn circulations_of_nothing() {
     assert!(!said.contains("circulation of `outer`"), "{said}");
     let summary = place.summary("out");
     let circulation = &summary.results["circulation"];
-    assert_eq!(circulation["inner"]["initial"], 0.0);
+    assert_eq!(circulation["inner"]["initial"]["value"], 0.0);
     assert!(circulation["inner"]["largest_relative_change"].is_null(), "{circulation}");
-    let change = circulation["inner"]["largest_change"].as_f64().unwrap();
+    let change = circulation["inner"]["largest_change"]["value"].as_f64().unwrap();
     assert!(change < 1e-5, "{change}");
     // Two points are no loop.
     let nothing =
@@ -155,9 +155,9 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     let summary = Summary::load(&out.join(files::SUMMARY)).unwrap();
     let inner = circulation.column("inner").unwrap();
     let change = inner.iter().map(|value| (value - inner[0]).abs()).fold(0.0, f64::max);
-    assert_eq!(summary.results["circulation"]["inner"]["largest_change"], change);
+    assert_eq!(summary.results["circulation"]["inner"]["largest_change"]["value"], change);
     assert_eq!((summary.steps, summary.particles), (40, 1629));
-    assert!(summary.results["circulation"]["outer"]["initial"].is_number(), "{:?}", summary.results);
+    assert!(summary.results["circulation"]["outer"]["initial"]["value"].is_number(), "{:?}", summary.results);
     assert!(summary.conserved_exactly.iter().any(|entry| entry.contains("mass on the mesh")));
     assert!(summary.not_conserved.iter().any(|entry| entry.contains("bath on the mesh")));
     assert!(summary.warnings.is_empty(), "{:?}", summary.warnings);

@@ -131,16 +131,16 @@ fn table_summary_and_plots() {
         cells[column].parse::<f64>().unwrap()
     };
     for name in ["kinetic_energy", "total_energy", "pressure", "configurational_temperature"] {
-        assert_eq!(cell(name), run.means[name]["mean"].as_f64().unwrap(), "{name}");
-        assert_eq!(cell(&format!("{name}_error")), run.means[name]["standard_error"].as_f64().unwrap(), "{name}");
+        assert_eq!(cell(name), run.means[name]["value"].as_f64().unwrap(), "{name}");
+        assert_eq!(cell(&format!("{name}_error")), run.means[name]["error"].as_f64().unwrap(), "{name}");
     }
     assert_eq!(
         cell("radial_distribution.peak_height"),
-        run.results["radial_distribution"]["peak_height"].as_f64().unwrap()
+        run.results["radial_distribution"]["peak_height"]["value"].as_f64().unwrap()
     );
 
     // A key that is varied keeps its name, and an observable of that name gives way.
-    assert_eq!(cell("temperature_mean"), run.means["temperature"]["mean"].as_f64().unwrap());
+    assert_eq!(cell("temperature_mean"), run.means["temperature"]["value"].as_f64().unwrap());
 
     // A plot for every quantity that changes, of the size that the scene asks for.
     let plots: Vec<String> = listing(&out).into_iter().filter(|name| name.starts_with("sweep-")).collect();

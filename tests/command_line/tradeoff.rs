@@ -92,10 +92,10 @@ fn choices_have_costs_and_errors_over_the_same_time() {
         let run: Value =
             serde_json::from_slice(&fs::read(out.join(&choice.name).join(run_files::SUMMARY)).unwrap()).unwrap();
         let pressure = choice.error("pressure").unwrap();
-        let mean = run["means"]["pressure"]["mean"].as_f64().unwrap();
-        let error = run["means"]["pressure"]["standard_error"].as_f64().unwrap();
+        let mean = run["means"]["pressure"]["value"].as_f64().unwrap();
+        let error = run["means"]["pressure"]["error"].as_f64().unwrap();
         // What is from few samples counts three times.
-        let has_few = run["means"]["pressure"]["converged"] == json!(false);
+        let has_few = run["means"]["pressure"]["few"] == json!(true);
         let error = if has_few { 3.0 * error } else { error };
         assert_eq!(pressure.from_few_samples, has_few);
         assert_eq!(pressure.error, (mean - 23.6) / 23.6);
@@ -712,9 +712,7 @@ fn analyses_find_what_they_say_beforehand() {
         let results = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap().summary.results;
         for asked in asked {
             let Some(Value::Object(result)) = results.get(asked.id.name()) else { continue };
-            let is_number = |value: &Value| {
-                value.is_number() || value["mean"].is_number() || value["value"].is_number() || value.is_null()
-            };
+            let is_number = |value: &Value| value.is_number() || value["value"].is_number() || value.is_null();
             let there = result.iter().filter(|(_, value)| is_number(value)).map(|(name, _)| name.as_str());
             let mut there: Vec<&str> = there.filter(|name| !counts.contains(name)).collect();
             let mut said = asked.found.clone();

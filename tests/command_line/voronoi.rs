@@ -94,7 +94,7 @@ fn a_run_leaves_everything_the_scene_asks_for() {
     // A thermal part with the deviation √(2kT/ΣM), and Σ sin² of a lattice with jitter.
     assert!((amplitude - 0.3).abs() < 4.0 * (2.0_f64 / 720.0).sqrt() + 0.02, "{amplitude}");
     let summary = place.summary("out");
-    assert_eq!(summary.results["neighbours"]["mean"]["mean"], json!(6.0));
+    assert_eq!(summary.results["neighbours"]["mean"]["value"], json!(6.0));
     assert_eq!(summary.results["neighbours"]["samples"], json!(5));
     assert_eq!(summary.conserved_exactly, ["mass, to the last bit", "total momentum, to the last bit"]);
     assert!(summary.not_conserved[0].contains("exchanged with the fluid inside the cells"), "{summary:?}");

@@ -97,7 +97,7 @@ fn summaries_that_were_edited_are_refused() {
         fs::write(&path, serde_json::to_vec(&content).unwrap()).unwrap();
     };
     for edit in [
-        &(|content: &mut Value| content["means"]["temperature"]["mean"] = json!(1.5)) as &dyn Fn(&mut Value),
+        &(|content: &mut Value| content["means"]["temperature"]["value"] = json!(1.5)) as &dyn Fn(&mut Value),
         &|content| content["results"]["radial_distribution"]["peak_height"] = json!(2),
         &|content| content["warnings"] = json!(["none"]),
         &|content| content["checksum"] = json!("0000000000000000"),

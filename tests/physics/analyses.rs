@@ -24,7 +24,7 @@ fn run(scene: Checked, directory: &Path) -> Outcome {
 
 fn number(outcome: &Outcome, path: &[&str]) -> f64 {
     let found = path.iter().skip(1).fold(&outcome.summary.results[path[0]], |value, key| &value[*key]);
-    found.as_f64().unwrap_or_else(|| panic!("{path:?} is {found}"))
+    found.as_f64().or(found["value"].as_f64()).unwrap_or_else(|| panic!("{path:?} is {found}"))
 }
 
 fn table(directory: &Path, name: &str) -> Table {
@@ -309,14 +309,29 @@ fn species_have_results_of_their_own() {
     let names: Vec<&Value> = pairs.iter().map(|pair| &pair["species"]).collect();
     assert_eq!(names, [&json!(["light", "light"]), &json!(["light", "heavy"]), &json!(["heavy", "heavy"])]);
     let curves = table(directory.path(), "radial_distribution.csv");
-    assert_eq!(curves.columns[1..], ["0_0", "0_1", "1_1"].map(|pair| format!("radial_distribution_{pair}")));
-    for (column, pairs) in [(1, 179_700.0), (2, 180_000.0), (3, 44_850.0)] {
+    let columns = ["0_0", "0_1", "1_1"].map(|pair| {
+        [format!("radial_distribution_{pair}"), format!("radial_distribution_{pair}_error"), format!("pairs_{pair}")]
+    });
+    assert_eq!(curves.columns[1..], *columns.as_flattened());
+    let described = &outcome.summary.columns["radial_distribution.csv"];
+    assert_eq!(
+        (&described[5].name[..], &described[5].species[..]),
+        ("radial_distribution_0_1_error", &["light".to_owned(), "heavy".to_owned()][..])
+    );
+    assert_eq!(described[6].meaning, "pairs counted in all samples");
+    for (column, pairs) in [(1, 179_700.0), (4, 180_000.0), (7, 44_850.0)] {
+        let mut errors = Vec::new();
         for row in &curves.rows[2..] {
             let shell = 4.0 / 3.0 * std::f64::consts::PI * ((row[0] + 0.125).powi(3) - (row[0] - 0.125).powi(3));
             // Of 21 samples, between which particles fly on by a box or so.
             let error = (21.0 * pairs * shell / 125.0_f64).sqrt().recip();
             assert!((row[column] - 1.0).abs() < 5.0 * error, "{column}: {row:?} ± {error}");
+            assert!((row[column + 2] * error * error / row[column] - 1.0).abs() < 1e-12, "{row:?}");
+            errors.push(row[column + 1] / error);
         }
+        // Each of eight is known to a sixth. Heavy particles fly on by a third of the box, and remember a little.
+        let mean = errors.iter().sum::<f64>() / errors.len() as f64;
+        assert!(mean > 0.7 && mean < 1.6, "{column}: {errors:?}");
     }
     // Momenta are constant: the mean square over a species is that of its start, 3 kT/m to a few parts in a hundred.
     let square = |analysis: &str| number(&outcome, &[analysis, "mean_square"]);
@@ -347,7 +362,10 @@ fn pairs_without_particles_have_no_curve() {
     let pairs = outcome.summary.results["radial_distribution"]["pairs"].as_array().unwrap();
     let species: Vec<&Value> = pairs.iter().map(|pair| &pair["species"]).collect();
     assert_eq!(species, [&json!(["A", "A"]), &json!(["A", "B"])]);
-    assert_eq!(columns, ["distance", "radial_distribution_1_1", "radial_distribution_1_2"]);
+    let names =
+        |pair: &str| ["radial_distribution", "radial_distribution", "pairs"].map(|name| format!("{name}_{pair}"));
+    let [first, second] = [names("1_1"), names("1_2")];
+    assert_eq!([&columns[1], &columns[3], &columns[4], &columns[6]], [&first[0], &first[2], &second[0], &second[2]]);
     let (outcome, _) = run_with(r#"{"species":"A","count":1}"#);
     assert!(!outcome.summary.results.contains_key("radial_distribution"));
     assert!(outcome.summary.warnings.iter().any(|warning| warning.contains("there are no pairs of particles")));
@@ -363,9 +381,9 @@ fn surface_tension_belongs_to_the_distance_of_walls() {
         r#"output.stress={"every":2,"normal":"z"}"#,
     ]);
     let outcome = run(scene, directory.path());
-    let pressure = |component: &str| number(&outcome, &["stress", "pressure", component, "mean"]);
+    let pressure = |component: &str| number(&outcome, &["stress", "pressure", component]);
     let expected = 0.5 * 6.0 * (pressure("zz") - 0.5 * (pressure("xx") + pressure("yy")));
-    let found = number(&outcome, &["stress", "surface_tension", "mean"]);
+    let found = number(&outcome, &["stress", "surface_tension"]);
     assert!((found / expected - 1.0).abs() < 1e-9, "{found}, expected {expected}");
 }
 
@@ -484,7 +502,7 @@ fn velocities_of_a_thermal_fluid_are_those_of_maxwell() {
     let outcome = run(scene, directory.path());
     assert!(outcome.summary.warnings.is_empty(), "{:?}", outcome.summary.warnings);
     let particles = 375.0;
-    let kinetic = outcome.summary.means["temperature"]["mean"].as_f64().unwrap();
+    let kinetic = outcome.summary.means["temperature"]["value"].as_f64().unwrap();
     // The centre of mass is at rest.
     let variance = kinetic * (1.0 - 1.0 / particles);
 
@@ -536,8 +554,8 @@ fn velocities_of_a_thermal_fluid_are_those_of_maxwell() {
     let a = "velocity_autocorrelation";
     assert_eq!(number(&outcome, &[a, "windows"]), 25.0);
     // At the same temperature; 25 origins of 375 particles each.
-    near(&[a, "mean_square", "value"], 3.0 * variance, number(&outcome, &[a, "mean_square", "standard_error"]));
-    assert!(number(&outcome, &[a, "mean_square", "standard_error"]) < 2.0 * 6.0_f64.sqrt() / (25.0 * particles).sqrt());
+    near(&[a, "mean_square", "value"], 3.0 * variance, number(&outcome, &[a, "mean_square", "error"]));
+    assert!(number(&outcome, &[a, "mean_square", "error"]) < 2.0 * 6.0_f64.sqrt() / (25.0 * particles).sqrt());
     let found = table(directory.path(), AnalysisId::Autocorrelation(CorrelatedQuantity::Velocity).table());
     let [normalised, errors, fit] =
         ["autocorrelation", "autocorrelation_error", "fit"].map(|name| found.column(name).unwrap());
@@ -545,7 +563,7 @@ fn velocities_of_a_thermal_fluid_are_those_of_maxwell() {
     assert!(normalised.iter().skip(1).all(|value| *value < 1.0) && errors[1] > 0.0);
     let a_value = number(&outcome, &[a, "fit", "a", "value"]);
     assert!((fit[0] - a_value).abs() < 1e-12 && (a_value - 1.0).abs() < 0.3, "{a_value}");
-    assert!(number(&outcome, &[a, "fit", "b", "standard_error"]) > 0.0);
+    assert!(number(&outcome, &[a, "fit", "b", "error"]) > 0.0);
 
     for name in ["velocity_histogram", "speed_histogram", "velocity_autocorrelation"] {
         let path = directory.path().join(format!("{name}.png"));
@@ -573,7 +591,7 @@ fn a_gas_without_forces_keeps_its_velocities() {
         assert!(found.column("autocorrelation_error").unwrap().iter().all(|value| *value == 0.0));
         assert_eq!(found.rows.len(), 5);
         // d kT/m, at the temperature of these 400 particles themselves.
-        let kinetic = outcome.summary.means["temperature"]["mean"].as_f64().unwrap();
+        let kinetic = outcome.summary.means["temperature"]["value"].as_f64().unwrap();
         let expected = dimension as f64 * kinetic * 399.0 / 400.0;
         let mean_square = number(&outcome, &["velocity_autocorrelation", "mean_square", "value"]);
         assert!((mean_square / expected - 1.0).abs() < 1e-6, "{mean_square} {expected}");

@@ -144,8 +144,8 @@ const THERMAL: HarmonicChain =
 
 fn assert_within(name: &str, found: Option<Estimate>, expected: f64) {
     let found = found.unwrap();
-    let error = found.standard_error.unwrap();
-    assert!((found.mean - expected).abs() < 4.0 * error, "{name}: {found:?}, expected {expected}");
+    let error = found.error.unwrap();
+    assert!((found.value - expected).abs() < 4.0 * error, "{name}: {found:?}, expected {expected}");
     assert!(error < 0.05 * expected, "{name}: the error {error} shows nothing");
 }
 
@@ -196,9 +196,9 @@ fn clusters_of_beads_in_equilibrium() {
     let separation = equilibrium::cluster_separation_variance(&THERMAL, 1.0);
     let within = |found: Option<Estimate>, exact: f64| {
         let found = found.unwrap();
-        let error = found.standard_error.unwrap();
-        assert!((found.mean - exact).abs() < 4.0 * error && error < 0.12 * exact, "{found:?}, exact {exact}");
-        (found.mean, error)
+        let error = found.error.unwrap();
+        assert!((found.value - exact).abs() < 4.0 * error && error < 0.12 * exact, "{found:?}, exact {exact}");
+        (found.value, error)
     };
     let scale = equilibrium::momentum_variance(&THERMAL, 1.0);
     within(estimates.momentum_variance, scale);
@@ -208,8 +208,8 @@ fn clusters_of_beads_in_equilibrium() {
     let times: Vec<f64> = (0..16).map(|lag| f64::from(lag) * steps as f64 * step).collect();
     let exact = NormalModes::new(chain).momentum_autocorrelation(THERMAL.cluster_size, &times);
     for (lag, (found, exact)) in series.momentum_correlation(16).into_iter().zip(exact).enumerate() {
-        let error = found.standard_error.unwrap();
-        assert!((found.mean - exact * scale).abs() < 4.0 * error, "lag {lag}: {found:?}, exact {}", exact * scale);
+        let error = found.error.unwrap();
+        assert!((found.value - exact * scale).abs() < 4.0 * error, "lag {lag}: {found:?}, exact {}", exact * scale);
     }
 }
 
@@ -253,8 +253,7 @@ fn the_scene_on_the_device() {
         }
         let results = &outcome.summary.results["chain"]["chains"][chain];
         for quantity in ["momentum_variance_over_nmkT", "separation_variance_times_stiffness_over_nkT"] {
-            let [mean, error, exact] =
-                ["mean", "standard_error", "exact"].map(|key| results[quantity][key].as_f64().unwrap());
+            let [mean, error, exact] = ["value", "error", "exact"].map(|key| results[quantity][key].as_f64().unwrap());
             assert!(
                 (mean - exact).abs() < 4.0 * error && error < 0.12,
                 "{chain} {quantity}: {mean} ± {error}, {exact}"

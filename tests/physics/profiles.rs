@@ -161,7 +161,7 @@ fn means_worked_out_by_hand() {
     near("number_density_error", [0.0, 0.0]);
     let result = &outcome.summary.results["profiles"];
     assert_eq!((&result["axis"], &result["samples"], &result["species"][1]), (&"x".into(), &3.into(), &"B".into()));
-    assert!((result["temperature"]["mean"].as_f64().unwrap() - (9.375 - 5.0 / 6.0) / 6.0).abs() < 1e-5);
+    assert!((result["temperature"]["value"].as_f64().unwrap() - (9.375 - 5.0 / 6.0) / 6.0).abs() < 1e-5);
 }
 
 /// A fluid at rest is the same everywhere, within the errors that the profiles state, and these are as large as fluctuations make them.
@@ -178,7 +178,7 @@ fn a_fluid_at_rest_is_uniform() {
     ]);
     let (outcome, table) = run(scene, directory.path());
     let temperature = &outcome.summary.results["profiles"]["temperature"];
-    let [value, error] = ["mean", "standard_error"].map(|key| temperature[key].as_f64().unwrap());
+    let [value, error] = ["value", "error"].map(|key| temperature[key].as_f64().unwrap());
     // 201 samples of 600 particles, of which at least half are independent: √(2/(3 · 592 · 100)) = .0034. The integrator is right
     // to .004 at this step.
     assert!(error < 0.0068 && (value - 1.0).abs() < 4.0 * 0.0034 + 0.004, "{value} ± {error}");
@@ -227,7 +227,7 @@ fn profiles_of_the_stress_add_up() {
             let density = column("number_density");
             let whole = |bin: usize| pressures[bin] + density[bin] * velocities[0][bin] * velocities[1][bin];
             let mean = (0..bins).map(whole).sum::<f64>() / bins as f64;
-            let expected = outcome.summary.results["stress"]["pressure"][&component]["mean"].as_f64().unwrap();
+            let expected = outcome.summary.results["stress"]["pressure"][&component]["value"].as_f64().unwrap();
             // Sums of some 375 particles, each to single precision.
             assert!((mean - expected).abs() < 1e-4, "{bins} bins, {component}: {mean}, {expected}");
             let differ = pressures.iter().any(|value| (value - mean).abs() > 1e-3);

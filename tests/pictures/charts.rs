@@ -2,6 +2,7 @@
 //! `target/tmp` for the eye.
 
 use image::RgbaImage;
+use mesoscope::measure::statistics::Estimate;
 use mesoscope::plot::{
     Averages, CellPicture, Chart, Panel, ParticlePicture, PlotError, Plotter, Scale, Series, SeriesStyle, ShownValues,
     diffusion_chart, energies_chart, radial_distribution_chart,
@@ -278,17 +279,18 @@ fn many_series_and_styles() {
 #[test]
 fn ready_made_charts() {
     let r: Vec<f64> = (0..100).map(|i| (f64::from(i) + 0.5) * 0.03).collect();
-    let g: Vec<f64> = r
+    let g = r
         .iter()
-        .map(|r| 1.0 - (-(r / 0.45_f64).powi(3)).exp() * 1.0 + 0.17 * (-(r - 0.87_f64).powi(2) / 0.03).exp())
+        .map(|r| [*r, 1.0 - (-(r / 0.45_f64).powi(3)).exp() * 1.0 + 0.17 * (-(r - 0.87_f64).powi(2) / 0.03).exp()])
         .collect();
-    chart_picture("g", &radial_distribution_chart("DPD fluid", &r, &[("g(r)".to_owned(), g)]), &PlotStyle::default());
+    chart_picture("g", &radial_distribution_chart("DPD fluid", vec![Series::line("g(r)", g)]), &PlotStyle::default());
     let lag: Vec<f64> = (0..200).map(|i| f64::from(i) * 0.05).collect();
     let msd: Vec<f64> = lag.iter().map(|t| 6.0 * 0.3 * (t - 0.3 * (1.0 - (-t / 0.3).exp()))).collect();
     let vacf: Vec<f64> = lag.iter().map(|t| 3.0 * (-t / 0.3_f64).exp() - 0.02 * (-(t - 2.0).powi(2)).exp()).collect();
     let columns = ["time", "mean_squared_displacement", "velocity_autocorrelation"];
     let rows = (0..lag.len()).map(|i| vec![lag[i], msd[i], vacf[i]]).collect();
-    let (einstein, kubo) = (Some((0.3, Some(0.01))), Some((0.29, Some(0.03))));
+    let [einstein, kubo] =
+        [(0.3, 0.01), (0.29, 0.03)].map(|(value, error)| Some(Estimate::new(value, Some(error), 20)));
     let chart = diffusion_chart("DPD fluid", &Table::new(columns, rows), 3, einstein, kubo);
     let picture = chart_picture("correlation", &chart, &PlotStyle::default());
     assert_eq!(chart.panels.len(), 2);

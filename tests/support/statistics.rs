@@ -20,7 +20,7 @@ impl Measured {
     /// The mean of a correlated series, with its error.
     pub fn of(series: &[f64]) -> Self {
         let estimate = mesoscope::measure::statistics::estimate(series).expect("a series");
-        Self { mean: estimate.mean, error: estimate.standard_error.expect("more than one sample") }
+        Self { mean: estimate.value, error: estimate.error.expect("more than one sample") }
     }
 
     /// The mean of independent numbers.

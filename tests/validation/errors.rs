@@ -17,9 +17,8 @@ fn compare(scene: &Value, names: &[&str]) {
         let summary: Value = serde_json::from_slice(&std::fs::read(place.path("out/run.json")).unwrap()).unwrap();
         for (name, found) in names.iter().zip(&mut found) {
             let number = summary.pointer(name).unwrap_or_else(|| panic!("{name} is missing: {summary}"));
-            let value =
-                number["mean"].as_f64().or(number["value"].as_f64()).unwrap_or_else(|| panic!("{name}: {number}"));
-            found.push([value, number["standard_error"].as_f64().unwrap()]);
+            let value = number["value"].as_f64().unwrap_or_else(|| panic!("{name}: {number}"));
+            found.push([value, number["error"].as_f64().unwrap()]);
         }
     }
     println!("| number | mean | scatter over printed error | within one error |\n|-|-|-|-|");

@@ -37,7 +37,7 @@ fn a_slab_has_the_published_surface_tension_and_density() {
     slab.run("out", &["--quiet"]);
     let summary: Value = serde_json::from_slice(&std::fs::read(slab.path("out/run.json")).unwrap()).unwrap();
     let of = |value: &Value| {
-        let [mean, error] = ["mean", "standard_error"].map(|key| value[key].as_f64().unwrap());
+        let [mean, error] = ["value", "error"].map(|key| value[key].as_f64().unwrap());
         Measured { mean, error }
     };
     let stress = &summary["results"]["stress"];

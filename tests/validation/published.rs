@@ -107,7 +107,7 @@ fn run(scene: Checked, analysis: &str, table: &str) -> (Outcome, Value, Vec<Vec<
 
 /// A coefficient of a summary.
 fn coefficient(value: &Value) -> Measured {
-    Measured { mean: value["value"].as_f64().unwrap(), error: value["standard_error"].as_f64().unwrap() }
+    Measured { mean: value["value"].as_f64().unwrap(), error: value["error"].as_f64().unwrap() }
 }
 
 /// A number and its error, as tables show them.
@@ -122,7 +122,8 @@ fn structure_of_the_fluid() {
     let output = r#"output.radial_distribution={"every":20,"range":2.5,"bins":250}"#;
     let scene = wide(&[SPLITTING, "time.step=0.02", "time.equilibration=500", "time.steps=4500", output]);
     let (_, found, table) = run(scene, "radial_distribution", "radial_distribution.csv");
-    let (distance, height) = (found["peak_distance"].as_f64().unwrap(), found["peak_height"].as_f64().unwrap());
+    let (distance, height) =
+        (found["peak_distance"]["value"].as_f64().unwrap(), found["peak_height"]["value"].as_f64().unwrap());
     // Table rows are (distance, g): five bins about 0.475, where g is nearly straight.
     let inner: Vec<f64> = table.iter().filter(|row| (row[0] - 0.475).abs() < 0.025).map(|row| row[1]).collect();
     let inner = inner.iter().sum::<f64>() / inner.len() as f64;
@@ -346,7 +347,7 @@ fn viscosity_of_the_stress() {
     ]);
     let (_, result, _) = run(scene, "stress", "stress_correlation.csv");
     let found = &result["shear_viscosity"];
-    let [viscosity, error] = ["value", "standard_error"].map(|key| found[key].as_f64().unwrap());
+    let [viscosity, error] = ["value", "error"].map(|key| found[key].as_f64().unwrap());
     println!("| viscosity of the stress | {viscosity:.4} ± {error:.4} |");
     assert!(error < 0.04 && (viscosity - 0.847).abs() < 0.02 + 3.0 * error, "{viscosity} ± {error}");
 }
@@ -383,7 +384,7 @@ fn surface_tensions_of_slabs() {
         let published = 0.75 * 3.0 * chi.powf(0.26) * (1.0 - 2.36 / chi).powf(1.5);
         let (_, result, _) = run(slabs(excess), "stress", "stress.csv");
         let found = &result["surface_tension_conservative"];
-        let [tension, error] = ["mean", "standard_error"].map(|key| found[key].as_f64().unwrap());
+        let [tension, error] = ["value", "error"].map(|key| found[key].as_f64().unwrap());
         println!("| {excess} | {tension:.3} ± {error:.3} | {published:.3} |");
         assert!((tension - published).abs() < 0.1 * published + 3.0 * error, "{excess}: {tension} ± {error}");
     }

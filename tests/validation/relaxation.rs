@@ -36,7 +36,7 @@ fn run(scene: Checked) -> (Value, Value) {
 
 fn measured(value: &Value) -> Measured {
     let number = |key: &str| value[key].as_f64().unwrap();
-    Measured { mean: value["mean"].as_f64().unwrap_or_else(|| number("value")), error: number("standard_error") }
+    Measured { mean: number("value"), error: number("error") }
 }
 
 /// The viscosity under shear of two fluids at their longest steps, over that of `groot-warren` at steps a tenth as long (8.45 ± .07 and 2.60 ±

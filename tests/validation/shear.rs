@@ -23,8 +23,8 @@ fn the_viscosity_of_the_standard_fluid() {
         let simulation = Simulation::start(sheared(rate, steps, integrator), directory.path().join("run"), false);
         let outcome = simulation.execute(&adapter(), &mut |_| ()).unwrap();
         let found = &outcome.summary.results["stress"]["viscosity_in_shear"];
-        let [viscosity, error] = ["mean", "standard_error"].map(|key| found[key].as_f64().unwrap());
-        let temperature = outcome.summary.means["temperature"]["mean"].as_f64().unwrap();
+        let [viscosity, error] = ["value", "error"].map(|key| found[key].as_f64().unwrap());
+        let temperature = outcome.summary.means["temperature"]["value"].as_f64().unwrap();
         println!("| {rate} | {integrator} | {viscosity:.4} ± {error:.4} | {temperature:.4} |");
         assert!((viscosity - 0.84).abs() < 0.05 * 0.84 + 3.0 * error, "{rate} {integrator}: {viscosity} ± {error}");
     }

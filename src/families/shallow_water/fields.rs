@@ -5,6 +5,7 @@ use super::flow::MeshFlow;
 use crate::document::FieldQuantity;
 use crate::families::pictures::{MeshPictures, ShownField};
 use crate::families::{Field, Model, ShallowWater};
+use crate::quantity::{Quantity, Unit, quantity};
 use crate::state::Reported;
 
 /// Fields of a state with a smoothed depth, and loops of tracers that are still curves.
@@ -20,38 +21,49 @@ pub(super) fn pictures(
     MeshPictures { fields, loops: closed_loops(state, model, water) }
 }
 
+/// The quantity of a field, which has the name of its files.
+pub(super) fn described(field: FieldQuantity) -> Quantity {
+    const RATE: Unit = Unit::Other("1/time unit");
+    const VELOCITY: Unit = Unit::Other("length units/time unit");
+    let (symbol, unit, meaning) = match field {
+        FieldQuantity::Depth => ("h", Unit::Other("mean depths"), "depth"),
+        FieldQuantity::PotentialVorticity => ("(ζ + f_{0})/h", RATE, "potential vorticity"),
+        FieldQuantity::Vorticity => ("ζ", RATE, "vorticity"),
+        FieldQuantity::Speed => ("|u|", VELOCITY, "speed"),
+        FieldQuantity::VelocityX => ("u", VELOCITY, "velocity along x"),
+        FieldQuantity::VelocityY => ("v", VELOCITY, "velocity along y"),
+    };
+    quantity(field.stem(), symbol, unit, meaning)
+}
+
 /// A field of a flow with a smoothed depth.
-fn field(quantity: FieldQuantity, flow: &MeshFlow, depth: &[f64], model: &Model, water: &ShallowWater) -> ShownField {
-    let (name, label, centre, values) = match quantity {
-        FieldQuantity::Depth => ("depth", "Depth h (mean depths)", None, depth.to_vec()),
-        FieldQuantity::PotentialVorticity => (
-            "potential vorticity",
-            "Potential vorticity (ζ + f_{0})/h (1/time units)",
-            None,
-            flow.potential_vorticity(depth),
-        ),
-        FieldQuantity::Vorticity => ("vorticity", "Vorticity ζ (1/time units)", Some(0.0), flow.vorticity()),
-        FieldQuantity::Speed => ("speed", "Speed (length units/time units)", None, flow.speed()),
+fn field(asked: FieldQuantity, flow: &MeshFlow, depth: &[f64], model: &Model, water: &ShallowWater) -> ShownField {
+    let described = described(asked);
+    let (centre, values) = match asked {
+        FieldQuantity::Depth => (None, depth.to_vec()),
+        FieldQuantity::PotentialVorticity => (None, flow.potential_vorticity(depth)),
+        FieldQuantity::Vorticity => (Some(0.0), flow.vorticity()),
+        FieldQuantity::Speed => (None, flow.speed()),
         FieldQuantity::VelocityX => {
             let [along_x, _] = flow.velocity();
-            ("velocity along x", "Velocity u along x (length units/time units)", Some(0.0), along_x)
+            (Some(0.0), along_x)
         }
         FieldQuantity::VelocityY => {
             let [_, along_y] = flow.velocity();
-            ("velocity along y", "Velocity v along y (length units/time units)", Some(0.0), along_y)
+            (Some(0.0), along_y)
         }
     };
     // Of an array the first index is that of x.
     let nodes = water.mesh.map(|nodes| nodes as usize);
     let places = (0..nodes[0]).flat_map(|k| (0..nodes[1]).map(move |l| k + l * nodes[0]));
     let field = Field {
-        name: name.to_owned(),
-        label: label.to_owned(),
+        name: described.meaning.to_owned(),
+        label: described.label(2),
         nodes,
         lengths: [model.units.lengths[0], model.units.lengths[1]],
         values: places.map(|place| values[place]).collect(),
     };
-    ShownField { stem: quantity.stem(), centre, from_zero: quantity == FieldQuantity::Speed, quantity, field }
+    ShownField { described, centre, from_zero: asked == FieldQuantity::Speed, quantity: asked, field }
 }
 
 /// The points of every closed loop of tracers that is still a curve.

@@ -28,6 +28,7 @@ use super::{
 use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, SmoothingSolver, Warning, brief};
 use crate::numbers::{grouped, with_error};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
+use crate::quantity::Quantity;
 use crate::shaders::Constant;
 use crate::state::{Reported, State};
 use plan::Arithmetic;
@@ -205,6 +206,12 @@ impl Physics for ShallowWater {
         model: &Model,
     ) -> Option<MeshPictures> {
         Some(fields::pictures(self, quantities, state, depth, model))
+    }
+
+    fn fields(&self, scene: &Scene) -> Option<([usize; 2], Vec<Quantity>)> {
+        let asked = scene.output.fields.clone().unwrap_or_default();
+        let quantities = asked.quantities.iter().map(|field| fields::described(*field)).collect();
+        Some((self.mesh.map(|nodes| nodes as usize), quantities))
     }
 
     fn nodes(&self) -> u64 {

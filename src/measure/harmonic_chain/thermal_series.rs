@@ -128,9 +128,9 @@ mod tests {
         series.push(&[0.0], &[3.0]);
         assert_eq!(series.history(), [[2.5, 1.0], [5.0, 9.0]]);
         let estimates = series.estimates();
-        assert_eq!(estimates.momentum_variance.unwrap().mean, 3.75);
-        assert_eq!(estimates.separation_variance.unwrap().mean, 5.0);
-        let correlation: Vec<f64> = series.momentum_correlation(2).iter().map(|lag| lag.mean).collect();
+        assert_eq!(estimates.momentum_variance.unwrap().value, 3.75);
+        assert_eq!(estimates.separation_variance.unwrap().value, 5.0);
+        let correlation: Vec<f64> = series.momentum_correlation(2).iter().map(|lag| lag.value).collect();
         assert_eq!(correlation, [2.5, 0.5]);
         assert!(series.momentum_correlation(3).is_empty());
         assert_eq!(ThermalSeries::from_parts(&series.momenta, &series.separations, &series.history), series);
@@ -156,8 +156,8 @@ mod tests {
         }
         let estimates = series.estimates();
         let within = |found: Estimate, exact: f64| {
-            let error = found.standard_error.unwrap();
-            assert!((found.mean - exact).abs() < 4.0 * error, "{found:?}, {exact}");
+            let error = found.error.unwrap();
+            assert!((found.value - exact).abs() < 4.0 * error, "{found:?}, {exact}");
             error / exact
         };
         let exact = equilibrium::momentum_variance(&layout, 2.0);
@@ -168,8 +168,8 @@ mod tests {
         for (found, expected) in
             series.momentum_correlation(8).into_iter().zip(modes.momentum_autocorrelation(1, &times))
         {
-            let error = found.standard_error.unwrap();
-            assert!((found.mean - exact * expected).abs() < 4.0 * error, "{found:?}, {}", exact * expected);
+            let error = found.error.unwrap();
+            assert!((found.value - exact * expected).abs() < 4.0 * error, "{found:?}, {}", exact * expected);
             assert!(error < 0.1 * exact);
         }
     }

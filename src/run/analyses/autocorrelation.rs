@@ -8,7 +8,6 @@ use crate::engine::Sample;
 use crate::families::Checked;
 use crate::measure::correlation::WindowedAverage;
 use crate::measure::fit::FittedDecay;
-use crate::numbers::with_error;
 use crate::plan::{Need, Plan, Window};
 use crate::plot::{Chart, autocorrelation_chart};
 use crate::scene::{self, AnalysisId, CorrelatedQuantity, DecayFit, Output};
@@ -165,8 +164,7 @@ fn parameters(fit: &FittedDecay, curve: DecayFit) -> Value {
 
 /// The curve that was fitted to an autocorrelation, with its parameters.
 fn formula(fit: &Value) -> String {
-    let parameter =
-        |name: &str, key: &str| found(&fit[key]).map(|(value, error)| format!("{name} = {}", with_error(value, error)));
+    let parameter = |name: &str, key: &str| found(&fit[key]).map(|found| format!("{name} = {found}"));
     let (curve, parameters) = match fit["curve"].as_str() {
         Some("exponential") => ("a exp(−bt)", vec![("a", "a"), ("b", "b")]),
         Some("stretched-exponential") => ("a exp(−(bt)^{c})", vec![("a", "a"), ("b", "b"), ("c", "c")]),
@@ -184,8 +182,8 @@ mod tests {
     #[test]
     fn fits_have_their_numbers_and_errors() {
         let fit = json!({
-            "curve": "exponential", "a": { "value": 1.0, "standard_error": null },
-            "b": { "value": 4.51234, "standard_error": 0.0312 }, "deviation": 0.1,
+            "curve": "exponential", "a": { "value": 1.0, "error": null },
+            "b": { "value": 4.51234, "error": 0.0312 }, "deviation": 0.1,
         });
         assert_eq!(formula(&fit), "fit a exp(−bt): a = 1, b = 4.512 ± 0.031");
         assert_eq!(formula(&Value::Null), "fit");

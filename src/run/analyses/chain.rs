@@ -82,6 +82,10 @@ impl Descriptor for Chain {
         Some(Conclusion { tables, result: Ok(result), warnings: Vec::new() })
     }
 
+    fn species_of(&self, _: &Checked, _: &[usize]) -> Vec<String> {
+        Vec::new()
+    }
+
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let [pulse, memory, equilibrium] = subtitles(drawn.scene);
         let (title, table) = (drawn.title(), drawn.table);
@@ -220,7 +224,7 @@ impl Chains<'_> {
             let exact = NormalModes::new(strand.chain).momentum_autocorrelation(size, &times);
             let found = self.thermal[number].momentum_correlation(lags);
             for ((row, exact), found) in rows.iter_mut().zip(exact).zip(found) {
-                row.extend([found.mean / scale, found.standard_error.unwrap_or(f64::NAN) / scale, exact]);
+                row.extend([found.value / scale, found.error.unwrap_or(f64::NAN) / scale, exact]);
             }
         }
         // Without heat there is nothing to correlate.
@@ -273,12 +277,14 @@ impl Chains<'_> {
         for (number, name) in NAMES.into_iter().enumerate() {
             let estimates = self.thermal[number].estimates();
             let scaled = |found: Option<Estimate>, scale: f64, exact: f64| {
-                let error = found.and_then(|found| found.standard_error).map(|error| error / scale);
-                json!({ "mean": found.map(|found| found.mean / scale), "standard_error": error, "exact": exact / scale })
+                let mut scaled =
+                    found.map_or_else(|| json!({ "value": null }), |found| json!(found.times(1.0 / scale)));
+                scaled["exact"] = json!(exact / scale);
+                scaled
             };
             let last = |quantity: &str| {
                 let [found, exact] = ["", "exact_"].map(|kind| value(&format!("{name}_{kind}{quantity}")));
-                json!({ "found": found, "exact": exact })
+                json!({ "value": found, "exact": exact })
             };
             let result = json!({
                 "momentum_variance_over_nmkT": scaled(estimates.momentum_variance, scales[0], scales[0]),

@@ -2,7 +2,7 @@
 
 use super::{
     Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler, mean,
-    printed_mean,
+    printed_estimate,
 };
 use crate::engine::Sample;
 use crate::families::{ChainGroup, Checked, Walks};
@@ -89,6 +89,11 @@ impl Descriptor for ChainSizes {
         Some(Conclusion::new(table, result))
     }
 
+    fn species_of(&self, scene: &Checked, numbers: &[usize]) -> Vec<String> {
+        let groups = &scene.model().particles().chain_groups;
+        numbers.iter().filter_map(|number| groups.get(*number)).map(|group| group.name.clone()).collect()
+    }
+
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let kinds = drawn.result.as_array().map(Vec::as_slice).unwrap_or_default();
         chain_sizes_chart(drawn.title(), drawn.table, &kinds.iter().map(chain_kind).collect::<Vec<_>>())
@@ -98,7 +103,7 @@ impl Descriptor for ChainSizes {
         let sizes = |kind: &Value| {
             let [species, beads] = [kind["species"].as_str().unwrap_or_default(), &kind["beads"].to_string()];
             [("end-to-end distance²", END_TO_END), ("gyration radius²", GYRATION)].map(|(label, size)| {
-                Some((format!("{label} of `{species}` ({beads} beads)"), printed_mean(&kind[size])?))
+                Some((format!("{label} of `{species}` ({beads} beads)"), printed_estimate(&kind[size])?))
             })
         };
         result.as_array().into_iter().flatten().flat_map(sizes).flatten().collect()

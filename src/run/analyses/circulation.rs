@@ -1,6 +1,6 @@
 //! The circulations of material loops over a run.
 
-use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting};
+use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Setting, number};
 use crate::engine::Sample;
 use crate::families::{Checked, MaterialLoops};
 use crate::measure::circulation::{circulation, largest_gap};
@@ -94,8 +94,8 @@ impl Descriptor for Circulation {
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
         let of_loop = |(name, circulation): (&String, &Value)| {
-            let initial = circulation[INITIAL].as_f64()?;
-            let change = match [RELATIVE_CHANGE, CHANGE].map(|key| circulation[key].as_f64()) {
+            let initial = number(&circulation[INITIAL])?;
+            let change = match [RELATIVE_CHANGE, CHANGE].map(|key| number(&circulation[key])) {
                 [Some(relative), _] => format!(", changes by up to {relative:.1e} of it"),
                 [None, Some(change)] => format!(", changes by up to {change:.1e}"),
                 [None, None] => String::new(),
@@ -110,7 +110,7 @@ impl Descriptor for Circulation {
 /// no loop had any.
 pub(in crate::run) fn largest_change(result: &Value) -> Option<f64> {
     let loops = result.as_object()?.values();
-    loops.filter_map(|found| found[RELATIVE_CHANGE].as_f64()).reduce(f64::max)
+    loops.filter_map(|found| number(&found[RELATIVE_CHANGE])).reduce(f64::max)
 }
 
 /// The first value of a loop, the time up to which its points are closer together than nodes, and the largest

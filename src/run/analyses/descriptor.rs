@@ -2,7 +2,7 @@
 
 use super::Planner;
 use super::gathered::{Gathered, Part};
-use super::results::printed;
+use super::results::printed_estimate;
 use crate::engine::Sample;
 use crate::families::Checked;
 use crate::numbers::grouped;
@@ -52,6 +52,12 @@ pub(super) trait Descriptor {
     /// Tables and result of what was gathered; none if there is nothing to write.
     fn conclude(&self, setting: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion>;
 
+    /// The species that the numbers at the end of the name of a column stand for.
+    fn species_of(&self, scene: &Checked, numbers: &[usize]) -> Vec<String> {
+        let species = numbers.iter().filter_map(|number| scene.model().species.get(*number));
+        species.map(|species| species.name.clone()).collect()
+    }
+
     /// The chart of a table that it left.
     fn chart(&self, drawn: &Drawn<'_>) -> Chart;
 
@@ -62,7 +68,7 @@ pub(super) trait Descriptor {
 
     /// Lines of the table that is printed at the end of a run: what, and its value.
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        let line = |(label, name): &(&str, &str)| Some(((*label).to_owned(), printed(&result[*name])?));
+        let line = |(label, name): &(&str, &str)| Some(((*label).to_owned(), printed_estimate(&result[*name])?));
         self.labels().iter().filter_map(line).collect()
     }
 

@@ -54,7 +54,7 @@ impl Part {
         let rows = match self {
             Self::Series(..) => samples,
             Self::Sums(_) => 1,
-            Self::Blocks(_) => BlockSums::blocks_after(samples),
+            Self::Blocks(blocks) => blocks.blocks_after(samples),
             Self::Last(..) => samples.min(1),
         };
         rows.saturating_mul(self.width() as u64)
@@ -63,7 +63,7 @@ impl Part {
     fn restore(&mut self, numbers: &[f64], samples: u64) {
         match self {
             Self::Series(_, kept) | Self::Last(_, kept) | Self::Sums(kept) => *kept = numbers.to_vec(),
-            Self::Blocks(blocks) => *blocks = BlockSums::of(blocks.width(), samples, numbers),
+            Self::Blocks(blocks) => blocks.restore(samples, numbers),
         }
     }
 }

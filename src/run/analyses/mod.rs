@@ -16,6 +16,7 @@ mod neighbours;
 mod pair_histogram;
 mod planner;
 mod profiles;
+mod quantities;
 mod radial_distribution;
 mod results;
 mod shear_wave;
@@ -25,7 +26,7 @@ mod viscosity;
 
 pub(super) use planner::Planner;
 pub(super) use results::mean;
-pub use results::printed_mean;
+pub use results::printed_estimate;
 pub(super) use under_way::Analyses;
 
 pub(super) use descriptor::Setting;
@@ -33,7 +34,7 @@ pub(super) use descriptor::Setting;
 use descriptor::{Conclusion, Descriptor, Drawn, Sampling};
 use gathered::{Gathered, Part};
 use planner::SumSampler;
-use results::{NO_SAMPLE, found, of_species, whose, windows_missing};
+use results::{NO_SAMPLE, found, number, of_species, whose, windows_missing};
 
 use crate::families::{Checked, Model};
 use crate::output::Summary;
@@ -167,9 +168,9 @@ mod tests {
     fn results_stand_in_the_charts_of_their_tables() {
         let scene = crate::scene::load("ideal-dissipative-gas", &[]).unwrap();
         let results = serde_json::json!({
-            "diffusion": { "diffusion_einstein": { "value": 0.3, "standard_error": 0.01 }, "diffusion_green_kubo": null },
-            "shear_wave": { "decay_rate": { "value": 0.2, "standard_error": 0.01 },
-                "kinematic_viscosity": { "value": 7.0, "standard_error": null } },
+            "diffusion": { "diffusion_einstein": { "value": 0.3, "error": 0.01 }, "diffusion_green_kubo": null },
+            "shear_wave": { "decay_rate": { "value": 0.2, "error": 0.01 },
+                "kinematic_viscosity": { "value": 7.0, "error": null } },
         });
         let results = results.as_object().unwrap();
         let table = |columns: &[&str]| {

@@ -61,14 +61,14 @@ impl Descriptor for Neighbours {
 fn fractions(counts: &NeighbourCounts) -> Table {
     let found: Vec<(usize, Estimate)> =
         (0..=MOST_NEIGHBOURS).filter_map(|number| Some((number, counts.fraction(number)?))).collect();
-    let there = |(_, fraction): &&(usize, Estimate)| fraction.mean > 0.0;
+    let there = |(_, fraction): &&(usize, Estimate)| fraction.value > 0.0;
     let range = [found.iter().find(there), found.iter().rfind(there)].map(|end| end.map(|(number, _)| *number));
     let within =
         |number: usize| range[0].is_some_and(|low| low <= number) && range[1].is_some_and(|high| high >= number);
     let row = |(number, fraction): &(usize, Estimate)| {
-        let error = fraction.standard_error.unwrap_or(f64::NAN);
+        let error = fraction.error.unwrap_or(f64::NAN);
         let random = RANDOM_POINTS.get(*number).copied().unwrap_or(0.0);
-        vec![*number as f64, fraction.mean, error, random]
+        vec![*number as f64, fraction.value, error, random]
     };
     let rows = found.iter().filter(|(number, _)| within(*number)).map(row).collect();
     Table::new(["neighbours", "fraction", "fraction_error", "random_points"], rows)

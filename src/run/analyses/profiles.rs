@@ -104,8 +104,8 @@ impl Descriptor for Profiles {
         let rows = (0..bins).map(|layer| {
             let found = columns.iter().flat_map(|(_, column)| {
                 let found = column(layer);
-                let error = found.and_then(|found| found.standard_error);
-                [found.map_or(f64::NAN, |found| found.mean), error.unwrap_or(f64::NAN)]
+                let error = found.and_then(|found| found.error);
+                [found.map_or(f64::NAN, |found| found.value), error.unwrap_or(f64::NAN)]
             });
             std::iter::once((layer as f64 + 0.5) * width).chain(found).collect()
         });
@@ -127,7 +127,7 @@ impl Descriptor for Profiles {
         };
         // Some errors settle late by chance.
         let is_unsettled = |column: &Number<'_>| {
-            let unsettled = |layer: &usize| column(*layer).is_some_and(|found| !found.converged);
+            let unsettled = |layer: &usize| column(*layer).is_some_and(|found| found.few);
             (0..bins).filter(unsettled).count() * 5 > bins
         };
         let unsettled: Vec<&str> =

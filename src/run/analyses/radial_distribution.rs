@@ -1,13 +1,17 @@
 //! The radial distribution function.
 
 use super::pair_histogram::{PairHistogram, SpeciesPairs};
-use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting};
+use super::{
+    Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, number, printed_estimate,
+};
 use crate::engine::Sample;
 use crate::families::Checked;
+use crate::measure::blocks::BlockSums;
+use crate::measure::statistics::Estimate;
 use crate::plan::Need;
-use crate::plot::{Chart, radial_distribution_chart};
+use crate::plot::{Chart, Series, radial_distribution_chart};
 use crate::printable;
-use crate::scene::{Output, SpeciesNames};
+use crate::scene::Output;
 use crate::table::Table;
 use serde_json::{Value, json};
 use std::borrow::Cow;
@@ -16,11 +20,17 @@ use std::f64::consts::PI;
 /// Columns of the table, and names in the result.
 const DISTANCE: &str = "distance";
 const VALUE: &str = "radial_distribution";
+const COUNTED: &str = "pairs";
 const PEAK_DISTANCE: &str = "peak_distance";
 const PEAK_HEIGHT: &str = "peak_height";
+const FILLED: &str = "filled_from";
 /// The pairs of species of a result, and the two species of a pair.
 const PAIRS: &str = "pairs";
 const SPECIES: &str = "species";
+
+/// Bins with fewer pairs, and fewer still if particles were spread evenly, are known to no better than a fifth: they are not shown, nor searched for
+/// the peak.
+const FEW: f64 = 25.0;
 
 /// The radial distribution function.
 pub(super) struct RadialDistribution;
@@ -49,24 +59,23 @@ impl Descriptor for RadialDistribution {
     }
 
     fn parts(&self, scene: &Checked) -> Vec<Part> {
-        // Samples, and pairs by distance.
-        let bins = scene
-            .output
-            .radial_distribution
-            .as_ref()
-            .map_or(0, |asked| u64::from(asked.bins) * SpeciesPairs::of(asked, scene.model()).histograms());
-        vec![Part::sums(1 + bins as usize)]
+        // Pairs by distance. Their errors stand in a chart, where a tenth of them does not show.
+        let asked = scene.output.radial_distribution.iter();
+        asked
+            .map(|asked| u64::from(asked.bins) * SpeciesPairs::of(asked, scene.model()).histograms())
+            .map(|bins| Part::Blocks(BlockSums::with_most(bins as usize, 64)))
+            .collect()
     }
 
     fn numbers_of_sample(&self, _: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
-        Some(std::iter::once(1.0).chain(sample.sums.iter().map(|count| *count as f64)).collect())
+        Some(sample.sums.iter().map(|count| *count as f64).collect())
     }
 
     fn conclude(&self, Setting { scene, plan }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
         let model = scene.model();
         let asked = scene.output.radial_distribution.as_ref()?;
         let pairs = SpeciesPairs::of(asked, model);
-        let (samples, counts) = gathered.part(0).split_first()?;
+        let counts = gathered.blocks()?;
         let units = &model.units;
         // Distances of walls that face each other.
         let gaps: Vec<f64> = model.particles().walls.iter().map(|walls| units.edges()[walls.axis]).collect();
@@ -85,67 +94,76 @@ impl Descriptor for RadialDistribution {
             Some([a, b]) if a == b => within(particles(*a)),
             Some([a, b]) => particles(*a) * particles(*b),
         };
-        let exist = |place: &usize| number_of_pairs(*place) > 0.0;
-        let places = 0..counts.len() / shells.len();
+        let curve = |place: usize| Curve { place, counts, pairs: number_of_pairs(place), shells: &shells, width };
+        let curves: Vec<Curve<'_>> = (0..pairs.histograms() as usize).map(curve).collect();
         // A pair of species without particles has no curve, beside others that have one.
-        let some = places.clone().any(|place| exist(&place));
-        let places: Vec<usize> = places.filter(|place| !some || exist(place)).collect();
-        let curve = |&place: &usize| -> Vec<[f64; 2]> {
-            let counts = &counts[place * shells.len()..][..shells.len()];
-            let expected = shells.iter().map(|shell| samples * number_of_pairs(place) * shell);
-            let values = counts.iter().zip(expected).map(|(count, expected)| count / expected);
-            values.enumerate().map(|(bin, value)| [(bin as f64 + 0.5) * width, value]).collect()
-        };
-        let curves: Vec<Vec<[f64; 2]>> = places.iter().map(curve).collect();
+        let some = curves.iter().any(|curve| curve.pairs > 0.0);
+        let curves: Vec<Curve<'_>> = curves.into_iter().filter(|curve| !some || curve.pairs > 0.0).collect();
         let rows = (0..shells.len()).map(|bin| {
-            let values = curves.iter().map(|curve| curve[bin][1]);
-            std::iter::once((bin as f64 + 0.5) * width).chain(values).collect()
+            let cells = curves.iter().flat_map(|curve| curve.cells(bin));
+            std::iter::once((bin as f64 + 0.5) * width).chain(cells).collect()
         });
         let is_of_all_pairs = matches!(pairs, SpeciesPairs::All(_));
-        let column = |place: &usize| if is_of_all_pairs { column_of(species[*place]) } else { VALUE.to_owned() };
-        let table = Table::new([DISTANCE.to_owned()].into_iter().chain(places.iter().map(column)), rows.collect());
-        let result = if *samples == 0.0 {
+        let suffix = |curve: &Curve<'_>| match species.get(curve.place) {
+            Some([a, b]) if is_of_all_pairs => format!("_{a}_{b}"),
+            _ => String::new(),
+        };
+        let columns = curves.iter().map(suffix).flat_map(|suffix| {
+            [format!("{VALUE}{suffix}"), format!("{VALUE}{suffix}_error"), format!("{COUNTED}{suffix}")]
+        });
+        let table = Table::new([DISTANCE.to_owned()].into_iter().chain(columns), rows.collect());
+        let mut warnings = Vec::new();
+        let result = if counts.samples() == 0 {
             Err(NO_SAMPLE.to_owned())
         } else if !some {
             Err("there are no pairs of particles".to_owned())
         } else {
             let name = |number: usize| model.species.get(number).map_or("", |species| &species.name);
-            let found = places.iter().zip(&curves).map(|(place, curve)| {
-                let [distance, height] = peak(curve).map_or([None; 2], |peak| peak.map(Some));
-                let mut found = json!({ "samples": samples, PEAK_DISTANCE: distance, PEAK_HEIGHT: height });
-                if let Some(pair) = species.get(*place) {
-                    found[SPECIES] = json!(pair.map(name));
+            let mut found: Vec<Value> = Vec::new();
+            for curve in &curves {
+                let [distance, height] = [0, 1].map(|part| counts.jackknife(|means| Some(curve.peak(means)?[part])));
+                let mut result = json!({ "samples": counts.samples(), PEAK_DISTANCE: distance, PEAK_HEIGHT: height });
+                result[FILLED] = json!(curve.filled_from());
+                let pair = species.get(curve.place).map(|pair| pair.map(name));
+                if let Some(pair) = pair {
+                    result[SPECIES] = json!(pair);
                 }
-                found
-            });
-            let mut found: Vec<Value> = found.collect();
+                found.push(result);
+                if (0..shells.len()).all(|bin| curve.has_few(bin)) {
+                    let of = pair_in_words(pair.into_iter().flatten()).map(|pair| format!(" of {pair}"));
+                    warnings.push(format!(
+                        "no bin of g(r){} holds {FEW} pairs: take more samples or fewer bins",
+                        of.unwrap_or_default()
+                    ));
+                }
+            }
             Ok(if is_of_all_pairs { json!({ PAIRS: found }) } else { found.swap_remove(0) })
         };
-        Some(Conclusion::new(table, result))
+        Some(Conclusion { warnings, ..Conclusion::new(table, result) })
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
-        let species = SpeciesNames::of(drawn.scene);
-        let label = |column: &String| {
-            let numbers: Option<Vec<usize>> =
-                column.strip_prefix(VALUE)?.split('_').skip(1).map(|number| number.parse().ok()).collect();
-            let names: Option<Vec<&&str>> = numbers?.into_iter().map(|number| species.names().get(number)).collect();
-            pair_in_words(names?.into_iter().copied())
+        let results = drawn.result[PAIRS].as_array().map_or(std::slice::from_ref(drawn.result), Vec::as_slice);
+        let columns = drawn.table.columns.iter().filter(|name| name.starts_with(VALUE) && !name.ends_with("_error"));
+        let curve = |(column, result): (&String, &Value)| {
+            let counted = drawn.column(&column.replacen(VALUE, COUNTED, 1));
+            let filled = number(&result[FILLED]).unwrap_or(0.0);
+            let shown =
+                |row: usize, distance: f64| distance > filled || counted.get(row).is_none_or(|count| *count >= FEW);
+            let distances = drawn.column(DISTANCE).into_iter().zip(drawn.column(column)).enumerate();
+            let points = distances
+                .map(|(row, (distance, value))| [distance, if shown(row, distance) { value } else { f64::NAN }]);
+            let name = pair_in_words(names(result)).unwrap_or_else(|| "g(r)".to_owned());
+            Series::line(&name, points.collect()).with_band(drawn.column(&format!("{column}_error")))
         };
-        let curve = |column: &String| {
-            let label = label(column).or_else(|| pair_in_words(names(drawn.result)));
-            (label.unwrap_or_else(|| "g(r)".to_owned()), drawn.column(column))
-        };
-        let curves: Vec<(String, Vec<f64>)> =
-            drawn.table.columns.iter().filter(|column| column.starts_with(VALUE)).map(curve).collect();
-        radial_distribution_chart(drawn.title(), &drawn.column(DISTANCE), &curves)
+        radial_distribution_chart(drawn.title(), columns.zip(results).map(curve).collect())
     }
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
         let line = |peaks: &Value| {
-            let [distance, height] = [PEAK_DISTANCE, PEAK_HEIGHT].map(|key| peaks[key].as_f64());
+            let [distance, height] = [PEAK_DISTANCE, PEAK_HEIGHT].map(|key| printed_estimate(&peaks[key]));
             let pair = pair_in_words(names(peaks)).map(|pair| format!(" of {pair}")).unwrap_or_default();
-            Some((format!("g(r) peak{pair}"), format!("{:.3} at {:.3}", height?, distance?)))
+            Some((format!("g(r) peak{pair}"), format!("{} at {}", height?, distance?)))
         };
         match result[PAIRS].as_array() {
             Some(pairs) => pairs.iter().filter_map(line).collect(),
@@ -162,9 +180,52 @@ impl Descriptor for RadialDistribution {
     }
 }
 
-/// The column of a pair of species, by their numbers.
-fn column_of([a, b]: [usize; 2]) -> String {
-    format!("{VALUE}_{a}_{b}")
+/// One g(r), from the counts of pairs by distance.
+struct Curve<'a> {
+    place: usize,
+    counts: &'a BlockSums,
+    /// Pairs of particles, at all distances.
+    pairs: f64,
+    /// The part of the volume in each shell.
+    shells: &'a [f64],
+    width: f64,
+}
+
+impl Curve<'_> {
+    /// The place of a bin among all counts.
+    fn of(&self, bin: usize) -> usize {
+        self.place * self.shells.len() + bin
+    }
+
+    /// Pairs of a sample in a bin, if particles were spread evenly.
+    fn even(&self, bin: usize) -> f64 {
+        self.pairs * self.shells[bin]
+    }
+
+    /// Value, error and counted pairs of a bin.
+    fn cells(&self, bin: usize) -> [f64; 3] {
+        let found = self.counts.mean(|row| row[self.of(bin)] / self.even(bin));
+        let [value, error] = found.map_or([f64::NAN; 2], Estimate::cells);
+        [value, error, self.counts.total(self.of(bin))]
+    }
+
+    fn has_few(&self, bin: usize) -> bool {
+        let even = self.counts.samples() as f64 * self.even(bin);
+        even.max(self.counts.total(self.of(bin))) < FEW
+    }
+
+    /// The distance from which on an ideal gas fills the bins.
+    fn filled_from(&self) -> f64 {
+        let empty = (0..self.shells.len()).rposition(|bin| self.counts.samples() as f64 * self.even(bin) < FEW);
+        empty.map_or(0.0, |bin| (bin + 1) as f64 * self.width)
+    }
+
+    /// Place and height of the maximum, from mean counts; bins of a few pairs are left out.
+    fn peak(&self, means: &[f64]) -> Option<[f64; 2]> {
+        let bins = (0..self.shells.len()).skip_while(|bin| self.has_few(*bin));
+        let row = |bin: usize| [(bin as f64 + 0.5) * self.width, means[self.of(bin)] / self.even(bin)];
+        peak(&bins.map(row).collect::<Vec<_>>())
+    }
 }
 
 /// The names of the species of a pair, if a result is of one.
@@ -173,8 +234,8 @@ fn names(result: &Value) -> impl Iterator<Item = &str> {
 }
 
 /// The names of two species for people; none if these are not two.
-fn pair_in_words<'a>(names: impl Iterator<Item = &'a str>) -> Option<String> {
-    let names: Vec<Cow<'_, str>> = names.map(printable::name).collect();
+fn pair_in_words<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let names: Vec<Cow<'_, str>> = names.into_iter().map(printable::name).collect();
     (names.len() == 2).then(|| names.join("–"))
 }
 

@@ -2,9 +2,11 @@
 
 use crate::families::Model;
 use crate::measure::correlation::WindowedAverage;
+use crate::measure::statistics::Estimate;
 use crate::numbers::with_error;
-use crate::plot::{Found, Mean};
+use crate::plot::Mean;
 use crate::printable;
+use serde::Deserialize;
 use serde_json::Value;
 use std::borrow::Cow;
 
@@ -39,34 +41,33 @@ pub(super) fn whose(result: &Value) -> Option<Cow<'_, str>> {
     result[SPECIES].as_str().map(printable::name)
 }
 
-/// A coefficient with its error, from a result.
-pub(super) fn found(result: &Value) -> Option<Found> {
-    Some((result["value"].as_f64()?, result["standard_error"].as_f64()))
+/// A number of a result or a summary, if it is one that was measured.
+pub(super) fn found(result: &Value) -> Option<Estimate> {
+    Estimate::deserialize(result).ok()
 }
 
-/// A coefficient or a mean of a result with its error, in words.
-pub(super) fn printed(result: &Value) -> Option<String> {
-    found(result).map(|(value, error)| with_error(value, error)).or_else(|| printed_mean(result))
+/// A number of a result, with an error or without.
+pub(super) fn number(result: &Value) -> Option<f64> {
+    result["value"].as_f64()
 }
 
-/// A mean of a result or a summary, as charts take it.
+/// A number of a result or a summary, as charts take means.
 pub(in crate::run) fn mean(result: &Value) -> Option<Mean> {
-    let standard_error = result["standard_error"].as_f64();
-    let from_few_samples = standard_error.is_some() && result["converged"] == false;
-    Some(Mean { value: result["mean"].as_f64()?, standard_error, from_few_samples, ..Mean::default() })
+    let Estimate { value, error, few, .. } = found(result)?;
+    Some(Mean { value, standard_error: error, from_few_samples: error.is_some() && few, ..Mean::default() })
 }
 
-/// A mean of a result or a summary with its error; an error that is not known to a quarter of itself is marked by `*`.
+/// A number of a result or a summary with its error; an error that is not known to a quarter of itself is marked by `*`.
 ///
 /// ```
-/// use mesoscope::run::printed_mean;
+/// use mesoscope::run::printed_estimate;
 /// use serde_json::json;
 ///
-/// let mean = json!({ "mean": 1.004, "standard_error": 0.012, "converged": false });
-/// assert_eq!(printed_mean(&mean).as_deref(), Some("1.004 ± 0.012 *"));
+/// let mean = json!({ "value": 1.004, "error": 0.012, "samples": 5, "few": true });
+/// assert_eq!(printed_estimate(&mean).as_deref(), Some("1.004 ± 0.012 *"));
 /// ```
 #[must_use]
-pub fn printed_mean(entry: &Value) -> Option<String> {
+pub fn printed_estimate(entry: &Value) -> Option<String> {
     let mean = mean(entry)?;
     let text = with_error(mean.value, mean.standard_error);
     Some(if mean.from_few_samples { format!("{text} *") } else { text })

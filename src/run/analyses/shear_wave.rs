@@ -3,7 +3,6 @@
 use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Sampling, Setting, found, total_mass};
 use crate::families::{Checked, Model};
 use crate::measure::shear_wave::WaveDecay;
-use crate::numbers::with_error;
 use crate::plot::{Chart, shear_wave_chart};
 use crate::scene::shear_waves;
 use crate::state::Reported;
@@ -50,7 +49,7 @@ impl Descriptor for ShearWave {
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
-        let text = |key: &str| found(&drawn.result[key]).map(|(value, error)| with_error(value, error));
+        let text = |key: &str| found(&drawn.result[key]).map(|found| found.to_string());
         let viscosity = text(KINEMATIC_VISCOSITY).map(|text| format!("; kinematic viscosity {text}"));
         let subtitle =
             format!("velocity along x, projected on the wave that it started with{}", viscosity.unwrap_or_default());

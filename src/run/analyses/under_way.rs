@@ -3,8 +3,10 @@
 use super::describe;
 use super::descriptor::{Conclusion, Sampling, Setting};
 use super::gathered::Gathered;
+use super::quantities;
 use crate::engine::{Sample, Stepper};
 use crate::output::checkpoint::CheckpointError;
+use crate::output::summary::ColumnSummary;
 use crate::output::{RunDirectory, Summary, write_table};
 use crate::plan::SamplerId;
 use crate::run::RunError;
@@ -157,8 +159,19 @@ impl Analyses {
             let Some(Conclusion { tables, result, warnings }) = describe(*id).conclude(setting, gathered) else {
                 continue;
             };
+            let dimension = setting.scene.model().units.dimension;
+            for (names, table) in id.tables().iter().zip(&tables) {
+                let columns = table.columns.iter().filter_map(|column| {
+                    let quantity = quantities::named(*id, column);
+                    debug_assert!(quantity.is_some(), "`{column}` of {id:?} is described");
+                    let species = describe(*id).species_of(setting.scene, &quantities::numbers_of(column));
+                    Some(ColumnSummary { species, ..ColumnSummary::new(column, quantity?, dimension) })
+                });
+                summary.columns.insert(names.file.to_owned(), columns.collect());
+            }
             match result {
                 Ok(result) => {
+                    let result = quantities::with_units(*id, result, dimension);
                     summary.results.insert(id.name().to_owned(), result);
                     summary.warnings.extend(warnings);
                 }

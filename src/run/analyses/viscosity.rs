@@ -4,7 +4,8 @@ use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Planner, Sampling, Se
 use crate::engine::Sample;
 use crate::families::{Checked, Model};
 use crate::measure::shear_viscosity::{ShearViscosity, TransverseMode, WaveViscosity, shear_viscosity};
-use crate::plot::{Chart, Found, viscosity_chart};
+use crate::measure::statistics::Estimate;
+use crate::plot::{Chart, viscosity_chart};
 use crate::scene::AnalysisId;
 use crate::shaders::{Array, Entry};
 use crate::table::Table;
@@ -71,7 +72,7 @@ impl Descriptor for Viscosity {
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let waves = drawn.result[WAVES].as_array().map(Vec::as_slice).unwrap_or_default();
-        let waves: Vec<Found> = waves.iter().filter_map(|wave| found(&wave[OF_WAVE])).collect();
+        let waves: Vec<Estimate> = waves.iter().filter_map(|wave| found(&wave[OF_WAVE])).collect();
         viscosity_chart(drawn.title(), drawn.table, &waves, found(&drawn.result[SHEAR_VISCOSITY]))
     }
 

@@ -1,0 +1,394 @@
+//! The quantities in tables and results of analyses, with units and definitions.
+
+use crate::quantity::{
+    Quantity, Unit,
+    Unit::{Density, Other, Pressure, Temperature, Tension, Viscosity},
+    quantity,
+};
+use crate::scene::{AnalysisId, CorrelatedQuantity, CountedQuantity};
+use serde_json::{Map, Value, json};
+
+const LENGTH: Unit = Other("length units");
+const AREA: Unit = Other("length units²");
+const TIME: Unit = Other("time units");
+const RATE: Unit = Other("1/time unit");
+const WAVE_NUMBER: Unit = Other("1/length unit");
+const VELOCITY: Unit = Other("length units/time unit");
+const VELOCITY_SQUARED: Unit = Other("length units²/time unit²");
+const DIFFUSION: Unit = Other("length units²/time unit");
+const ACCELERATION: Unit = Other("length units/time unit²");
+const VELOCITIES: [Unit; 3] = [VELOCITY, VELOCITY_SQUARED, Other("length units⁴/time unit⁴")];
+const NUMBER: Unit = Other("number");
+const INVERSE: Unit = Other("1 over the unit of the quantity");
+
+const LAG: Quantity = quantity("time", "t", TIME, "lag");
+const SINCE_START: Quantity = quantity("time", "t", TIME, "time since the start of the run");
+
+/// The quantities of an analysis. One without a name is every column that no other names.
+pub(super) fn of(id: AnalysisId) -> &'static [Quantity] {
+    match id {
+        AnalysisId::RadialDistribution => {
+            const {
+                &[
+                    quantity("distance", "r", LENGTH, "middle of the bin"),
+                    quantity(
+                        "radial_distribution",
+                        "g",
+                        NUMBER,
+                        "pairs over those of particles that are spread evenly",
+                    ),
+                    quantity("pairs", "N", NUMBER, "pairs counted in all samples"),
+                    quantity(
+                        "filled_from",
+                        "r",
+                        LENGTH,
+                        "distance from which on 25 pairs or more of an ideal gas would be in a bin",
+                    ),
+                    quantity("peak_distance", "r_p", LENGTH, "distance of the maximum"),
+                    quantity("peak_height", "g(r_p)", NUMBER, "height of the maximum"),
+                ]
+            }
+        }
+        AnalysisId::Diffusion => {
+            const {
+                &[
+                    LAG,
+                    quantity("mean_squared_displacement", "⟨Δr²⟩", AREA, "mean over particles and windows"),
+                    quantity(
+                        "velocity_autocorrelation",
+                        "⟨v(0)·v(t)⟩",
+                        VELOCITY_SQUARED,
+                        "mean over particles and windows",
+                    ),
+                    quantity(
+                        "diffusion_einstein",
+                        "D",
+                        DIFFUSION,
+                        "slope of the mean squared displacement over twice the dimension",
+                    ),
+                    quantity(
+                        "diffusion_green_kubo",
+                        "D",
+                        DIFFUSION,
+                        "integral of the velocity autocorrelation over the dimension",
+                    ),
+                ]
+            }
+        }
+        AnalysisId::ChainSizes => {
+            const {
+                &[
+                    SINCE_START,
+                    quantity(
+                        "end_to_end_squared",
+                        "⟨R²⟩",
+                        AREA,
+                        "mean over chains of the squared distance of the ends",
+                    ),
+                    quantity("radius_of_gyration_squared", "⟨R_g²⟩", AREA, "mean over chains, beads counting alike"),
+                ]
+            }
+        }
+        AnalysisId::Viscosity => {
+            const {
+                &[
+                    quantity("wave_number", "k", WAVE_NUMBER, "magnitude of the wave vector"),
+                    LAG,
+                    quantity("autocorrelation", "C", NUMBER, "of the transverse momentum waves, 1 at the start"),
+                    quantity("fit", "C", NUMBER, "exponential decay, fitted"),
+                    quantity("shear_viscosity", "η", Viscosity, "mean over the wave numbers, weighted by modes and k²"),
+                    quantity("viscosity", "η", Viscosity, "of the waves of one length"),
+                    quantity("kinematic_viscosity", "ν", DIFFUSION, "shear viscosity over the density"),
+                ]
+            }
+        }
+        AnalysisId::Autocorrelation(quantity) => match quantity {
+            CorrelatedQuantity::Velocity => const { &autocorrelations(VELOCITY_SQUARED) },
+            CorrelatedQuantity::Force => const { &autocorrelations(Other("energy units²/length unit²")) },
+        },
+        AnalysisId::Histogram(quantity) => match quantity {
+            CountedQuantity::Velocity => const { &histogram("velocity", "v", VELOCITIES) },
+            CountedQuantity::Speed => const { &histogram("speed", "|v|", VELOCITIES) },
+            CountedQuantity::Acceleration => {
+                const {
+                    &histogram(
+                        "acceleration",
+                        "a",
+                        [ACCELERATION, Other("length units²/time unit⁴"), Other("length units⁴/time unit⁸")],
+                    )
+                }
+            }
+        },
+        AnalysisId::Circulation => {
+            const {
+                &[
+                    SINCE_START,
+                    quantity("initial", "Γ_0", DIFFUSION, "circulation of the loop at first"),
+                    quantity(
+                        "largest_change",
+                        "max |Γ − Γ_0|",
+                        DIFFUSION,
+                        "as long as the points of the loop are closer together than nodes",
+                    ),
+                    quantity(
+                        "largest_relative_change",
+                        "max |Γ − Γ_0|/|Γ_0|",
+                        NUMBER,
+                        "the largest change over the first value",
+                    ),
+                    quantity(
+                        "resolved_until",
+                        "t",
+                        TIME,
+                        "time up to which the points of the loop are closer together than nodes",
+                    ),
+                    quantity("", "Γ", DIFFUSION, "circulation of the absolute velocity along the loop of this name"),
+                ]
+            }
+        }
+        AnalysisId::Chain => {
+            const {
+                &[
+                    quantity("tau", "τ", NUMBER, "time in units of n/ω_0, that of a cluster of n beads"),
+                    quantity("time", "t", TIME, "time; of the memory, in units of 1/ω_0"),
+                    quantity("cluster", "j", NUMBER, "number of the cluster"),
+                    quantity("micro", "u", NUMBER, "displacement of clusters of beads, over the height of the pulse"),
+                    quantity(
+                        "dpd",
+                        "u",
+                        NUMBER,
+                        "displacement in the chain with friction and noise, over the height of the pulse",
+                    ),
+                    quantity(
+                        "frictionless",
+                        "u",
+                        NUMBER,
+                        "displacement in the chain without friction, over the height of the pulse",
+                    ),
+                    quantity("limit", "C", NUMBER, "limit of large clusters, max(0, 1 − τ)"),
+                    quantity("correlation", "C", NUMBER, "momentum autocorrelation over nmkT"),
+                    quantity("momentum_variance", "⟨P²⟩", NUMBER, "over nmkT"),
+                    quantity("momentum_variance_over_nmkT", "⟨P²⟩", NUMBER, "over nmkT"),
+                    quantity("separation_variance", "⟨Δ²⟩", NUMBER, "of neighbouring clusters, over nkT/κ"),
+                    quantity(
+                        "separation_variance_times_stiffness_over_nkT",
+                        "⟨Δ²⟩",
+                        NUMBER,
+                        "of neighbouring clusters, over nkT/κ",
+                    ),
+                    quantity("peak", "u_m", NUMBER, "height of the pulse, over that at the start"),
+                    quantity("pulse_peak", "u_m", NUMBER, "height of the pulse at the end, over that at the start"),
+                    quantity("variance", "σ²", Other("square of a distance of clusters"), "width of the pulse"),
+                    quantity(
+                        "pulse_variance",
+                        "σ²",
+                        Other("square of a distance of clusters"),
+                        "width of the pulse at the end",
+                    ),
+                    quantity("energy", "E", NUMBER, "energy of the resolved motion, over that at the start"),
+                    quantity(
+                        "pulse_energy",
+                        "E",
+                        NUMBER,
+                        "energy of the resolved motion at the end, over that at the start",
+                    ),
+                    quantity(
+                        "running_friction",
+                        "γ",
+                        NUMBER,
+                        "integral of the memory of a cluster of so many beads up to the time",
+                    ),
+                    quantity("plateau", "γ", NUMBER, "line through the plateau of the integral"),
+                    quantity("plateau_friction_by_cluster_size", "γ", NUMBER, "friction at the plateau"),
+                    quantity("reduced_time", "τ", NUMBER, "time at the end in units of n/ω_0"),
+                    quantity("reduced_friction", "γ*", NUMBER, "friction of the chain with friction and noise"),
+                ]
+            }
+        }
+        AnalysisId::Neighbours => {
+            const {
+                &[
+                    quantity("neighbours", "z", NUMBER, "number of neighbours of a cell"),
+                    quantity("fraction", "f", NUMBER, "part of the cells that have this number"),
+                    quantity("random_points", "f", NUMBER, "that part of the cells of points at random"),
+                    quantity("mean", "⟨z⟩", NUMBER, "mean number of neighbours"),
+                    quantity("variance", "⟨z²⟩ − ⟨z⟩²", NUMBER, "variance of the number of neighbours"),
+                ]
+            }
+        }
+        AnalysisId::ShearWave => {
+            const {
+                &[
+                    SINCE_START,
+                    quantity(
+                        "amplitude",
+                        "A",
+                        VELOCITY,
+                        "velocity along x, projected on the wave that it started with",
+                    ),
+                    quantity("fit", "A", VELOCITY, "exponential decay, fitted"),
+                    quantity("wave_number", "k", WAVE_NUMBER, "magnitude of the wave vector"),
+                    quantity("initial_amplitude", "A_0", VELOCITY, "amplitude of the first sample"),
+                    quantity("decay_rate", "νk²", RATE, "rate of the exponential decay"),
+                    quantity("kinematic_viscosity", "ν", DIFFUSION, "decay rate over k²"),
+                    quantity("shear_viscosity", "η", Viscosity, "kinematic viscosity times the density"),
+                    quantity("", "η", Viscosity, "known beforehand, for comparison"),
+                ]
+            }
+        }
+        AnalysisId::Profiles => {
+            const {
+                &[
+                    quantity("position", "x", LENGTH, "middle of the bin along the axis"),
+                    quantity("number_density", "n", Density, "particles over volume"),
+                    quantity("velocity", "u", VELOCITY, "momentum over mass"),
+                    quantity(
+                        "temperature",
+                        "kT",
+                        Temperature,
+                        "of the motion relative to the centre of mass of the bin",
+                    ),
+                    quantity("pressure", "P", Pressure, "pressure tensor relative to the mean velocity of the bin"),
+                ]
+            }
+        }
+        AnalysisId::Stress => {
+            const {
+                &[
+                    LAG_OR_TIME,
+                    quantity("pressure", "P", Pressure, "pressure tensor, the sum of its three parts"),
+                    quantity("kinetic", "P_K", Pressure, "momentum that particles carry"),
+                    quantity("conservative", "P_C", Pressure, "virials of pairs, bonds and angles"),
+                    quantity("frictional", "P_D", Pressure, "virials of friction, noise and baths"),
+                    quantity("surface_tension", "γ", Tension, "of the interfaces across the normal"),
+                    quantity("surface_tension_conservative", "γ_C", Tension, "of the conservative part of the tensor"),
+                    quantity("viscosity_in_shear", "η", Viscosity, "shear stress over the shear rate"),
+                    quantity(
+                        "autocorrelation",
+                        "V⟨σσ⟩/kT",
+                        Other("that of a viscosity over time units"),
+                        "of the shear stress, times V/kT",
+                    ),
+                    quantity("viscosity", "η", Viscosity, "sum of the autocorrelation up to the lag"),
+                    quantity("shear_viscosity", "η", Viscosity, "sum of the autocorrelation up to the longest lag"),
+                ]
+            }
+        }
+    }
+}
+
+const LAG_OR_TIME: Quantity = quantity("time", "t", TIME, "time since the start of the run; of the correlation, lag");
+
+const fn autocorrelations(square: Unit) -> [Quantity; 10] {
+    [
+        LAG,
+        quantity("autocorrelation", "C", NUMBER, "mean over particles and windows, over that at lag 0"),
+        quantity("covariance", "⟨A(0)·A(t)⟩", square, "mean over particles and windows"),
+        quantity("fit", "C", NUMBER, "the curve that was fitted"),
+        quantity("mean_square", "⟨A²⟩", square, "mean over particles at the start of windows"),
+        quantity("a", "a", Other("number; of a damped oscillation, 1/time unit"), "parameter of the curve"),
+        quantity("b", "b", RATE, "parameter of the curve"),
+        quantity("c", "c", NUMBER, "parameter of the curve"),
+        quantity("frequency_squared", "Ω²", Other("1/time unit²"), "parameter of the curve"),
+        quantity("deviation", "ΔC", NUMBER, "root of the mean squared deviation of the curve"),
+    ]
+}
+
+const fn histogram(name: &'static str, symbol: &'static str, [unit, square, fourth]: [Unit; 3]) -> [Quantity; 11] {
+    [
+        quantity(name, symbol, unit, "middle of the bin"),
+        quantity("density", "P", INVERSE, "probability density of the bin"),
+        quantity("count", "N", NUMBER, "values in the bin"),
+        quantity("gaussian", "P", INVERSE, "Gaussian with mean and standard deviation of the values"),
+        quantity("maxwell", "P", INVERSE, "Maxwell's density with the mean square of the values"),
+        quantity("range", "", unit, "the largest magnitude that is counted"),
+        quantity("mean", "⟨x⟩", unit, "mean of the values"),
+        quantity("standard_deviation", "s", unit, "standard deviation of the values"),
+        quantity("kurtosis", "⟨x⁴⟩/⟨x²⟩²", NUMBER, "3 for a Gaussian about zero"),
+        quantity("mean_square", "⟨x²⟩", square, "mean square of the magnitude of the vector"),
+        quantity("variance_of_square", "⟨x⁴⟩ − ⟨x²⟩²", fourth, "variance of the square of the magnitude"),
+    ]
+}
+
+/// Numbers of results that are no quantities: counts, and what was asked for.
+const COUNTS: [&str; 9] = ["samples", "windows", "values", "below", "above", "modes", "chains", "beads", "bins"];
+
+/// The quantity of a column or of a number in a result. A name may begin with a word (`micro_peak`), and end with an axis, a component, the
+/// numbers of species or sizes, and `error`.
+pub(super) fn named(id: AnalysisId, name: &str) -> Option<&'static Quantity> {
+    let known = of(id);
+    let mut rest = name;
+    loop {
+        if let Some(found) = known.iter().find(|known| !known.name.is_empty() && known.name == rest) {
+            return Some(found);
+        }
+        match rest.rsplit_once('_') {
+            Some((before, last)) if is_part(last) => rest = before,
+            _ => break,
+        }
+    }
+    let ends = |known: &&Quantity| rest.strip_suffix(known.name).is_some_and(|before| before.ends_with('_'));
+    known
+        .iter()
+        .filter(|known| !known.name.is_empty())
+        .find(ends)
+        .or_else(|| known.iter().find(|known| known.name.is_empty()))
+}
+
+fn is_part(word: &str) -> bool {
+    word == "error"
+        || numbers_in(word).is_some()
+        || (word.len() <= 2 && word.chars().all(|letter| "xyz".contains(letter)))
+}
+
+fn numbers_in(word: &str) -> Option<usize> {
+    word.parse().ok()
+}
+
+/// The numbers at the end of the name of a column: of species, in their order.
+pub(super) fn numbers_of(column: &str) -> Vec<usize> {
+    let mut numbers: Vec<usize> = column.trim_end_matches("_error").rsplit('_').map_while(numbers_in).collect();
+    numbers.reverse();
+    numbers
+}
+
+/// A result whose numbers have their units, those of a box of this dimension.
+pub(super) fn with_units(id: AnalysisId, result: Value, dimension: usize) -> Value {
+    match result {
+        Value::Object(entries) => Value::Object(
+            entries
+                .into_iter()
+                .map(|(key, value)| {
+                    let known = named(id, &key).filter(|_| !COUNTS.contains(&key.as_str()));
+                    debug_assert!(
+                        known.is_some() || COUNTS.contains(&key.as_str()) || !value.is_f64(),
+                        "unit of `{key}` of {id:?}"
+                    );
+                    let value = match known {
+                        Some(known) => numbers_with_unit(id, value, known.unit.in_words(Some(dimension)), dimension),
+                        None => with_units(id, value, dimension),
+                    };
+                    (key, value)
+                })
+                .collect(),
+        ),
+        Value::Array(entries) => entries.into_iter().map(|entry| with_units(id, entry, dimension)).collect(),
+        other => other,
+    }
+}
+
+/// A quantity with its unit: a number, one with an error, or several of these by other names (components, sizes, loops).
+fn numbers_with_unit(id: AnalysisId, quantity: Value, unit: &str, dimension: usize) -> Value {
+    match quantity {
+        Value::Number(value) => json!({ "value": value, "unit": unit }),
+        Value::Object(mut number) if number.contains_key("value") => {
+            number.insert("unit".to_owned(), unit.into());
+            Value::Object(number)
+        }
+        Value::Object(parts) if parts.keys().all(|key| is_part(key)) => {
+            let parts = parts.into_iter().map(|(key, part)| (key, numbers_with_unit(id, part, unit, dimension)));
+            Value::Object(parts.collect::<Map<String, Value>>())
+        }
+        other => with_units(id, other, dimension),
+    }
+}
