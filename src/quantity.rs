@@ -177,37 +177,6 @@ mod tests {
     use super::*;
 
     use crate::scene;
-    use std::fmt::Write;
-    use std::path::Path;
-
-    /// The page of all quantities.
-    fn page() -> String {
-        let mut text = "# Columns of the table of energies\n\n\
-            `energies.csv` has the columns of this table that have a meaning for its scene; `columns` of `run.json` names\n\
-            them, with their units. Units are those of the scene: of length, mass, time and energy; in shallow water the\n\
-            unit of mass is the water that a node holds at the mean depth. A vector has a column for each axis\n\
-            (`momentum_x`, `momentum_y`, …), and `wall_momentum` one for each wall and axis (`wall_z_lower_momentum_x`,\n\
-            …). Those that settle fluctuate about a constant in equilibrium: a run looks for transients in them. This page\n\
-            is made from `src/quantity.rs` by `MESOSCOPE_RECORD=1 cargo test --lib quantity`.\n\n\
-            | column | symbol | unit | settles | meaning |\n|---|---|---|:-:|---|\n"
-            .to_owned();
-        for Quantity { name, symbol, unit, meaning, settles, .. } in &QUANTITIES {
-            let (unit, settles) = (unit.in_words(None), if *settles { "✓" } else { "" });
-            let meaning = meaning.replace('|', "\\|");
-            writeln!(text, "| `{name}` | {symbol} | {unit} | {settles} | {meaning} |").unwrap();
-        }
-        text
-    }
-
-    #[test]
-    fn the_page_of_the_documentation_is_made_from_the_table() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/columns.md");
-        if std::env::var_os("MESOSCOPE_RECORD").is_some() {
-            std::fs::write(&path, page()).unwrap();
-        }
-        let written = std::fs::read_to_string(&path).unwrap();
-        assert!(written == page(), "docs/columns.md is not that of the table: MESOSCOPE_RECORD=1 writes it");
-    }
 
     #[test]
     fn every_column_has_its_quantity() {

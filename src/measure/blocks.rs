@@ -156,8 +156,8 @@ impl BlockSums {
         self.ratio_of(&counted.collect::<Vec<_>>())
     }
 
-    /// A number that is made of the means of all quantities, by a jackknife over the blocks that are full. There is no error with fewer than
-    /// two of them, nor where the number does not exist without one of them.
+    /// A number that is made of the means of all quantities, by a jackknife over the blocks that are full; none where it does not exist, if
+    /// only without one of them. There is no error with fewer than two.
     #[must_use]
     pub fn jackknife(&self, number: impl Fn(&[f64]) -> Option<f64>) -> Option<Estimate> {
         let totals: Vec<f64> = (0..self.width).map(|quantity| self.total(quantity)).collect();
@@ -175,9 +175,9 @@ impl BlockSums {
         }
         let count = full as f64;
         let pseudovalue = |row| Some(count * value - (count - 1.0) * mean(Some(row))?);
-        let pseudovalues: Option<Vec<f64>> = self.rows().take(full).map(pseudovalue).collect();
-        let found = pseudovalues.and_then(|values| estimate(&values));
-        Some(found.map_or(without, |found| Estimate { value, samples: self.samples as usize, ..found }))
+        let pseudovalues = self.rows().take(full).map(pseudovalue).collect::<Option<Vec<f64>>>()?;
+        let found = estimate(&pseudovalues)?;
+        Some(Estimate { value, samples: self.samples as usize, ..found })
     }
 }
 

@@ -392,3 +392,94 @@ fn numbers_with_unit(id: AnalysisId, quantity: Value, unit: &str, dimension: usi
         other => with_units(id, other, dimension),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::quantity::QUANTITIES;
+    use std::fmt::Write;
+    use std::path::Path;
+
+    /// The page of all quantities.
+    fn page() -> String {
+        let mut text = "# Columns and results\n\n\
+            Units are those of the scene: of length, mass, time and energy; in shallow water the unit of mass is the water\n\
+            that a node holds at the mean depth. A volume is an area in two dimensions, and a length in one. `columns` of\n\
+            [`run.json`](guide/summary.md) has those of a run. This page is made from `src/quantity.rs` and\n\
+            `src/run/analyses/quantities.rs` by `MESOSCOPE_RECORD=1 cargo test --lib quantities`.\n\n\
+            ## The table of energies\n\n\
+            `energies.csv` has the columns of this table that have a meaning for its scene. A vector has a column for each\n\
+            axis (`momentum_x`, `momentum_y`, …), and `wall_momentum` one for each wall and axis\n\
+            (`wall_z_lower_momentum_x`, …). Those that settle fluctuate about a constant in equilibrium: a run looks for\n\
+            transients in them.\n\n\
+            | column | symbol | unit | settles | meaning |\n|---|---|---|:-:|---|\n"
+            .to_owned();
+        for quantity in &QUANTITIES {
+            let settles = if quantity.settles { "✓" } else { "" };
+            row(&mut text, quantity, &format!(" {settles} |"));
+        }
+        text += "\n## Analyses\n\n\
+            Columns of tables and keys of results. Vectors have a column for each axis (`velocity_x`), tensors one for each\n\
+            component (`pressure_xy`), and species their numbers in the order of the scene (`number_density_0`,\n\
+            `radial_distribution_0_1`); a column that ends in `_error` is the standard error of the one before it.\n";
+        for id in AnalysisId::ALL {
+            let tables: Vec<String> = id.tables().iter().map(|names| format!("`{}`", names.file)).collect();
+            write!(
+                text,
+                "\n### {}\n\n{}\n\n| name | symbol | unit | meaning |\n|---|---|---|---|\n",
+                id.name(),
+                tables.join(", ")
+            )
+            .unwrap();
+            of(id).iter().for_each(|quantity| row(&mut text, quantity, ""));
+        }
+        text
+    }
+
+    fn row(text: &mut String, Quantity { name, symbol, unit, meaning, .. }: &Quantity, more: &str) {
+        let name = if name.is_empty() { "any other".to_owned() } else { format!("`{name}`") };
+        let [symbol, meaning] = [symbol, meaning].map(|words| words.replace('|', "\\|"));
+        writeln!(text, "| {name} | {symbol} | {} |{more} {meaning} |", unit.in_words(None)).unwrap();
+    }
+
+    #[test]
+    fn the_page_of_the_documentation_is_made_from_the_tables() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/columns.md");
+        if std::env::var_os("MESOSCOPE_RECORD").is_some() {
+            std::fs::write(&path, page()).unwrap();
+        }
+        let written = std::fs::read_to_string(&path).unwrap();
+        assert!(written == page(), "docs/columns.md is not that of the tables: MESOSCOPE_RECORD=1 writes it");
+    }
+
+    #[test]
+    fn names_are_found_with_what_is_added_to_them() {
+        let name = |id: AnalysisId, column: &str| named(id, column).map(|found| found.name);
+        let radial = AnalysisId::RadialDistribution;
+        assert_eq!(name(radial, "radial_distribution_0_12_error"), Some("radial_distribution"));
+        assert_eq!((name(radial, "pairs_0_1"), name(radial, "colour")), (Some("pairs"), None));
+        assert_eq!(name(AnalysisId::Stress, "conservative_xz"), Some("conservative"));
+        assert_eq!(name(AnalysisId::Profiles, "velocity_x_error"), Some("velocity"));
+        assert_eq!(name(AnalysisId::Chain, "frictionless_exact_separation_variance"), Some("separation_variance"));
+        assert_eq!(name(AnalysisId::Circulation, "the inner loop"), Some(""));
+        assert_eq!(numbers_of("radial_distribution_0_12_error"), [0, 12]);
+        assert_eq!(numbers_of("velocity_x"), [0; 0]);
+    }
+
+    #[test]
+    fn every_number_of_a_result_has_its_unit() {
+        let result = json!({
+            "samples": 3, "pressure": { "xx": { "value": 1.5, "error": 0.5 }, "xy": null },
+            "surface_tension": { "value": 2.0, "error": null },
+        });
+        let expected = json!({
+            "samples": 3, "pressure": { "xx": { "value": 1.5, "error": 0.5, "unit": "energy units/length unit²" }, "xy": null },
+            "surface_tension": { "value": 2.0, "error": null, "unit": "energy units/length unit" },
+        });
+        assert_eq!(with_units(AnalysisId::Stress, result, 2), expected);
+        let result = json!({ "outer": { "initial": 0.25, "resolved_until": null } });
+        let expected = json!({ "outer": { "initial": { "value": 0.25, "unit": "length units²/time unit" }, "resolved_until": null } });
+        assert_eq!(with_units(AnalysisId::Circulation, result, 2), expected);
+    }
+}
