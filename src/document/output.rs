@@ -30,6 +30,9 @@ pub struct Output {
     /// The radial distribution function g(r).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radial_distribution: Option<RadialDistribution>,
+    /// The static structure factor S(q).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub structure_factor: Option<StructureFactor>,
     /// Mean squared displacement and velocity autocorrelation of the particles that can move.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diffusion: Option<Diffusion>,
@@ -79,6 +82,7 @@ impl Output {
     pub(crate) fn analyses(&self) -> Vec<AnalysisId> {
         let keys = [
             (AnalysisId::RadialDistribution, self.radial_distribution.is_some()),
+            (AnalysisId::StructureFactor, self.structure_factor.is_some()),
             (AnalysisId::Diffusion, self.diffusion.is_some()),
             (AnalysisId::Viscosity, self.viscosity.is_some()),
             (AnalysisId::ChainSizes, self.chain_sizes.is_some()),
@@ -99,6 +103,16 @@ impl Output {
         let profile = self.profiles.as_ref().is_some_and(|asked| asked.quantities.contains(&ProfiledQuantity::Stress));
         let asked = [("output.stress", self.stress.is_some()), ("output.profiles.quantities", profile)];
         asked.into_iter().filter(|(_, asked)| *asked).map(|(path, _)| path)
+    }
+
+    /// Pairs of species that analyses name, with the places of these in the scene, and the bins that a workgroup counts of each pair.
+    pub(crate) fn pairs_of_species(&self) -> impl Iterator<Item = (&'static str, &CountedPairs, u32)> {
+        let radial = self.radial_distribution.as_ref().map(|asked| (&asked.species, asked.bins));
+        let factor = self.structure_factor.as_ref().map(|asked| (&asked.species, 1));
+        let asked = [("output.radial_distribution.species", radial), ("output.structure_factor.species", factor)];
+        asked
+            .into_iter()
+            .filter_map(|(path, asked)| asked.and_then(|(pairs, bins)| Some((path, pairs.as_ref()?, bins))))
     }
 
     /// Species of single particles that analyses name, with the places of these in the scene.
@@ -142,6 +156,29 @@ pub struct RadialDistribution {
     #[schemars(range(min = 1, max = 4096))]
     pub bins: u32,
     /// The species whose pairs are counted; left out, pairs of all particles.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<CountedPairs>,
+}
+
+/// The static structure factor S(q) of the particles that are not frozen, from the wave vectors of the periodic box.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StructureFactor {
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+    /// Largest wave number, at least that of one wave along the longest edge of the box.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub range: f64,
+    /// Number of bins of the wave number; those that hold no wave vector of the box are left out.
+    #[serde(default = "whole::<100>")]
+    #[schemars(range(min = 1, max = 1024))]
+    pub bins: u32,
+    /// The most wave vectors of a bin, chosen at random and always alike.
+    #[serde(default = "whole::<16>")]
+    #[schemars(range(min = 1, max = 256))]
+    pub vectors: u32,
+    /// The species whose pairs are taken; left out, pairs of all particles.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub species: Option<CountedPairs>,
 }
@@ -302,6 +339,8 @@ fn usual_profiles() -> Vec<ProfiledQuantity> {
 pub enum AnalysisId {
     /// The radial distribution function.
     RadialDistribution,
+    /// The static structure factor.
+    StructureFactor,
     /// Mean squared displacement and velocity autocorrelation.
     Diffusion,
     /// Sizes of chains.
@@ -347,8 +386,9 @@ macro_rules! names {
 
 impl AnalysisId {
     /// All of them.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 16] = [
         Self::RadialDistribution,
+        Self::StructureFactor,
         Self::Diffusion,
         Self::ChainSizes,
         Self::Viscosity,
@@ -368,6 +408,7 @@ impl AnalysisId {
     const fn names(self) -> (&'static str, &'static [AnalysisTable]) {
         match self {
             Self::RadialDistribution => names!("radial_distribution"),
+            Self::StructureFactor => names!("structure_factor"),
             Self::Diffusion => names!("diffusion"),
             Self::ChainSizes => names!("chain_sizes"),
             Self::Viscosity => names!("viscosity"),

@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use super::{
-    CountedPairs, CountedQuantity, Interaction, ParticleGroup, Placement, Problems, Scene, SpeciesNames, Velocities,
+    CountedPairs, CountedQuantity, Interaction, ParticleGroup, Placement, Problems, Scene, SpeciesNames,
+    StructureFactor, Velocities,
 };
 use crate::families;
 use crate::state::MOST_PARTICLES;
@@ -202,6 +203,9 @@ fn check_durations(scene: &Scene, problems: &mut Problems) {
     check_windows(scene, problems);
     check_analyses(scene, problems);
     let output = &scene.output;
+    if let Some(factor) = &output.structure_factor {
+        check_wave_numbers(factor, scene, problems);
+    }
     if let Some(radial) = &output.radial_distribution {
         let half = 0.5 * scene.space.shortest_length();
         // A box that is none is a mistake of its own.
@@ -209,6 +213,36 @@ fn check_durations(scene: &Scene, problems: &mut Problems) {
             let accepted = format!("at most {half}, half the shortest box edge");
             problems.refuse("output.radial_distribution.range", radial.range, accepted);
         }
+    }
+}
+
+/// The most waves whose amplitudes are sampled: sixteen samples of them have 16 MiB.
+const MOST_WAVES: u64 = 1 << 16;
+
+/// A structure factor has wave vectors of the box, and no more of them than there is room for.
+fn check_wave_numbers(factor: &StructureFactor, scene: &Scene, problems: &mut Problems) {
+    let periodic = scene.space.lengths.iter().zip(scene.space.walls.of_axes()).filter(|(_, walls)| walls.is_none());
+    let longest = periodic.map(|(length, _)| *length).fold(0.0, f64::max);
+    let path = "output.structure_factor";
+    if longest == 0.0 {
+        problems.refuse(path, "between walls on all sides", "an axis without walls, along which there are waves");
+        return;
+    }
+    let least = std::f64::consts::TAU / longest;
+    if factor.range < least {
+        let accepted =
+            format!("at least {least:.4}, the wave number of one wave along the longest periodic edge of the box");
+        problems.refuse(format!("{path}.range"), factor.range, accepted);
+    }
+    let species = if factor.species.is_some() || scene.particles.iter().any(ParticleGroup::is_frozen) {
+        scene.particles.len()
+    } else {
+        1
+    };
+    let waves = u64::from(factor.bins) * u64::from(factor.vectors) * species.max(1) as u64;
+    if waves > MOST_WAVES {
+        let found = format!("{} bins of {} wave vectors and {species} species", factor.bins, factor.vectors);
+        problems.refuse(path, found, format!("at most {MOST_WAVES} in all: fewer `bins` or `vectors`"));
     }
 }
 
@@ -255,13 +289,24 @@ fn check_species_of_analyses(scene: &Scene, species: &SpeciesNames<'_>, problems
     for (index, name) in scene.output.snapshot.species.iter().enumerate() {
         species.check(name, &format!("output.snapshot.species[{index}]"), problems);
     }
-    let Some(radial) = &scene.output.radial_distribution else { return };
-    let path = "output.radial_distribution.species";
-    let names: Vec<(String, &str)> = match &radial.species {
-        None => Vec::new(),
-        Some(CountedPairs::Within(name)) if name == CountedPairs::ALL => {
+    for (path, pairs, bins) in scene.output.pairs_of_species() {
+        check_pairs(pairs, path, bins, scene, species, problems);
+    }
+}
+
+/// Pairs of species name those that there are, and that are not frozen.
+fn check_pairs(
+    pairs: &CountedPairs,
+    path: &str,
+    bins: u32,
+    scene: &Scene,
+    species: &SpeciesNames<'_>,
+    problems: &mut Problems,
+) {
+    let names: Vec<(String, &str)> = match pairs {
+        CountedPairs::Within(name) if name == CountedPairs::ALL => {
             let pairs = species.count() as u64 * (species.count() as u64 + 1) / 2;
-            let found = format!("{pairs} pairs of species with {} bins each", radial.bins);
+            let found = format!("{pairs} pairs of species with {bins} bins each");
             let pair = "`species` with one or two names";
             match MOST_BINS / pairs.max(1) {
                 _ if species.place(name).is_some() => {
@@ -269,7 +314,7 @@ fn check_species_of_analyses(scene: &Scene, species: &SpeciesNames<'_>, problems
                     problems.refuse(path, format!("\"{name}\", which is also a species"), accepted);
                 }
                 0 => problems.refuse(path, found, pair),
-                most if most < u64::from(radial.bins) => {
+                most if most < u64::from(bins) => {
                     problems.refuse(
                         path,
                         found,
@@ -280,14 +325,15 @@ fn check_species_of_analyses(scene: &Scene, species: &SpeciesNames<'_>, problems
             }
             Vec::new()
         }
-        Some(CountedPairs::Within(name)) => vec![(path.to_owned(), name.as_str())],
-        Some(CountedPairs::Between(names)) => {
+        CountedPairs::Within(name) => vec![(path.to_owned(), name.as_str())],
+        CountedPairs::Between(names) => {
             names.iter().enumerate().map(|(place, name)| (format!("{path}[{place}]"), name.as_str())).collect()
         }
     };
+    let is_frozen = |name: &str| scene.particles.iter().any(|group| group.species == name && group.is_frozen());
     for (path, name) in names {
-        if species.check(name, &path, problems) && is(name, ParticleGroup::is_frozen) {
-            let accepted = "a species that is not frozen behind walls, where no pair is counted";
+        if species.check(name, &path, problems) && is_frozen(name) {
+            let accepted = "a species that is not frozen behind walls, where nothing is counted";
             problems.refuse(path, format!("\"{name}\", which is frozen"), accepted);
         }
     }

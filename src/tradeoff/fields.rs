@@ -63,8 +63,10 @@ pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<
     if own.exists() && other.exists() {
         let [own, other] = [read_table(&own)?, read_table(&other)?];
         // Of several pairs of species the curves of all; a pair without particles has none.
-        let values =
-            |table: &Table| -> Vec<f64> { table.rows.iter().flat_map(|row| row.iter().skip(1).copied()).collect() };
+        let values = |table: &Table| -> Vec<f64> {
+            let is_curve = |column: &&String| column.starts_with(name) && !column.ends_with("_error");
+            table.columns.iter().filter(is_curve).flat_map(|column| table.values(column)).collect()
+        };
         let (own_values, other_values) = (values(&own), values(&other));
         let differences = own_values.iter().zip(&other_values).map(|(a, b)| (a - b).powi(2));
         let squares: Vec<f64> = differences.filter(|square| square.is_finite()).collect();

@@ -104,6 +104,7 @@ const EVERYTHING: &[&str] = &[
     r#"output.diffusion={"every":1,"window":6}"#,
     r#"output.viscosity={"every":1,"window":20}"#,
     r#"output.radial_distribution={"every":4,"range":1,"bins":10}"#,
+    r#"output.structure_factor={"every":5,"range":8,"bins":8}"#,
     r#"output.autocorrelations=[{"quantity":"velocity","every":1,"window":6,"fit":"exponential"},
         {"quantity":"force","every":2,"window":5}]"#,
     r#"output.histograms=[{"quantity":"velocity","every":1},{"quantity":"speed","every":5,"bins":5},
@@ -163,7 +164,11 @@ fn couplings_with_memory_go_on() {
     text["interactions"] = serde_json::from_str(bonds).unwrap();
     text["integrator"] = serde_json::json!({"type": "cotter-reich"});
     let scene = scene::parse("test", &text.to_string(), &[]).unwrap_or_else(|error| panic!("{error}"));
-    let of_species = ["output.radial_distribution.species=all-pairs", "output.diffusion.species=B"];
+    let of_species = [
+        "output.radial_distribution.species=all-pairs",
+        "output.structure_factor.species=all-pairs",
+        "output.diffusion.species=B",
+    ];
     let changes = [&[r#"output.chain_sizes={"every":3}"#][..], EVERYTHING, &of_species].concat();
     goes_on(&small(&scene, &changes), &[12]);
 }

@@ -332,6 +332,15 @@ fn lengths_and_durations() {
             r#"radial_distribution={"every":1,"range":2,"bins":700,"species":"all-pairs"}"#,
             "found 6 pairs of species with 700 bins each; accepted: at most 4096 bins in all: `bins` up to 682, or `species`",
         ),
+        (
+            r#"structure_factor={"every":1,"range":0.5}"#,
+            "structure_factor.range: found 0.5; accepted: at least 0.6283, the wave number of one wave along the longest periodic",
+        ),
+        (
+            r#"structure_factor={"every":1,"range":9,"bins":1000,"vectors":60,"species":"all-pairs"}"#,
+            "structure_factor: found 1000 bins of 60 wave vectors and 3 species; accepted: at most 65536 in all",
+        ),
+        (r#"structure_factor={"every":1,"range":9,"species":["tail","heads"]}"#, "species[1]: found \"heads\""),
         (r#"diffusion={"every":1,"window":2,"species":"wall"}"#, "diffusion.species: found \"wall\", which is held"),
         (r#"histograms=[{"quantity":"speed","every":1,"species":"Head"}]"#, "histograms[0].species: found \"Head\""),
         (r#"autocorrelations=[{"quantity":"force","every":1,"window":2,"species":"tails"}]"#, "did you mean `tail`?"),

@@ -6,6 +6,7 @@ use mesoscope::engine::{Engine, Sample};
 use mesoscope::families::Model;
 use mesoscope::families::reference::Reference;
 use mesoscope::measure::histogram::{gaussian_mean, maxwell_mean};
+use mesoscope::measure::wave_vectors::wave_vectors;
 use mesoscope::output::read_table;
 use mesoscope::plan::Options;
 use mesoscope::run::{Outcome, Simulation};
@@ -286,6 +287,62 @@ fn pairs_of_species_are_counted_by_themselves() {
     }
 }
 
+/// Amplitudes of density waves on the device and in float64, of all particles and of species.
+#[test]
+fn density_waves_are_those_of_the_reference() {
+    let particles = r#"particles=[{"species":"A","count":120},{"species":"B","count":90},{"species":"C","count":60}]"#;
+    let edges = [Some(5.0); 3];
+    let waves = wave_vectors(edges, 12.0, 30, 6).concat();
+    assert!(waves.len() > 120 && waves.iter().flatten().any(|count| *count < -5));
+    for (integrator, species) in
+        [(SPLITTING, ""), (COTTER_REICH, r#","species":"all-pairs""#), (SPLITTING, r#","species":["C","A"]"#)]
+    {
+        let output = format!(r#"output.structure_factor={{"every":4,"range":12,"bins":30,"vectors":6{species}}}"#);
+        let changes = [integrator, particles, "time.step=0.01", "time.steps=100", "output.energies.every=4", &output];
+        let (found, reference) = last_sample_and_reference(&fluid(&changes), 8);
+        let of: &[Option<usize>] = match species {
+            "" => &[None],
+            species if species.contains("all") => &[Some(0), Some(1), Some(2)],
+            _ => &[Some(0), Some(2)],
+        };
+        let expected = waves.iter().flat_map(|waves| of.iter().flat_map(|of| reference.density_wave(*waves, *of)));
+        let found: Vec<f64> = found.iter().map(|sum| *sum as f64 / 2_f64.powi(24)).collect();
+        assert_eq!(found.len(), 2 * waves.len() * of.len());
+        for (place, (found, expected)) in found.iter().zip(expected).enumerate() {
+            assert!((found - expected).abs() < 1e-4, "{species} {place}: {found} {expected}");
+        }
+    }
+}
+
+/// Particles on a cubic lattice scatter with all their number where the wave vector is one of the reciprocal lattice, and not at all elsewhere.
+#[test]
+fn a_lattice_scatters_where_its_planes_do() {
+    let directory = tempfile::tempdir().unwrap();
+    run(
+        fluid(&[
+            "interactions=[]",
+            "temperature=0",
+            "space.box=[6,6,6]",
+            r#"particles=[{"species":"A","count":216,"placement":{"type":"lattice"}}]"#,
+            "time.steps=2",
+            "time.equilibration=0",
+            r#"output.structure_factor={"every":1,"range":11.2,"bins":560,"vectors":100}"#,
+        ]),
+        directory.path(),
+    );
+    let curve = table(directory.path(), "structure_factor.csv");
+    // Planes of the lattice are 1 apart, and 1/√2, 1/√3 along its diagonals.
+    let turn = std::f64::consts::TAU;
+    for peak in [turn, turn * 2_f64.sqrt(), turn * 3_f64.sqrt()] {
+        let row = curve.rows.iter().find(|row| (row[0] - peak).abs() < 0.01).unwrap();
+        // Other wave vectors are as long.
+        let share = row[2] * row[1] / 216.0;
+        assert!((share - share.round()).abs() < 1e-5 && share > 0.9, "{row:?}");
+    }
+    let first = curve.rows.iter().position(|row| row[0] > turn - 0.01).unwrap();
+    assert!(curve.rows[..first].iter().all(|row| row[2].abs() < 1e-9), "{:?}", &curve.rows[..first]);
+}
+
 /// Of an ideal gas of two species every g(r) is one, and the speeds of each are those of its mass.
 #[test]
 fn species_have_results_of_their_own() {
@@ -298,6 +355,7 @@ fn species_have_results_of_their_own() {
             "time.steps=1200",
             "time.equilibration=0",
             r#"output={"radial_distribution":{"every":60,"range":2.5,"bins":10,"species":"all-pairs"},
+                "structure_factor":{"every":60,"range":6,"bins":6,"vectors":20,"species":"all-pairs"},
                 "diffusion":{"every":10,"window":20,"species":"heavy"},
                 "autocorrelations":[{"quantity":"velocity","every":10,"window":20,"species":"light"}],
                 "histograms":[{"quantity":"velocity","every":10,"species":"heavy"}]}"#,
@@ -332,6 +390,16 @@ fn species_have_results_of_their_own() {
         // Each of eight is known to a sixth. Heavy particles fly on by a third of the box, and remember a little.
         let mean = errors.iter().sum::<f64>() / errors.len() as f64;
         assert!(mean > 0.7 && mean < 1.6, "{column}: {errors:?}");
+    }
+    // Waves of one species are independent of each other and of those of the other: each is 1 ± 1, and their products 0 ± 1/√2.
+    let curves = table(directory.path(), "structure_factor.csv");
+    assert_eq!(curves.columns[4], "structure_factor_0_1");
+    for row in &curves.rows {
+        for (column, expected, scatter) in [(2, 1.0, 1.0), (4, 0.0, 0.5_f64.sqrt()), (6, 1.0, 1.0)] {
+            let error = scatter / (21.0 * row[1]).sqrt();
+            assert!((row[column] - expected).abs() < 5.0 * error, "{column}: {row:?} ± {error}");
+            assert!(row[column + 1] > 0.4 * error && row[column + 1] < 4.0 * error, "{column}: {row:?} ± {error}");
+        }
     }
     // Momenta are constant: the mean square over a species is that of its start, 3 kT/m to a few parts in a hundred.
     let square = |analysis: &str| number(&outcome, &[analysis, "mean_square"]);

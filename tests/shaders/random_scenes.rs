@@ -162,6 +162,8 @@ fn output(draws: &mut Draws, across: &str) -> Value {
         ("radial_distribution", json!({"every": 2, "range": 1.5, "bins": 10})),
         ("radial_distribution", json!({"every": 2, "range": 1.5, "bins": 10, "species": "all-pairs"})),
         ("radial_distribution", json!({"every": 2, "range": 1.5, "bins": 10, "species": "A"})),
+        ("structure_factor", json!({"every": 2, "range": 9, "bins": 5, "vectors": 2})),
+        ("structure_factor", json!({"every": 2, "range": 9, "bins": 5, "vectors": 2, "species": "all-pairs"})),
         ("diffusion", json!({"every": 1, "window": 2})),
         ("diffusion", json!({"every": 1, "window": 2, "species": "A"})),
         ("chain_sizes", json!({"every": 2})),

@@ -197,7 +197,7 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
     ];
     let analyses = [
         json!({
-            "radial_distribution": {"every": 2, "range": 1.1}, "diffusion": {"every": 2, "window": 4},
+            "radial_distribution": {"every": 2, "range": 1.1}, "structure_factor": {"every": 2, "range": 9}, "diffusion": {"every": 2, "window": 4},
             "viscosity": {"every": 2, "window": 4}, "trajectory": {"every": 5}, "chain_sizes": {"every": 2},
             "autocorrelations": [
                 {"quantity": "velocity", "every": 2, "window": 4}, {"quantity": "force", "every": 2, "window": 4},

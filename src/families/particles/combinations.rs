@@ -63,6 +63,7 @@ features! {
     State "`state`" "A start from a file."
     Molecules "`molecules`" "A start from molecules."
     RadialDistribution "`radial_distribution`" "The radial distribution function."
+    StructureFactor "`structure_factor`" "The structure factor."
     Diffusion "`diffusion`" "Displacements and velocity correlations."
     ChainSizes "`chain_sizes`" "Sizes of chains."
     Viscosity "`viscosity`" "The viscosity from momentum waves."
@@ -161,6 +162,7 @@ pub const REFUSALS: &[Refusal] = &[
     missing(Splitting, &[PairsWithMemory], "a split step that relaxes pairs with memory; `cotter-reich` takes them"),
     missing(Splitting, &[Line, HarmonicChain], "a split step of pairs in a list; `cotter-reich` takes them"),
     missing(Shear, &[Walls], "images of walls that boundaries carry along; walls that move make a shear flow too"),
+    physics(StructureFactor, &[Shear], "the wave vectors of a box that shears lean with it"),
     missing(RadialDistribution, &[Shear], "pairs further than the cutoff are found round a box at rest"),
     missing(Diffusion, &[Shear], "displacements in a flow that carries copies past each other"),
     missing(
@@ -169,7 +171,7 @@ pub const REFUSALS: &[Refusal] = &[
         "what a bath or a noise remembers does not change its rank with the particle",
     ),
     missing(Ranks, &[Line], "pairs in a list"),
-    missing(Ranks, &[Autocorrelations, Histograms, Stress, Profiles], "measured on one device"),
+    missing(Ranks, &[StructureFactor, Autocorrelations, Histograms, Stress, Profiles], "measured on one device"),
 ];
 
 impl Feature {
@@ -194,6 +196,7 @@ impl Feature {
             State => when(scene.state.is_some(), "state"),
             Molecules => when(!scene.molecules.is_empty(), "molecules"),
             RadialDistribution => when(output.radial_distribution.is_some(), "output.radial_distribution"),
+            StructureFactor => when(output.structure_factor.is_some(), "output.structure_factor"),
             Diffusion => when(output.diffusion.is_some(), "output.diffusion"),
             ChainSizes => when(output.chain_sizes.is_some(), "output.chain_sizes"),
             Viscosity => when(output.viscosity.is_some(), "output.viscosity"),

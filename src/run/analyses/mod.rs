@@ -20,7 +20,9 @@ mod quantities;
 mod radial_distribution;
 mod results;
 mod shear_wave;
+mod species_pairs;
 mod stress;
+mod structure_factor;
 mod under_way;
 mod viscosity;
 
@@ -48,6 +50,7 @@ use serde_json::{Map, Value};
 fn describe(id: AnalysisId) -> Box<dyn Descriptor> {
     match id {
         AnalysisId::RadialDistribution => Box::new(radial_distribution::RadialDistribution),
+        AnalysisId::StructureFactor => Box::new(structure_factor::StructureFactor),
         AnalysisId::Diffusion => Box::new(diffusion::Diffusion),
         AnalysisId::ChainSizes => Box::new(chain_sizes::ChainSizes),
         AnalysisId::Viscosity => Box::new(viscosity::Viscosity),

@@ -1,11 +1,11 @@
 //! Pairs counted by distance, for the radial distribution function.
 
 use super::Planner;
-use crate::families::Model;
+use super::species_pairs::SpeciesPairs;
 use crate::plan::recording::record_histogram;
 use crate::plan::serial_memory::TURNS;
 use crate::plan::{Grid, Kernel, Options, Ordered, Sampler};
-use crate::scene::{self, AnalysisId, RadialDistribution};
+use crate::scene::{AnalysisId, RadialDistribution};
 use crate::shaders::analyses::{CountedPairs, Partial};
 use crate::shaders::core::Dispatches;
 use crate::shaders::{Array, Constant, Entry};
@@ -26,48 +26,8 @@ const MOST_DISPATCHES: u64 = 1 << 12;
 /// Enough workgroups to fill an adapter.
 const ENOUGH: u64 = 8192;
 
-/// The pairs of species that have histograms.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum SpeciesPairs {
-    /// All particles alike.
-    Alike,
-    /// Two species, the smaller number first.
-    Between([usize; 2]),
-    /// Every two of this number.
-    All(usize),
-}
-
+/// How the kernel knows the pairs of species.
 impl SpeciesPairs {
-    /// Those that a scene asks for.
-    pub fn of(asked: &RadialDistribution, model: &Model) -> Self {
-        let number = |name: &String| model.species_named(name).unwrap_or_default();
-        match &asked.species {
-            None => Self::Alike,
-            Some(scene::CountedPairs::Within(name)) if name == scene::CountedPairs::ALL => {
-                Self::All(model.species.len())
-            }
-            Some(scene::CountedPairs::Within(name)) => Self::Between([number(name); 2]),
-            Some(scene::CountedPairs::Between(names)) => {
-                let [a, b] = [number(&names[0]), number(&names[1])];
-                Self::Between([a.min(b), a.max(b)])
-            }
-        }
-    }
-
-    /// Two species of each histogram, in their order; nothing for all particles alike.
-    pub fn species(self) -> Vec<[usize; 2]> {
-        match self {
-            Self::Alike => Vec::new(),
-            Self::Between(pair) => vec![pair],
-            Self::All(count) => (0..count).flat_map(|b| (0..=b).map(move |a| [a, b])).collect(),
-        }
-    }
-
-    /// Number of histograms.
-    pub fn histograms(self) -> u64 {
-        self.species().len().max(1) as u64
-    }
-
     fn choice(self) -> Option<Partial> {
         match self {
             Self::Alike => None,
@@ -101,7 +61,7 @@ impl PairHistogram<'_> {
     pub fn add(self, planner: &mut Planner<'_>, ordered: &Ordered) {
         let plan = &mut *planner.plan;
         let mut kernels = ordered.kernels.clone();
-        let bins = u64::from(self.asked.bins) * self.pairs.histograms();
+        let bins = u64::from(self.asked.bins) * self.pairs.curves();
         let spans: [u64; 3] = std::array::from_fn(|axis| self.span(axis));
         let (segments, parts) = self.shares(plan.particles, spans);
         let shares = self.grid.rows() * segments * parts;

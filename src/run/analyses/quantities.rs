@@ -38,14 +38,29 @@ pub(super) fn of(id: AnalysisId) -> &'static [Quantity] {
                         "pairs over those of particles that are spread evenly",
                     ),
                     quantity("pairs", "N", NUMBER, "pairs counted in all samples"),
-                    quantity(
-                        "filled_from",
-                        "r",
-                        LENGTH,
-                        "distance from which on 25 pairs or more of an ideal gas would be in a bin",
-                    ),
                     quantity("peak_distance", "r_p", LENGTH, "distance of the maximum"),
                     quantity("peak_height", "g(r_p)", NUMBER, "height of the maximum"),
+                ]
+            }
+        }
+        AnalysisId::StructureFactor => {
+            const {
+                &[
+                    quantity("wave_number", "q", WAVE_NUMBER, "mean magnitude of the wave vectors of the bin"),
+                    quantity(
+                        "structure_factor",
+                        "S",
+                        NUMBER,
+                        "⟨ρ_a ρ_b*⟩/√(N_a N_b), 1 for pairs of an ideal gas within a species and 0 between two",
+                    ),
+                    quantity(
+                        "vectors",
+                        "n",
+                        NUMBER,
+                        "wave vectors of the bin, of every two that point against each other one",
+                    ),
+                    quantity("peak_wave_number", "q_p", WAVE_NUMBER, "wave number of the maximum"),
+                    quantity("peak_height", "S(q_p)", NUMBER, "height of the maximum"),
                 ]
             }
         }
@@ -403,12 +418,10 @@ mod tests {
 
     /// The page of all quantities.
     fn page() -> String {
-        let mut text = "# Columns and results\n\n\
+        let mut text = "# Columns of the table of energies\n\n\
             Units are those of the scene: of length, mass, time and energy; in shallow water the unit of mass is the water\n\
             that a node holds at the mean depth. A volume is an area in two dimensions, and a length in one. `columns` of\n\
-            [`run.json`](guide/summary.md) has those of a run. This page is made from `src/quantity.rs` and\n\
-            `src/run/analyses/quantities.rs` by `MESOSCOPE_RECORD=1 cargo test --lib quantities`.\n\n\
-            ## The table of energies\n\n\
+            [`run.json`](guide/summary.md) has those of a run. This page is made from `src/quantity.rs` by `MESOSCOPE_RECORD=1 cargo test --lib quantities`.\n\n\
             `energies.csv` has the columns of this table that have a meaning for its scene. A vector has a column for each\n\
             axis (`momentum_x`, `momentum_y`, …), and `wall_momentum` one for each wall and axis\n\
             (`wall_z_lower_momentum_x`, …). Those that settle fluctuate about a constant in equilibrium: a run looks for\n\
@@ -419,20 +432,30 @@ mod tests {
             let settles = if quantity.settles { "✓" } else { "" };
             row(&mut text, quantity, &format!(" {settles} |"));
         }
-        text += "\n## Analyses\n\n\
-            Columns of tables and keys of results. Vectors have a column for each axis (`velocity_x`), tensors one for each\n\
-            component (`pressure_xy`), and species their numbers in the order of the scene (`number_density_0`,\n\
-            `radial_distribution_0_1`); a column that ends in `_error` is the standard error of the one before it.\n";
+        text
+    }
+
+    /// The page of the quantities of analyses.
+    fn page_of_analyses() -> String {
+        let mut text = "# What analyses find\n\n\
+            Columns of the tables of analyses, and keys of their results in [`run.json`](guide/summary.md). Units are those of\n\
+            [the other columns](columns.md). Vectors have a column for each axis (`velocity_x`), tensors one for each component\n\
+            (`pressure_xy`), and species their numbers in the order of the scene (`number_density_0`,\n\
+            `radial_distribution_0_1`); a column that ends in `_error` is the standard error of the one before it. This page is\n\
+            made from `src/run/analyses/quantities.rs` by `MESOSCOPE_RECORD=1 cargo test --lib quantities`.\n"
+            .to_owned();
         for id in AnalysisId::ALL {
             let tables: Vec<String> = id.tables().iter().map(|names| format!("`{}`", names.file)).collect();
             write!(
                 text,
-                "\n### {}\n\n{}\n\n| name | symbol | unit | meaning |\n|---|---|---|---|\n",
+                "\n## {}\n\n{}\n\n| name | symbol | unit | meaning |\n|---|---|---|---|\n",
                 id.name(),
                 tables.join(", ")
             )
             .unwrap();
-            of(id).iter().for_each(|quantity| row(&mut text, quantity, ""));
+            for quantity in of(id) {
+                row(&mut text, quantity, "");
+            }
         }
         text
     }
@@ -444,13 +467,15 @@ mod tests {
     }
 
     #[test]
-    fn the_page_of_the_documentation_is_made_from_the_tables() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/columns.md");
-        if std::env::var_os("MESOSCOPE_RECORD").is_some() {
-            std::fs::write(&path, page()).unwrap();
+    fn pages_of_the_documentation_are_made_from_the_tables() {
+        for (name, page) in [("docs/columns.md", page()), ("docs/results.md", page_of_analyses())] {
+            let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+            if std::env::var_os("MESOSCOPE_RECORD").is_some() {
+                std::fs::write(&path, &page).unwrap();
+            }
+            let written = std::fs::read_to_string(&path).unwrap();
+            assert!(written == page, "{name} is not that of the tables: MESOSCOPE_RECORD=1 writes it");
         }
-        let written = std::fs::read_to_string(&path).unwrap();
-        assert!(written == page(), "docs/columns.md is not that of the tables: MESOSCOPE_RECORD=1 writes it");
     }
 
     #[test]

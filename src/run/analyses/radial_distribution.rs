@@ -1,20 +1,18 @@
 //! The radial distribution function.
 
-use super::pair_histogram::{PairHistogram, SpeciesPairs};
-use super::{
-    Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, number, printed_estimate,
-};
+use super::pair_histogram::PairHistogram;
+use super::species_pairs::{PAIRS, SPECIES, SpeciesPairs, names, pair_in_words, results_of};
+use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, printed_estimate};
 use crate::engine::Sample;
 use crate::families::Checked;
 use crate::measure::blocks::BlockSums;
+use crate::measure::peak::peak;
 use crate::measure::statistics::Estimate;
 use crate::plan::Need;
 use crate::plot::{Chart, Series, radial_distribution_chart};
-use crate::printable;
 use crate::scene::Output;
 use crate::table::Table;
 use serde_json::{Value, json};
-use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Columns of the table, and names in the result.
@@ -23,10 +21,6 @@ const VALUE: &str = "radial_distribution";
 const COUNTED: &str = "pairs";
 const PEAK_DISTANCE: &str = "peak_distance";
 const PEAK_HEIGHT: &str = "peak_height";
-const FILLED: &str = "filled_from";
-/// The pairs of species of a result, and the two species of a pair.
-const PAIRS: &str = "pairs";
-const SPECIES: &str = "species";
 
 /// Bins with fewer pairs, and fewer still if particles were spread evenly, are known to no better than a fifth: they are not shown, nor searched for
 /// the peak.
@@ -53,7 +47,7 @@ impl Descriptor for RadialDistribution {
             grid: &ordered.grid,
             options: planner.options,
             asked,
-            pairs: SpeciesPairs::of(asked, model),
+            pairs: SpeciesPairs::of(asked.species.as_ref(), model),
         };
         histogram.add(planner, ordered);
     }
@@ -62,7 +56,7 @@ impl Descriptor for RadialDistribution {
         // Pairs by distance. Their errors stand in a chart, where a tenth of them does not show.
         let asked = scene.output.radial_distribution.iter();
         asked
-            .map(|asked| u64::from(asked.bins) * SpeciesPairs::of(asked, scene.model()).histograms())
+            .map(|asked| u64::from(asked.bins) * SpeciesPairs::of(asked.species.as_ref(), scene.model()).curves())
             .map(|bins| Part::Blocks(BlockSums::with_most(bins as usize, 64)))
             .collect()
     }
@@ -74,7 +68,7 @@ impl Descriptor for RadialDistribution {
     fn conclude(&self, Setting { scene, plan }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
         let model = scene.model();
         let asked = scene.output.radial_distribution.as_ref()?;
-        let pairs = SpeciesPairs::of(asked, model);
+        let pairs = SpeciesPairs::of(asked.species.as_ref(), model);
         let counts = gathered.blocks()?;
         let units = &model.units;
         // Distances of walls that face each other.
@@ -95,7 +89,7 @@ impl Descriptor for RadialDistribution {
             Some([a, b]) => particles(*a) * particles(*b),
         };
         let curve = |place: usize| Curve { place, counts, pairs: number_of_pairs(place), shells: &shells, width };
-        let curves: Vec<Curve<'_>> = (0..pairs.histograms() as usize).map(curve).collect();
+        let curves: Vec<Curve<'_>> = (0..pairs.curves() as usize).map(curve).collect();
         // A pair of species without particles has no curve, beside others that have one.
         let some = curves.iter().any(|curve| curve.pairs > 0.0);
         let curves: Vec<Curve<'_>> = curves.into_iter().filter(|curve| !some || curve.pairs > 0.0).collect();
@@ -103,12 +97,7 @@ impl Descriptor for RadialDistribution {
             let cells = curves.iter().flat_map(|curve| curve.cells(bin));
             std::iter::once((bin as f64 + 0.5) * width).chain(cells).collect()
         });
-        let is_of_all_pairs = matches!(pairs, SpeciesPairs::All(_));
-        let suffix = |curve: &Curve<'_>| match species.get(curve.place) {
-            Some([a, b]) if is_of_all_pairs => format!("_{a}_{b}"),
-            _ => String::new(),
-        };
-        let columns = curves.iter().map(suffix).flat_map(|suffix| {
+        let columns = curves.iter().map(|curve| pairs.suffix(curve.place)).flat_map(|suffix| {
             [format!("{VALUE}{suffix}"), format!("{VALUE}{suffix}_error"), format!("{COUNTED}{suffix}")]
         });
         let table = Table::new([DISTANCE.to_owned()].into_iter().chain(columns), rows.collect());
@@ -118,13 +107,11 @@ impl Descriptor for RadialDistribution {
         } else if !some {
             Err("there are no pairs of particles".to_owned())
         } else {
-            let name = |number: usize| model.species.get(number).map_or("", |species| &species.name);
             let mut found: Vec<Value> = Vec::new();
             for curve in &curves {
                 let [distance, height] = [0, 1].map(|part| counts.jackknife(|means| Some(curve.peak(means)?[part])));
                 let mut result = json!({ "samples": counts.samples(), PEAK_DISTANCE: distance, PEAK_HEIGHT: height });
-                result[FILLED] = json!(curve.filled_from());
-                let pair = species.get(curve.place).map(|pair| pair.map(name));
+                let pair = species.get(curve.place).map(|pair| pair.map(|number| &model.species[number].name[..]));
                 if let Some(pair) = pair {
                     result[SPECIES] = json!(pair);
                 }
@@ -137,26 +124,26 @@ impl Descriptor for RadialDistribution {
                     ));
                 }
             }
-            Ok(if is_of_all_pairs { json!({ PAIRS: found }) } else { found.swap_remove(0) })
+            Ok(if pairs.are_all() { json!({ PAIRS: found }) } else { found.swap_remove(0) })
         };
         Some(Conclusion { warnings, ..Conclusion::new(table, result) })
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
-        let results = drawn.result[PAIRS].as_array().map_or(std::slice::from_ref(drawn.result), Vec::as_slice);
         let columns = drawn.table.columns.iter().filter(|name| name.starts_with(VALUE) && !name.ends_with("_error"));
         let curve = |(column, result): (&String, &Value)| {
             let counted = drawn.column(&column.replacen(VALUE, COUNTED, 1));
-            let filled = number(&result[FILLED]).unwrap_or(0.0);
-            let shown =
-                |row: usize, distance: f64| distance > filled || counted.get(row).is_none_or(|count| *count >= FEW);
-            let distances = drawn.column(DISTANCE).into_iter().zip(drawn.column(column)).enumerate();
-            let points = distances
-                .map(|(row, (distance, value))| [distance, if shown(row, distance) { value } else { f64::NAN }]);
+            let values = drawn.column(column);
+            // Counted pairs over g are those of an ideal gas, of which shells have the fewer the smaller they are.
+            let has_few = |(value, count): (&f64, &f64)| *count > 0.0 && *count < FEW && count / value < FEW;
+            let few = values.iter().zip(&counted).rposition(has_few).map_or(0, |row| row + 1);
+            let is_shown = |row: usize| row >= few || counted.get(row).is_none_or(|count| *count >= FEW);
+            let shown = values.iter().enumerate().map(|(row, value)| if is_shown(row) { *value } else { f64::NAN });
+            let points = drawn.column(DISTANCE).into_iter().zip(shown).map(|(distance, value)| [distance, value]);
             let name = pair_in_words(names(result)).unwrap_or_else(|| "g(r)".to_owned());
             Series::line(&name, points.collect()).with_band(drawn.column(&format!("{column}_error")))
         };
-        radial_distribution_chart(drawn.title(), columns.zip(results).map(curve).collect())
+        radial_distribution_chart(drawn.title(), columns.zip(results_of(drawn.result)).map(curve).collect())
     }
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
@@ -165,15 +152,12 @@ impl Descriptor for RadialDistribution {
             let pair = pair_in_words(names(peaks)).map(|pair| format!(" of {pair}")).unwrap_or_default();
             Some((format!("g(r) peak{pair}"), format!("{} at {}", height?, distance?)))
         };
-        match result[PAIRS].as_array() {
-            Some(pairs) => pairs.iter().filter_map(line).collect(),
-            None => line(result).into_iter().collect(),
-        }
+        results_of(result).iter().filter_map(line).collect()
     }
 
     fn finds(&self, scene: &Checked) -> Vec<&'static str> {
         let asked = scene.output.radial_distribution.as_ref();
-        match asked.map(|asked| SpeciesPairs::of(asked, scene.model())) {
+        match asked.map(|asked| SpeciesPairs::of(asked.species.as_ref(), scene.model())) {
             Some(SpeciesPairs::All(_)) => Vec::new(),
             _ => vec![PEAK_DISTANCE, PEAK_HEIGHT],
         }
@@ -214,29 +198,12 @@ impl Curve<'_> {
         even.max(self.counts.total(self.of(bin))) < FEW
     }
 
-    /// The distance from which on an ideal gas fills the bins.
-    fn filled_from(&self) -> f64 {
-        let empty = (0..self.shells.len()).rposition(|bin| self.counts.samples() as f64 * self.even(bin) < FEW);
-        empty.map_or(0.0, |bin| (bin + 1) as f64 * self.width)
-    }
-
     /// Place and height of the maximum, from mean counts; bins of a few pairs are left out.
     fn peak(&self, means: &[f64]) -> Option<[f64; 2]> {
         let bins = (0..self.shells.len()).skip_while(|bin| self.has_few(*bin));
         let row = |bin: usize| [(bin as f64 + 0.5) * self.width, means[self.of(bin)] / self.even(bin)];
         peak(&bins.map(row).collect::<Vec<_>>())
     }
-}
-
-/// The names of the species of a pair, if a result is of one.
-fn names(result: &Value) -> impl Iterator<Item = &str> {
-    result[SPECIES].as_array().into_iter().flatten().filter_map(Value::as_str)
-}
-
-/// The names of two species for people; none if these are not two.
-fn pair_in_words<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<String> {
-    let names: Vec<Cow<'_, str>> = names.into_iter().map(printable::name).collect();
-    (names.len() == 2).then(|| names.join("–"))
 }
 
 /// The mean volume that particles spread evenly have within a radius around each other: of a ball, less what of it lies
@@ -258,55 +225,5 @@ fn ball(radius: f64, dimension: usize, gaps: &[f64]) -> f64 {
             4.0 / 3.0 * PI * r.powi(3) - 0.5 * PI * singles * r.powi(4) + 8.0 / 15.0 * pairs * r.powi(5)
                 - triple * r.powi(6) / 6.0
         }
-    }
-}
-
-/// Bins on each side of the highest that a parabola is fitted to: noise makes the highest single bin too high.
-const PEAK_BINS: usize = 4;
-
-/// Place and height of the maximum of (x, y) rows; none without a positive value, nor where the last bins are the highest: what lies
-/// beyond the range may be higher. Near contact the highest bin is taken.
-fn peak(rows: &[[f64; 2]]) -> Option<[f64; 2]> {
-    let highest =
-        (0..rows.len()).filter(|bin| rows[*bin][1] > 0.0).max_by(|a, b| rows[*a][1].total_cmp(&rows[*b][1]))?;
-    let plain = Some([rows[highest][0], rows[highest][1]]);
-    let Some(first) = highest.checked_sub(PEAK_BINS) else { return plain };
-    let window = rows.get(first..=highest + PEAK_BINS)?;
-    // Least squares in units of bins from the middle, where odd moments vanish.
-    let half = PEAK_BINS as f64;
-    let offsets = || (0..window.len()).map(|bin| bin as f64 - half);
-    let moment = |power: i32| offsets().map(|x| x.powi(power)).sum::<f64>();
-    let product = |power: i32| offsets().zip(window).map(|(x, row)| x.powi(power) * row[1]).sum::<f64>();
-    let (count, second, fourth) = (window.len() as f64, moment(2), moment(4));
-    let curvature = (count * product(2) - second * product(0)) / (count * fourth - second * second);
-    let level = (product(0) - curvature * second) / count;
-    let slope = product(1) / second;
-    let top = -slope / (2.0 * curvature);
-    if curvature < 0.0 && top.abs() <= half {
-        let bin = window[1][0] - window[0][0];
-        Some([rows[highest][0] + top * bin, level + 0.5 * slope * top])
-    } else {
-        plain
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    #![allow(clippy::unwrap_used)]
-    use super::*;
-
-    #[test]
-    fn the_peak_of_a_parabola_is_found_between_bins() {
-        let rows: Vec<[f64; 2]> = (0..40)
-            .map(|bin| 0.02 * (f64::from(bin) + 0.5))
-            .map(|x| [x, 1.2 - 3.0 * (x - 0.433_f64).powi(2)])
-            .collect();
-        let [place, height] = peak(&rows).unwrap();
-        assert!((place - 0.433).abs() < 1e-12 && (height - 1.2).abs() < 1e-12, "{place} {height}");
-        assert_eq!(peak(&[[1.0, 2.0], [2.0, 1.0]]), Some([1.0, 2.0]));
-        assert_eq!(peak(&[[1.0, 0.0]]), None);
-        let rising: Vec<[f64; 2]> = (0..20).map(|bin| [f64::from(bin), f64::from(bin)]).collect();
-        assert_eq!(peak(&rising), None);
-        assert_eq!(peak(&[[1.0, f64::NAN]]), None);
     }
 }

@@ -644,6 +644,23 @@ pub fn features() -> Vec<Feature> {
             always: true,
         },
         Feature {
+            name: "structure factor",
+            ground: no_analyses,
+            with: |scene| write(scene, "structure_factor", json!({"every": 2, "range": 9})),
+            without: |scene| write(scene, "structure_factor", Value::Null),
+            own: Some(&["kernel structure_factor", "array wave_vectors", "array density_wave"]),
+            more: &[
+                "structure_factor",
+                "record_histogram",
+                "wave_vectors",
+                "density_waves",
+                "density_wave_samples",
+                "reported",
+            ],
+            instead: &[],
+            always: true,
+        },
+        Feature {
             name: "sizes of chains",
             ground: no_analyses,
             with: |scene| write(scene, "chain_sizes", json!({"every": 2})),

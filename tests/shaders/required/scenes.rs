@@ -373,9 +373,10 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
 }
 
 const LISTS: [&str; 2] = ["autocorrelations", "histograms"];
-const ANALYSES: [&str; 11] = [
+const ANALYSES: [&str; 12] = [
     "trajectory",
     "radial_distribution",
+    "structure_factor",
     "diffusion",
     "chain_sizes",
     "viscosity",

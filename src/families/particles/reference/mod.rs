@@ -279,6 +279,13 @@ impl Reference {
         observables::radial_distribution(self, range, bins, Some(species))
     }
 
+    /// Amplitude of the density of a species, by its number, or of all particles that are not frozen: Σ cos q·r and Σ sin q·r, for a wave
+    /// vector of so many waves along each axis of the box.
+    #[must_use]
+    pub fn density_wave(&self, waves: [i32; 3], species: Option<usize>) -> [f64; 2] {
+        observables::density_wave(self, waves, species)
+    }
+
     /// Whether steps are split: they drift in two equal halves, between which a report may fall.
     fn splits(&self) -> bool {
         self.model.particles().splits(&self.model)

@@ -9,6 +9,7 @@ use crate::families::particles::space::walls::reference as walls;
 use crate::families::particles::terms::{body_forces, tethers};
 use crate::families::{BathProducts, Model, Observables};
 use crate::state::State;
+use std::f64::consts::TAU;
 
 /// What is observed of the motion: momenta p(n) of particles of some masses. The configuration is left at zero.
 pub(super) fn of_motion(model: &Model, state: &State, masses: &[f64], momenta: &[[i64; 3]]) -> Observables {
@@ -77,6 +78,24 @@ fn products(reference: &Reference, report: &Report) -> BathProducts {
         displacement: mean(sums.displacement),
         momentum_displacement: mean(sums.momentum_displacement),
     }
+}
+
+/// Σ cos q·r and Σ sin q·r over the particles of a species, or all that are not frozen, for so many waves along each axis of the box.
+pub(super) fn density_wave(reference: &Reference, waves: [i32; 3], species: Option<usize>) -> [f64; 2] {
+    let (model, state) = (&reference.model, &reference.state);
+    let mut sums = [0.0; 2];
+    for (position, of) in state.positions.iter().zip(&state.species) {
+        let of = *of as usize;
+        if model.species[of].frozen || species.is_some_and(|asked| asked != of) {
+            continue;
+        }
+        // Whole turns count for nothing.
+        let turns =
+            (0..3).fold(0_u32, |turns, axis| turns.wrapping_add(position[axis].wrapping_mul(waves[axis] as u32)));
+        let (sine, cosine) = (TAU * f64::from(turns) / 2_f64.powi(32)).sin_cos();
+        sums = [sums[0] + cosine, sums[1] + sine];
+    }
+    sums
 }
 
 /// Counts of unordered pairs in `bins` equal bins of distance up to `range`, of two species or of all.
