@@ -36,6 +36,9 @@ pub struct Output {
     /// Mean squared displacement and velocity autocorrelation of the particles that can move.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diffusion: Option<Diffusion>,
+    /// Clusters of particles that are close to each other, such as micelles and drops.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clusters: Option<Clusters>,
     /// Sizes of chains and molecules: squared distance of the ends and squared radius of gyration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chain_sizes: Option<SampleInterval>,
@@ -84,6 +87,7 @@ impl Output {
             (AnalysisId::RadialDistribution, self.radial_distribution.is_some()),
             (AnalysisId::StructureFactor, self.structure_factor.is_some()),
             (AnalysisId::Diffusion, self.diffusion.is_some()),
+            (AnalysisId::Clusters, self.clusters.is_some()),
             (AnalysisId::Viscosity, self.viscosity.is_some()),
             (AnalysisId::ChainSizes, self.chain_sizes.is_some()),
             (AnalysisId::Chain, self.chain.is_some()),
@@ -127,6 +131,13 @@ impl Output {
         let counted = counted
             .filter_map(|(index, asked)| Some((format!("output.histograms[{index}]"), asked.species.as_deref()?)));
         diffusion.chain(correlated).chain(counted)
+    }
+
+    /// Species that analyses of places name, with the places of these in the scene: their particles may be held.
+    pub(crate) fn placed_species(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        let clusters = self.clusters.as_ref().map(|asked| ("output.clusters.species", &asked.species));
+        let profiles = self.profiles.as_ref().map(|asked| ("output.profiles.species", &asked.species));
+        [clusters, profiles].into_iter().flatten().filter_map(|(path, species)| Some((path, species.as_deref()?)))
     }
 
     /// Frames of velocities that analyses name, with the places of these in the scene and their quantities.
@@ -222,6 +233,26 @@ pub struct SampleInterval {
     pub every: u64,
 }
 
+/// Clusters: particles are of one where they are closer than a distance, or joined by a bond.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Clusters {
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+    /// The distance below which two particles are of one cluster, at most half the shortest box edge: such as the first minimum of their radial
+    /// distribution function.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub distance: f64,
+    /// Particles of the smallest cluster that is counted; smaller ones are in the table of sizes only.
+    #[serde(default = "whole::<1>")]
+    #[schemars(range(min = 1))]
+    pub least: u32,
+    /// The species that clusters are made of; left out, all that is not frozen behind walls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<String>,
+}
+
 /// Shear viscosity from the decay of the longest transverse momentum waves.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -294,9 +325,13 @@ pub struct Stress {
     /// Steps between two samples.
     #[schemars(range(min = 1))]
     pub every: u64,
-    /// The axis across two flat interfaces, those of a slab: their surface tension follows. Left out, none.
+    /// The axis across flat interfaces, such as the two of a slab: their surface tension follows. Left out, none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal: Option<Axis>,
+    /// Number of interfaces across `normal` that share the tension; left out, the two of a slab.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 10_000))]
+    pub interfaces: Option<u32>,
     /// Largest lag of the autocorrelation of the shear stress, in samples: the shear viscosity follows, by Green and Kubo. Left out,
     /// none. With friction that has no memory, samples have to be those of every step.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -321,6 +356,9 @@ pub struct Profiles {
     #[serde(default = "usual_profiles")]
     #[schemars(length(min = 1, max = 16))]
     pub quantities: Vec<ProfiledQuantity>,
+    /// The species of the particles that it is of; left out, all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<String>,
 }
 
 fn usual_profiles() -> Vec<ProfiledQuantity> {
@@ -345,6 +383,8 @@ pub enum AnalysisId {
     Diffusion,
     /// Sizes of chains.
     ChainSizes,
+    /// Clusters of particles.
+    Clusters,
     /// The decay of transverse momentum waves.
     Viscosity,
     /// The normalised autocorrelation of a vector.
@@ -386,11 +426,12 @@ macro_rules! names {
 
 impl AnalysisId {
     /// All of them.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::RadialDistribution,
         Self::StructureFactor,
         Self::Diffusion,
         Self::ChainSizes,
+        Self::Clusters,
         Self::Viscosity,
         Self::Autocorrelation(CorrelatedQuantity::Velocity),
         Self::Autocorrelation(CorrelatedQuantity::Force),
@@ -411,6 +452,7 @@ impl AnalysisId {
             Self::StructureFactor => names!("structure_factor"),
             Self::Diffusion => names!("diffusion"),
             Self::ChainSizes => names!("chain_sizes"),
+            Self::Clusters => names!("clusters": "clusters", "cluster_sizes"),
             Self::Viscosity => names!("viscosity"),
             Self::Autocorrelation(CorrelatedQuantity::Velocity) => names!("velocity_autocorrelation"),
             Self::Autocorrelation(CorrelatedQuantity::Force) => names!("force_autocorrelation"),

@@ -41,6 +41,7 @@ pub use observables::{BathProducts, CellObservables, Observables, OnWalls, Trans
 pub(crate) use particles::chains::mirrored;
 pub(crate) use particles::model::Alike;
 pub use particles::model::{Angle, Bond, ChainGroup, Link, Walks};
+pub(crate) use particles::reference::close_pairs;
 pub use particles::space::shear::ShearedBox;
 pub use particles::space::walls::PlaneWalls;
 pub use particles::terms::angles::Angles;

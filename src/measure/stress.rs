@@ -46,18 +46,18 @@ impl Components {
     }
 }
 
-/// The surface tension `γ = L/2 (P_nn - P_tt)` of the two flat interfaces of a slab, from the normal and the mean tangential pressure across
-/// an axis along which the periodic box has `length` L; of a pressure tensor xx, yy, zz, xy, xz, yz. Kirkwood and Buff,
+/// The surface tension `γ = L (P_nn - P_tt)` of flat interfaces, from the normal and the mean tangential pressure across an axis along which
+/// the box has the `length` L for each of them, half of its edge for the two of a slab; of a pressure tensor xx, yy, zz, xy, xz, yz. Kirkwood and Buff,
 /// doi:10.1063/1.1747248. In two dimensions it is a line tension.
 ///
 /// ```
 /// use mesoscope::measure::stress::surface_tension;
-/// assert_eq!(surface_tension(&[2.0, 4.0, 5.0, 0.3, 0.0, 0.1], 2, 3, 10.0), 10.0);
-/// assert_eq!(surface_tension(&[2.0, 4.0, 0.0, 0.3, 0.0, 0.0], 0, 2, 10.0), -10.0);
+/// assert_eq!(surface_tension(&[2.0, 4.0, 5.0, 0.3, 0.0, 0.1], 2, 3, 5.0), 10.0);
+/// assert_eq!(surface_tension(&[2.0, 4.0, 0.0, 0.3, 0.0, 0.0], 0, 2, 5.0), -10.0);
 /// ```
 #[must_use]
 pub fn surface_tension(pressure: &[f64; 6], normal: usize, dimension: usize, length: f64) -> f64 {
     let across = (0..dimension).filter(|axis| *axis != normal);
     let tangential: f64 = across.map(|axis| pressure[axis]).sum();
-    0.5 * length * (pressure[normal] - tangential / (dimension as f64 - 1.0))
+    length * (pressure[normal] - tangential / (dimension as f64 - 1.0))
 }

@@ -206,13 +206,20 @@ fn check_durations(scene: &Scene, problems: &mut Problems) {
     if let Some(factor) = &output.structure_factor {
         check_wave_numbers(factor, scene, problems);
     }
-    if let Some(radial) = &output.radial_distribution {
+    let radial = output.radial_distribution.as_ref().map(|asked| ("radial_distribution.range", asked.range));
+    let clusters = output.clusters.as_ref().map(|asked| ("clusters.distance", asked.distance));
+    for (path, distance) in [radial, clusters].into_iter().flatten() {
         let half = 0.5 * scene.space.shortest_length();
         // A box that is none is a mistake of its own.
-        if half > 0.0 && radial.range > half {
+        if half > 0.0 && distance > half {
             let accepted = format!("at most {half}, half the shortest box edge");
-            problems.refuse("output.radial_distribution.range", radial.range, accepted);
+            problems.refuse(format!("output.{path}"), distance, accepted);
         }
+    }
+    if let Some(interfaces) =
+        output.stress.as_ref().filter(|asked| asked.normal.is_none()).and_then(|asked| asked.interfaces)
+    {
+        problems.refuse("output.stress.interfaces", interfaces, "`normal`, the axis across them, beside it");
     }
 }
 
@@ -284,6 +291,12 @@ fn check_species_of_analyses(scene: &Scene, species: &SpeciesNames<'_>, problems
         if species.check(name, &path, problems) && is(name, ParticleGroup::is_held) {
             let accepted = "a species whose particles can move: others have no motion to measure";
             problems.refuse(path, format!("\"{name}\", which is held"), accepted);
+        }
+    }
+    for (path, name) in scene.output.placed_species() {
+        if species.check(name, path, problems) && is(name, ParticleGroup::is_frozen) {
+            let accepted = "a species that is not frozen behind walls, where nothing is counted";
+            problems.refuse(path, format!("\"{name}\", which is frozen"), accepted);
         }
     }
     for (index, name) in scene.output.snapshot.species.iter().enumerate() {

@@ -105,6 +105,7 @@ const EVERYTHING: &[&str] = &[
     r#"output.viscosity={"every":1,"window":20}"#,
     r#"output.radial_distribution={"every":4,"range":1,"bins":10}"#,
     r#"output.structure_factor={"every":5,"range":8,"bins":8}"#,
+    r#"output.clusters={"every":7,"distance":0.4}"#,
     r#"output.autocorrelations=[{"quantity":"velocity","every":1,"window":6,"fit":"exponential"},
         {"quantity":"force","every":2,"window":5}]"#,
     r#"output.histograms=[{"quantity":"velocity","every":1},{"quantity":"speed","every":5,"bins":5},

@@ -340,6 +340,19 @@ fn lengths_and_durations() {
             r#"structure_factor={"every":1,"range":9,"bins":1000,"vectors":60,"species":"all-pairs"}"#,
             "structure_factor: found 1000 bins of 60 wave vectors and 3 species; accepted: at most 65536 in all",
         ),
+        (
+            r#"clusters={"every":1,"distance":6}"#,
+            "output.clusters.distance: found 6; accepted: at most 5, half the shortest box edge",
+        ),
+        (r#"clusters={"every":1,"distance":1,"species":"tal"}"#, "clusters.species: found \"tal\""),
+        (
+            r#"profiles={"axis":"x","every":1,"species":"heads"}"#,
+            "profiles.species: found \"heads\"; did you mean `head`?",
+        ),
+        (
+            r#"stress={"every":1,"interfaces":4}"#,
+            "stress.interfaces: found 4; accepted: `normal`, the axis across them",
+        ),
         (r#"structure_factor={"every":1,"range":9,"species":["tail","heads"]}"#, "species[1]: found \"heads\""),
         (r#"diffusion={"every":1,"window":2,"species":"wall"}"#, "diffusion.species: found \"wall\", which is held"),
         (r#"histograms=[{"quantity":"speed","every":1,"species":"Head"}]"#, "histograms[0].species: found \"Head\""),

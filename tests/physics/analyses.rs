@@ -455,6 +455,93 @@ fn surface_tension_belongs_to_the_distance_of_walls() {
     assert!((found / expected - 1.0).abs() < 1e-9, "{found}, expected {expected}");
 }
 
+/// The tension of four interfaces is half of that of two.
+#[test]
+fn interfaces_share_the_surface_tension() {
+    let tension = |interfaces: &str| {
+        let directory = tempfile::tempdir().unwrap();
+        let stress = format!(r#"output.stress={{"every":2,"normal":"z"{interfaces}}}"#);
+        let outcome = run(fluid(&["space.box=[4,4,6]", "time.steps=10", &stress]), directory.path());
+        let printed = mesoscope::run::printed_results(&outcome.summary);
+        let label = printed.into_iter().map(|(label, _)| label).find(|label| label.starts_with("surface tension, of"));
+        (number(&outcome, &["stress", "surface_tension"]), label.unwrap())
+    };
+    let [(two, label), (four, label_of_four)] = [tension(""), tension(r#","interfaces":4"#)];
+    assert!((two / four - 2.0).abs() < 1e-12, "{two} {four}");
+    assert_eq!(
+        [&label[..], &label_of_four],
+        ["surface tension, of each of 2 interfaces", "surface tension, of each of 4 interfaces"]
+    );
+}
+
+/// Particles that touch, directly, one by one or across the boundary, are of one cluster, and so are those that a bond joins; walls stand between
+/// those on their two sides.
+#[test]
+fn particles_that_touch_are_of_one_cluster() {
+    let scene = |space: &str, clusters: &str| {
+        let positions =
+            "[[0.1,4,4],[7.8,4,4],[2,2,0.1],[2,2,7.9],[2.4,2,7.9],[5,5,5],[5.2,5,5],[5.4,5,5],[5.6,5,5],[5.8,5,5]]";
+        let particles = format!(
+            r#"particles=[{{"species":"A","placement":{{"type":"listed","positions":{positions}}}}},
+                {{"species":"B","count":3,"chain":{{"beads":3,"spacing":1}},"placement":{{"type":"lattice"}}}},
+                {{"species":"C","placement":{{"type":"listed","positions":[[5.8,5.2,5]]}}}}]"#
+        );
+        let bonds = r#"interactions=[{"type":"bonds","potential":{"type":"harmonic","stiffness":0.001}}]"#;
+        let clusters = format!("output.clusters={clusters}");
+        let time = ["time.step=0.0001", "time.steps=4", "time.equilibration=0", "temperature=0"];
+        fluid(&[&[space, &particles, bonds, &clusters][..], &time].concat())
+    };
+    let found = |scene: Checked| {
+        let directory = tempfile::tempdir().unwrap();
+        let outcome = run(scene, directory.path());
+        let sizes = table(directory.path(), "cluster_sizes.csv");
+        let sizes: Vec<[f64; 2]> = sizes.rows.iter().map(|row| [row[0], row[1]]).collect();
+        let of = |name: &str| number(&outcome, &["clusters", name]);
+        let over_time = table(directory.path(), "clusters.csv");
+        assert_eq!(over_time.rows.len(), 3);
+        (sizes, [of("clusters"), of("mean_size"), of("weighted_size"), of("largest_size")])
+    };
+    let open = "space.box=[8,8,8]";
+    let (sizes, numbers) = found(scene(open, r#"{"every":2,"distance":0.5}"#));
+    // A pair across x, three across z, six of two species, and three that are bonded.
+    assert_eq!(sizes, [[2.0, 1.0], [3.0, 2.0], [6.0, 1.0]]);
+    assert_eq!(numbers, [4.0, 14.0 / 4.0, (4.0 + 9.0 + 9.0 + 36.0) / 14.0, 6.0]);
+    let (sizes, numbers) = found(scene(open, r#"{"every":2,"distance":0.5,"species":"A","least":3}"#));
+    assert_eq!(sizes, [[2.0, 1.0], [3.0, 1.0], [5.0, 1.0]]);
+    assert_eq!(numbers, [2.0, 4.0, 34.0 / 8.0, 5.0]);
+    // Further than the space behind walls, through which nothing is joined.
+    for (space, expected) in [
+        (open, &[[3.0, 1.0], [7.0, 1.0]][..]),
+        (r#"space={"box":[8,8,8],"walls":{"z":{}}}"#, &[[1.0, 1.0], [2.0, 1.0], [7.0, 1.0]]),
+    ] {
+        let (sizes, _) = found(scene(space, r#"{"every":2,"distance":3,"species":"A"}"#));
+        assert_eq!(sizes, expected, "{space}");
+    }
+    let (sizes, numbers) = found(scene(open, r#"{"every":2,"distance":0.1,"species":"C"}"#));
+    assert_eq!((sizes, numbers), (vec![[1.0, 1.0]], [1.0; 4]));
+}
+
+/// A profile of one species has what the species has of that of all, and the temperature of its own velocities.
+#[test]
+fn profiles_of_a_species_are_those_of_its_particles() {
+    let profile = |species: &str| {
+        let directory = tempfile::tempdir().unwrap();
+        let profiles = format!(r#"output.profiles={{"axis":"x","bins":4,"every":5{species}}}"#);
+        let particles = r#"particles=[{"species":"light","count":600},{"species":"heavy","count":300,"mass":4}]"#;
+        let time = ["time.step=0.05", "time.steps=200", "time.equilibration=0", "interactions=[]"];
+        let outcome = run(fluid(&[&[particles, &profiles][..], &time].concat()), directory.path());
+        (outcome, table(directory.path(), "profiles.csv"))
+    };
+    let ((_, all), (outcome, heavy)) = (profile(""), profile(r#","species":"heavy""#));
+    assert_eq!(heavy.values("number_density"), all.values("number_density_1"));
+    assert_eq!(heavy.values("number_density_error"), all.values("number_density_1_error"));
+    assert!(heavy.column("number_density_0").is_none() && heavy.values("velocity_x") != all.values("velocity_x"));
+    assert_eq!(outcome.summary.results["profiles"]["species"], "heavy");
+    // 300 particles keep the momenta that they have: their temperature is that of the start, 1 ± √(2/900).
+    let temperature = number(&outcome, &["profiles", "temperature"]);
+    assert!((temperature - 1.0).abs() < 5.0 * (2.0_f64 / 900.0).sqrt(), "{temperature}");
+}
+
 /// Molecules, of which some branch, are measured along their bonds, however their beads are numbered.
 #[test]
 fn sizes_of_molecules() {

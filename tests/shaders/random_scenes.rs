@@ -177,6 +177,8 @@ fn output(draws: &mut Draws, across: &str) -> Value {
         ("stress", json!({"every": 1})),
         ("profiles", json!({"axis": across, "every": 2, "bins": 5})),
         ("profiles", json!({"axis": across, "every": 2, "bins": 5, "quantities": ["stress"]})),
+        ("profiles", json!({"axis": across, "every": 2, "bins": 5, "species": "A"})),
+        ("clusters", json!({"every": 2, "distance": 0.6})),
         ("trajectory", json!({"every": 5})),
     ];
     let mut output = json!({"energies": {"every": 1}});

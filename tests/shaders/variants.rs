@@ -226,6 +226,7 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
             "histograms": [
                 {"quantity": "velocity", "every": 2, "species": "A"}, {"quantity": "acceleration", "every": 2, "species": "A"},
             ],
+            "profiles": {"axis": last, "every": 2, "species": "A"},
         }),
         json!({
             "radial_distribution": {"every": 2, "range": 1.1, "species": "A"},
@@ -233,6 +234,7 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
                 {"quantity": "velocity", "every": 2, "window": 4, "frame": "centre-of-mass", "species": "A"},
             ],
             "histograms": [{"quantity": "velocity", "every": 2, "frame": "centre-of-mass", "species": "A"}],
+            "profiles": {"axis": "x", "every": 2, "species": "A"},
         }),
     ];
     let mut scenes = Vec::new();

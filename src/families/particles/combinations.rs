@@ -65,6 +65,7 @@ features! {
     RadialDistribution "`radial_distribution`" "The radial distribution function."
     StructureFactor "`structure_factor`" "The structure factor."
     Diffusion "`diffusion`" "Displacements and velocity correlations."
+    Clusters "`clusters`" "Clusters of particles."
     ChainSizes "`chain_sizes`" "Sizes of chains."
     Viscosity "`viscosity`" "The viscosity from momentum waves."
     Autocorrelations "`autocorrelations`" "Autocorrelations of velocities and forces."
@@ -164,6 +165,7 @@ pub const REFUSALS: &[Refusal] = &[
     missing(Shear, &[Walls], "images of walls that boundaries carry along; walls that move make a shear flow too"),
     physics(StructureFactor, &[Shear], "the wave vectors of a box that shears lean with it"),
     missing(RadialDistribution, &[Shear], "pairs further than the cutoff are found round a box at rest"),
+    missing(Clusters, &[Shear], "close pairs are found in cells, round a box at rest"),
     missing(Diffusion, &[Shear], "displacements in a flow that carries copies past each other"),
     missing(
         Ranks,
@@ -198,6 +200,7 @@ impl Feature {
             RadialDistribution => when(output.radial_distribution.is_some(), "output.radial_distribution"),
             StructureFactor => when(output.structure_factor.is_some(), "output.structure_factor"),
             Diffusion => when(output.diffusion.is_some(), "output.diffusion"),
+            Clusters => when(output.clusters.is_some(), "output.clusters"),
             ChainSizes => when(output.chain_sizes.is_some(), "output.chain_sizes"),
             Viscosity => when(output.viscosity.is_some(), "output.viscosity"),
             Autocorrelations => when(!output.autocorrelations.is_empty(), "output.autocorrelations"),

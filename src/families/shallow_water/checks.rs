@@ -135,6 +135,7 @@ fn check_output(scene: &Scene, problems: &mut Problems) {
     let asked = [
         ("radial_distribution", output.radial_distribution.is_some()),
         ("structure_factor", output.structure_factor.is_some()),
+        ("clusters", output.clusters.is_some()),
         ("diffusion", output.diffusion.is_some()),
         ("viscosity", output.viscosity.is_some()),
         ("autocorrelations", !output.autocorrelations.is_empty()),

@@ -107,6 +107,10 @@ fn check_output(scene: &Scene, voronoi: &VoronoiInteraction, problems: &mut Prob
         let accepted = "`neighbours`, which counts the neighbours of cells; pairs have no range here";
         problems.refuse("output.radial_distribution", "in a scene of Voronoi DPD", accepted);
     }
+    if output.clusters.is_some() {
+        let accepted = "`neighbours`, which counts the neighbours of cells; cells fill the box, and so are one cluster";
+        problems.refuse("output.clusters", "in a scene of Voronoi DPD", accepted);
+    }
     for path in output.asks_for_stress() {
         let accepted =
             "`viscosity` or `shear_wave` for what the stress is wanted for; the faces of cells have no virial";

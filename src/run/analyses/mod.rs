@@ -7,6 +7,7 @@ mod autocorrelation;
 mod chain;
 mod chain_sizes;
 mod circulation;
+mod clusters;
 mod descriptor;
 mod diffusion;
 mod gathered;
@@ -53,6 +54,7 @@ fn describe(id: AnalysisId) -> Box<dyn Descriptor> {
         AnalysisId::StructureFactor => Box::new(structure_factor::StructureFactor),
         AnalysisId::Diffusion => Box::new(diffusion::Diffusion),
         AnalysisId::ChainSizes => Box::new(chain_sizes::ChainSizes),
+        AnalysisId::Clusters => Box::new(clusters::Clusters),
         AnalysisId::Viscosity => Box::new(viscosity::Viscosity),
         AnalysisId::Autocorrelation(quantity) => Box::new(autocorrelation::Autocorrelation(quantity)),
         AnalysisId::Histogram(quantity) => Box::new(histogram::Histogram(quantity)),

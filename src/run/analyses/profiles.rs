@@ -12,7 +12,7 @@ use crate::numbers::grouped;
 use crate::plan::Need;
 use crate::plot::{Chart, ProfiledSpecies, profiles_chart};
 use crate::scene::{self, AnalysisId, Frame, Output, ProfiledQuantity};
-use crate::shaders::analyses::{self, Layered, LayeredStress};
+use crate::shaders::analyses::{self, InLayers, Layered, LayeredStress};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::json;
@@ -73,7 +73,9 @@ impl Descriptor for Profiles {
             constants.push((Constant::LayeredMass, 1.0 / mass_quantum(planner.model)));
             constants.push((Constant::LayeredKinetic, energy));
         }
-        let choices = choices.with_if(end > 0, analyses::Layers::BetweenWalls);
+        let choices =
+            choices.with_if(end > 0, analyses::Layers::BetweenWalls).with_if(sums.only.is_some(), InLayers::OfSpecies);
+        constants.extend(sums.only.map(|species| (Constant::ProfiledSpecies, species as f64)));
         let (buffers, entries) = ([Array::LayerSums, Array::LayerSamples], asked.bins as usize * sums.sampled());
         let sampler = SumSampler::new(AnalysisId::Profiles, Entry::SumLayers, buffers, entries, asked.every);
         planner.add_counts(&SumSampler { choices, constants, ..sampler }, planner.groups());
@@ -113,7 +115,8 @@ impl Descriptor for Profiles {
         let result = if blocks.samples() == 0 {
             Err(NO_SAMPLE.to_owned())
         } else {
-            let species: Vec<&str> = model.species.iter().map(|species| species.name.as_str()).collect();
+            let all: Vec<&str> = model.species.iter().map(|species| species.name.as_str()).collect();
+            let species = asked.species.as_ref().map_or_else(|| json!(all), |name| json!(name));
             let mut result = json!({
                 "axis": asked.axis.name(),
                 "bins": asked.bins,
@@ -185,6 +188,8 @@ fn mass_quantum(model: &Model) -> f64 {
 /// What is summed of every layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Sums {
+    /// The species that it is of; none of all.
+    only: Option<usize>,
     species: usize,
     dimension: usize,
     motion: bool,
@@ -193,9 +198,10 @@ struct Sums {
 
 impl Sums {
     fn of(model: &Model, asked: &scene::Profiles) -> Self {
-        let species = model.species.len().max(1);
+        let only = asked.species.as_deref().and_then(|name| model.species_named(name));
+        let species = if only.is_some() { 1 } else { model.species.len().max(1) };
         let stress = shows(asked, ProfiledQuantity::Stress);
-        Self { species, dimension: model.units.dimension, motion: has_motion(asked), stress }
+        Self { only, species, dimension: model.units.dimension, motion: has_motion(asked), stress }
     }
 
     /// Sums of a layer in a sample: particles of each species, mass, momentum, twice the kinetic energy, and two tensors of six
@@ -222,16 +228,17 @@ type Number<'a> = Box<dyn Fn(usize) -> Option<Estimate> + 'a>;
 /// The kept sums of a layer. Twice the energy of n particles relative to their centre of mass has d(n - 1) kT.
 fn kept(sums: Sums, layer: &[i64], Setting { scene, plan }: &Setting<'_>) -> Vec<f64> {
     let model = scene.model();
-    let Sums { species, dimension, motion, stress } = sums;
+    let Sums { only, species, dimension, motion, stress } = sums;
     // Those that are frozen behind walls are in no layer.
-    let is_frozen = |number: usize| model.species.get(number).is_some_and(|species| species.frozen);
+    let of = |number: usize| model.species.get(only.unwrap_or(number));
+    let is_frozen = |number: usize| of(number).is_some_and(|species| species.frozen);
     let counts = layer.iter().take(species).enumerate();
     let mut row: Vec<f64> = counts.map(|(number, count)| if is_frozen(number) { 0.0 } else { *count as f64 }).collect();
     if !motion {
         return row;
     }
-    let moving: f64 =
-        row.iter().zip(&model.species).filter(|(_, species)| !species.fixed).map(|(count, _)| count).sum();
+    let is_moving = |number: &usize| of(*number).is_some_and(|species| !species.fixed);
+    let moving: f64 = (0..species).filter(is_moving).map(|number| row[number]).sum();
     let mass = layer[species] as f64 * mass_quantum(model);
     let momenta = layer[species + 1..][..dimension].iter();
     let momentum: Vec<f64> = momenta.map(|momentum| *momentum as f64 * model.units.momentum).collect();

@@ -104,6 +104,29 @@ pub(super) fn of(id: AnalysisId) -> &'static [Quantity] {
                 ]
             }
         }
+        AnalysisId::Clusters => {
+            const {
+                &[
+                    SINCE_START,
+                    quantity(
+                        "clusters",
+                        "n_c",
+                        NUMBER,
+                        "clusters of at least the least size; in the table of sizes, of this size on average",
+                    ),
+                    quantity("mean_size", "⟨s⟩", NUMBER, "mean number of particles of a cluster"),
+                    quantity(
+                        "weighted_size",
+                        "⟨s²⟩/⟨s⟩",
+                        NUMBER,
+                        "mean over their particles of the size of the cluster",
+                    ),
+                    quantity("largest_size", "s_m", NUMBER, "particles of the largest cluster"),
+                    quantity("size", "s", NUMBER, "particles of a cluster"),
+                    quantity("part", "sn_c/N", NUMBER, "part of the particles that are in clusters of this size"),
+                ]
+            }
+        }
         AnalysisId::Viscosity => {
             const {
                 &[
@@ -309,14 +332,13 @@ const fn autocorrelations(square: Unit) -> [Quantity; 10] {
     ]
 }
 
-const fn histogram(name: &'static str, symbol: &'static str, [unit, square, fourth]: [Unit; 3]) -> [Quantity; 11] {
+const fn histogram(name: &'static str, symbol: &'static str, [unit, square, fourth]: [Unit; 3]) -> [Quantity; 10] {
     [
         quantity(name, symbol, unit, "middle of the bin"),
         quantity("density", "P", INVERSE, "probability density of the bin"),
         quantity("count", "N", NUMBER, "values in the bin"),
         quantity("gaussian", "P", INVERSE, "Gaussian with mean and standard deviation of the values"),
         quantity("maxwell", "P", INVERSE, "Maxwell's density with the mean square of the values"),
-        quantity("range", "", unit, "the largest magnitude that is counted"),
         quantity("mean", "⟨x⟩", unit, "mean of the values"),
         quantity("standard_deviation", "s", unit, "standard deviation of the values"),
         quantity("kurtosis", "⟨x⁴⟩/⟨x²⟩²", NUMBER, "3 for a Gaussian about zero"),
@@ -326,7 +348,8 @@ const fn histogram(name: &'static str, symbol: &'static str, [unit, square, four
 }
 
 /// Numbers of results that are no quantities: counts, and what was asked for.
-const COUNTS: [&str; 9] = ["samples", "windows", "values", "below", "above", "modes", "chains", "beads", "bins"];
+const COUNTS: [&str; 11] =
+    ["range", "interfaces", "samples", "windows", "values", "below", "above", "modes", "chains", "beads", "bins"];
 
 /// The quantity of a column or of a number in a result. A name may begin with a word (`micro_peak`), and end with an axis, a component, the
 /// numbers of species or sizes, and `error`.

@@ -2,6 +2,7 @@
 
 use super::{
     Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler, found, mean,
+    printed_estimate,
 };
 use crate::engine::Sample;
 use crate::families::{Checked, Model};
@@ -21,6 +22,8 @@ const PARTS: [&str; 3] = ["kinetic", "conservative", "frictional"];
 const SURFACE_TENSION: &str = "surface_tension";
 /// The same of the conservative part alone: where nothing flows, the others are isotropic and add noise.
 const CONSERVATIVE_TENSION: &str = "surface_tension_conservative";
+/// The number of interfaces that share the tension.
+const INTERFACES: &str = "interfaces";
 /// The place of the conservative part.
 const CONSERVATIVE: usize = 1;
 const VISCOSITY: &str = "shear_viscosity";
@@ -80,7 +83,9 @@ impl Descriptor for Stress {
         }
         if let Some(normal) = asked.normal {
             let normal = normal as usize;
-            let length = model.units.edges()[normal];
+            let interfaces = asked.interfaces.unwrap_or(2);
+            let length = model.units.edges()[normal] / f64::from(interfaces);
+            result[INTERFACES] = json!(interfaces);
             let tension = |of: &dyn Fn(&Kept) -> [f64; 6]| {
                 tensors.mean(|sample| surface_tension(&of(sample), normal, model.units.dimension, length))
             };
@@ -123,6 +128,15 @@ impl Descriptor for Stress {
             ("viscosity in shear", SHEARED),
             ("shear viscosity (Green–Kubo)", VISCOSITY),
         ]
+    }
+
+    fn printed(&self, result: &Value) -> Vec<(String, String)> {
+        let line = |(label, name): &(&str, &str)| {
+            let interfaces = result[INTERFACES].as_u64().filter(|_| name.starts_with(SURFACE_TENSION));
+            let of_each = interfaces.map(|count| format!(", of each of {count} interfaces")).unwrap_or_default();
+            Some((format!("{label}{of_each}"), printed_estimate(&result[*name])?))
+        };
+        self.labels().iter().filter_map(line).collect()
     }
 
     fn finds(&self, scene: &Checked) -> Vec<&'static str> {

@@ -153,6 +153,7 @@ impl Descriptor for StructureFactor {
             Series::line(&name, points).with_band(drawn.column(&format!("{column}_error")))
         };
         let mut panel = Panel::new("Wave number q (1/length unit)", "Structure factor S(q)");
+        panel.x.range = wave_numbers.last().map(|last| [0.0, *last]);
         panel.series = columns.zip(results_of(drawn.result)).map(curve).collect();
         let panel = panel.with_reference("ideal gas", 1.0);
         Chart { title: drawn.title().to_owned(), panels: vec![panel], ..Chart::default() }

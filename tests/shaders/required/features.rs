@@ -644,6 +644,19 @@ pub fn features() -> Vec<Feature> {
             always: true,
         },
         Feature {
+            name: "profiles of a species",
+            ground: |scene| {
+                no_analyses(scene);
+                write(scene, "profiles", json!({"axis": "x", "every": 2}));
+            },
+            with: |scene| write(scene, "profiles", json!({"axis": "x", "every": 2, "species": "A"})),
+            without: |scene| write(scene, "profiles", json!({"axis": "x", "every": 2})),
+            own: Some(&["analyses/in_layers"]),
+            more: &[],
+            instead: &[],
+            always: false,
+        },
+        Feature {
             name: "structure factor",
             ground: no_analyses,
             with: |scene| write(scene, "structure_factor", json!({"every": 2, "range": 9})),

@@ -373,7 +373,8 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
 }
 
 const LISTS: [&str; 2] = ["autocorrelations", "histograms"];
-const ANALYSES: [&str; 12] = [
+const ANALYSES: [&str; 13] = [
+    "clusters",
     "trajectory",
     "radial_distribution",
     "structure_factor",

@@ -28,7 +28,7 @@ mod stress;
 
 pub(crate) use super::space::shear::reference::Images;
 pub(crate) use configuration::Configuration;
-pub(crate) use pairs::{Forces, Pair, dot, exchange, find_pairs, noise as noise_of_pair};
+pub(crate) use pairs::{Forces, Pair, close_pairs, dot, exchange, find_pairs, noise as noise_of_pair};
 pub(crate) use potential::Potential;
 pub use splitting::Relaxation;
 pub use stress::Virial;

@@ -2,7 +2,7 @@
 
 use super::configuration::of_configuration;
 use super::held;
-use super::pairs::find_pairs;
+use super::pairs::close_pairs;
 use super::{Reference, Report};
 use crate::families::particles::space::shear::reference::{self as shear, Images};
 use crate::families::particles::space::walls::reference as walls;
@@ -107,23 +107,19 @@ pub(super) fn radial_distribution(
 ) -> Vec<u64> {
     let mut counts = vec![0; bins];
     let (model, state) = (&reference.model, &reference.state);
-    // Frozen particles are not counted, nor is anything through the space behind walls.
+    // Frozen particles are not counted.
     let frozen = |id: usize| model.species[state.species[id] as usize].frozen;
-    let through = |first: usize, second: usize| {
-        let apart = |axis: usize| state.positions[first][axis].abs_diff(state.positions[second][axis]);
-        model.particles().walls.iter().any(|walls| apart(walls.axis) >= 1 << 31)
-    };
-    for pair in find_pairs(&Images::of_step(model, state.step), &state.positions, range) {
+    close_pairs(model, state.step, &state.positions, range, &mut |pair| {
         let [a, b] = [pair.first, pair.second].map(|id| state.species[id] as usize);
         let is_asked = species.is_none_or(|asked| asked == [a, b] || asked == [b, a]);
-        if !is_asked || frozen(pair.first) || frozen(pair.second) || through(pair.first, pair.second) {
-            continue;
+        if !is_asked || frozen(pair.first) || frozen(pair.second) {
+            return;
         }
         // Rounding may carry a distance just under the range to the end of the last bin.
         let bin = (pair.distance / range * bins as f64) as usize;
         if let Some(count) = counts.get_mut(bin) {
             *count += 1;
         }
-    }
+    });
     counts
 }

@@ -36,6 +36,25 @@ impl Pair {
 
 /// All pairs closer than `range`, which is at most half of every box edge or sees nearest images only.
 pub(crate) fn find_pairs(images: &Images<'_>, positions: &[[u32; 3]], range: f64) -> Vec<Pair> {
+    let mut found = Vec::with_capacity(4 * positions.len());
+    visit_pairs(images, positions, range, &mut |pair| found.push(pair));
+    found
+}
+
+/// The pairs of a step that are closer than `range`, but for those through the space behind walls.
+pub(crate) fn close_pairs(model: &Model, step: u64, positions: &[[u32; 3]], range: f64, visit: &mut dyn FnMut(Pair)) {
+    let through = |pair: &Pair| {
+        let apart = |axis: usize| positions[pair.first][axis].abs_diff(positions[pair.second][axis]);
+        model.particles().walls.iter().any(|walls| apart(walls.axis) >= 1 << 31)
+    };
+    visit_pairs(&Images::of_step(model, step), positions, range, &mut |pair| {
+        if !through(&pair) {
+            visit(pair);
+        }
+    });
+}
+
+fn visit_pairs(images: &Images<'_>, positions: &[[u32; 3]], range: f64, visit: &mut dyn FnMut(Pair)) {
     let units = images.units;
     let dimension = units.dimension;
     // Smaller cells than this would mostly be empty.
@@ -44,7 +63,7 @@ pub(crate) fn find_pairs(images: &Images<'_>, positions: &[[u32; 3]], range: f64
     for (cells, length) in cells.iter_mut().zip(units.lengths).take(dimension) {
         *cells = (length / range).floor().min(most) as usize;
     }
-    let mut pairs = Pairs { images, range_squared: range * range, found: Vec::with_capacity(4 * positions.len()) };
+    let mut pairs = Pairs { images, range_squared: range * range, visit };
     if cells[..dimension].iter().all(|&cells| cells >= 3) && !images.shear() {
         linked_cells(positions, cells, dimension, &mut pairs);
     } else {
@@ -54,13 +73,12 @@ pub(crate) fn find_pairs(images: &Images<'_>, positions: &[[u32; 3]], range: f64
             }
         }
     }
-    pairs.found
 }
 
 struct Pairs<'a> {
     images: &'a Images<'a>,
     range_squared: f64,
-    found: Vec<Pair>,
+    visit: &'a mut dyn FnMut(Pair),
 }
 
 impl Pairs<'_> {
@@ -70,7 +88,7 @@ impl Pairs<'_> {
         let squared = dot(separation, separation);
         if squared < self.range_squared {
             let distance = squared.sqrt();
-            self.found.push(if i < j {
+            (self.visit)(if i < j {
                 Pair { first: i, second: j, separation, distance, boxes_up }
             } else {
                 let separation = separation.map(|component| -component);
@@ -226,14 +244,15 @@ mod tests {
             let images = Images::at_rest(&units);
             let mut found: Vec<_> = find_pairs(&images, &positions, 1.0);
             found.sort_by_key(|pair| (pair.second, pair.first));
-            let mut expected = Pairs { images: &images, range_squared: 1.0, found: Vec::new() };
+            let mut expected = Vec::new();
+            let mut all = Pairs { images: &images, range_squared: 1.0, visit: &mut |pair| expected.push(pair) };
             for j in 0..positions.len() {
                 for i in 0..j {
-                    expected.consider(i, j, positions[i], positions[j]);
+                    all.consider(i, j, positions[i], positions[j]);
                 }
             }
             assert!(!found.is_empty(), "{lengths:?}");
-            assert_eq!(found, expected.found, "{lengths:?}");
+            assert_eq!(found, expected, "{lengths:?}");
         }
     }
 
