@@ -10,3 +10,4 @@ mod readers;
 mod relaxation;
 mod shear;
 mod states;
+mod structure;
