@@ -412,6 +412,8 @@ pub struct AnalysisTable {
     pub file: &'static str,
     /// Name of the plot.
     pub plot: &'static str,
+    /// Names of the plot as vector graphics, in the order of their formats.
+    pub vector: [&'static str; 2],
 }
 
 /// The name of an analysis and the stems of its tables: its own name, unless others are given.
@@ -420,7 +422,11 @@ macro_rules! names {
         names!($name: $name)
     };
     ($name:literal: $($stem:literal),+) => {
-        ($name, &[$(AnalysisTable { file: concat!($stem, ".csv"), plot: concat!($stem, ".png") }),+])
+        ($name, &[$(AnalysisTable {
+            file: concat!($stem, ".csv"),
+            plot: concat!($stem, ".png"),
+            vector: [concat!($stem, ".svg"), concat!($stem, ".pdf")],
+        }),+])
     };
 }
 

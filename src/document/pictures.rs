@@ -19,11 +19,108 @@ pub struct PlotStyle {
     pub scale: f64,
     /// Light or dark.
     pub theme: Theme,
+    /// Headings of charts.
+    pub headings: Headings,
+    /// Formats of vector graphics in which charts are written beside PNG.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 2))]
+    pub vector: Vec<VectorFormat>,
+    /// Names of the units in charts.
+    #[serde(skip_serializing_if = "UnitNames::are_usual")]
+    pub units: UnitNames,
+}
+
+/// Headings of charts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Headings {
+    /// Title and conditions (default).
+    #[default]
+    All,
+    /// Conditions without the title.
+    Conditions,
+    /// Nothing but what is left out of the panels.
+    None,
+}
+
+/// A format of vector graphics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum VectorFormat {
+    /// Scalable Vector Graphics.
+    Svg,
+    /// Portable Document Format, a page as large as the chart.
+    Pdf,
+}
+
+impl VectorFormat {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Svg, Self::Pdf];
+
+    /// The end of the names of its files.
+    #[must_use]
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Pdf => "pdf",
+        }
+    }
+}
+
+/// Names of the units in charts, such as `r_{c}` for the unit of length; one that is left out has its usual name. Numbers stay those of the scene.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct UnitNames {
+    /// The unit of length.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<String>,
+    /// The unit of mass.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass: Option<String>,
+    /// The unit of time.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time: Option<String>,
+    /// The unit of energy.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy: Option<String>,
+}
+
+impl UnitNames {
+    /// True if no unit has another name.
+    #[must_use]
+    pub fn are_usual(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// A label with the names of the units.
+    ///
+    /// ```
+    /// use mesoscope::scene::UnitNames;
+    ///
+    /// let names = UnitNames { length: Some("r_{c}".to_owned()), time: Some("τ".to_owned()), ..UnitNames::default() };
+    /// assert_eq!(names.in_label("Velocity u (length units/time unit)"), "Velocity u (r_{c}/τ)");
+    /// ```
+    #[must_use]
+    pub fn in_label(&self, label: &str) -> String {
+        let names = [("length", &self.length), ("mass", &self.mass), ("time", &self.time), ("energy", &self.energy)];
+        let given = names.into_iter().filter_map(|(unit, name)| Some((unit, name.as_ref()?)));
+        given.fold(label.to_owned(), |label, (unit, name)| {
+            label.replace(&format!("{unit} units"), name).replace(&format!("{unit} unit"), name)
+        })
+    }
 }
 
 impl Default for PlotStyle {
     fn default() -> Self {
-        Self { width: 1600, height: None, scale: 1.0, theme: Theme::Light }
+        Self {
+            width: 1600,
+            height: None,
+            scale: 1.0,
+            theme: Theme::Light,
+            headings: Headings::All,
+            vector: Vec::new(),
+            units: UnitNames::default(),
+        }
     }
 }
 

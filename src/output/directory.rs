@@ -151,7 +151,8 @@ impl RunDirectory {
 
     /// Removes the pictures of the end of a run, those without a number.
     pub(crate) fn remove_last_pictures(&self) -> Result<(), OutputError> {
-        self.remove(|name| files::all().any(|known| known == name) && name.ends_with("png"))
+        let is_picture = |name: &str| ["png", "svg", "pdf"].iter().any(|extension| name.ends_with(extension));
+        self.remove(|name| files::all().any(|known| known == name) && is_picture(name))
     }
 
     /// The number of numbered snapshots, and of numbered frames of fields.
@@ -159,6 +160,11 @@ impl RunDirectory {
         let numbers: BTreeSet<_> =
             self.names(|_| true)?.iter().filter_map(|name| files::snapshot_number(name)).collect();
         Ok(numbers.len() as u64)
+    }
+
+    /// Removes a file, if it is there.
+    pub(crate) fn remove_file(&self, name: &str) -> Result<(), OutputError> {
+        self.remove(|known| known == name)
     }
 
     /// Removes all files of a kind.

@@ -18,6 +18,8 @@ pub const LOCK: &str = "mesoscope.lock";
 pub const ENERGIES: &str = "energies.csv";
 /// The plot of energies.
 pub const ENERGIES_PLOT: &str = "energies.png";
+/// The plot of energies as vector graphics.
+const ENERGIES_VECTOR: [&str; 2] = ["energies.svg", "energies.pdf"];
 /// The picture of the last state.
 pub const SNAPSHOT: &str = "snapshot.png";
 /// The state to resume from.
@@ -54,8 +56,9 @@ pub fn all() -> impl Iterator<Item = &'static str> {
     let trajectories = TrajectoryFormat::ALL.into_iter().map(trajectory);
     let tables = AnalysisId::ALL.into_iter().flat_map(AnalysisId::tables);
     fixed
+        .chain(ENERGIES_VECTOR)
         .chain(trajectories)
-        .chain(tables.flat_map(|names| [names.file, names.plot]))
+        .chain(tables.flat_map(|names| [names.file, names.plot].into_iter().chain(names.vector)))
         .chain(FIELD_FILES.into_iter().flatten())
 }
 

@@ -17,11 +17,14 @@ pub(super) struct Shape {
     pub colour: Colour,
 }
 
-const KIND_CAPSULE: u32 = 0;
-const KIND_RECTANGLE: u32 = 1;
-const KIND_POLYGON: u32 = 2;
-const KIND_GLYPH: u32 = 3;
-const KIND_TRIANGLE: u32 = 4;
+/// Kinds of shapes.
+impl Shape {
+    pub(super) const CAPSULE: u32 = 0;
+    pub(super) const RECTANGLE: u32 = 1;
+    pub(super) const POLYGON: u32 = 2;
+    pub(super) const GLYPH: u32 = 3;
+    pub(super) const TRIANGLE: u32 = 4;
+}
 
 /// A rectangle in pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -134,7 +137,7 @@ impl Canvas {
     /// A line with round ends; both ends the same make a disc.
     pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], width: f64, colour: Colour) {
         let ends = [from[0] as f32, from[1] as f32, to[0] as f32, to[1] as f32];
-        self.push(Shape { ends, texels: [0.0; 4], radius: 0.5 * width as f32, kind: KIND_CAPSULE, colour });
+        self.push(Shape { ends, texels: [0.0; 4], radius: 0.5 * width as f32, kind: Shape::CAPSULE, colour });
     }
 
     /// A filled disc.
@@ -145,20 +148,20 @@ impl Canvas {
     /// A filled rectangle.
     pub(super) fn rectangle(&mut self, area: Area, colour: Colour) {
         let ends = [area.left as f32, area.top as f32, area.right as f32, area.bottom as f32];
-        self.push(Shape { ends, texels: [0.0; 4], radius: 0.0, kind: KIND_RECTANGLE, colour });
+        self.push(Shape { ends, texels: [0.0; 4], radius: 0.0, kind: Shape::RECTANGLE, colour });
     }
 
     /// A filled regular polygon; `angle` is that of its first corner, clockwise from the right.
     pub(super) fn polygon(&mut self, centre: [f64; 2], radius: f64, sides: u32, angle: f64, colour: Colour) {
         let ends = [centre[0] as f32, centre[1] as f32, angle as f32, sides as f32];
-        self.push(Shape { ends, texels: [0.0; 4], radius: radius as f32, kind: KIND_POLYGON, colour });
+        self.push(Shape { ends, texels: [0.0; 4], radius: radius as f32, kind: Shape::POLYGON, colour });
     }
 
     /// A filled triangle. Its edges are not smoothed, so that triangles side by side show no seam.
     pub(super) fn triangle(&mut self, [a, b, c]: [[f64; 2]; 3], colour: Colour) {
         let ends = [a[0] as f32, a[1] as f32, b[0] as f32, b[1] as f32];
         let texels = [c[0] as f32, c[1] as f32, 0.0, 0.0];
-        self.push(Shape { ends, texels, radius: 0.0, kind: KIND_TRIANGLE, colour });
+        self.push(Shape { ends, texels, radius: 0.0, kind: Shape::TRIANGLE, colour });
     }
 
     /// A horizontal rule whose edges fall on pixel edges.
@@ -236,7 +239,7 @@ impl Canvas {
                 ends: [corner[0], corner[1], along[0] as f32, along[1] as f32],
                 texels: [glyph.texel[0], glyph.texel[1], glyph.size[0], glyph.size[1]].map(|texel| texel as f32),
                 radius: 0.0,
-                kind: KIND_GLYPH,
+                kind: Shape::GLYPH,
                 colour: style.colour,
             });
         }

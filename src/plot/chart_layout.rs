@@ -9,7 +9,7 @@ use super::series_path::{Run, length, runs, thinned};
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
 use super::ticks::{Ticks, ticks, ticks_along};
 use crate::numbers::grouped;
-use crate::scene::PlotStyle;
+use crate::scene::{Headings, PlotStyle};
 
 /// Sizes in pixels, all in proportion to the picture.
 #[derive(Debug, Clone, Copy)]
@@ -86,6 +86,7 @@ pub(super) fn lay_out(chart: &Chart, style: &PlotStyle) -> Result<Canvas, PlotEr
             return Err(PlotError::Input(format!("series `{}` has {points} points but {errors} errors", series.name)));
         }
     }
+    let chart = &in_style(chart, style);
     let mut layout = Layout {
         canvas: Canvas::new(style.width, style.height(), style.theme)?,
         sizes: Sizes::new(style, chart.panels.len()),
@@ -94,6 +95,26 @@ pub(super) fn lay_out(chart: &Chart, style: &PlotStyle) -> Result<Canvas, PlotEr
     };
     layout.draw(chart, &prepare(&chart.panels));
     Ok(layout.canvas)
+}
+
+/// A chart with the headings and the names of units that a style asks for.
+fn in_style(chart: &Chart, style: &PlotStyle) -> Chart {
+    let mut chart = chart.clone();
+    match style.headings {
+        Headings::All => {}
+        Headings::Conditions => chart.title.clear(),
+        Headings::None => (chart.title, chart.subtitle) = Default::default(),
+    }
+    if !style.units.are_usual() {
+        let named = |label: &mut String| *label = style.units.in_label(label);
+        named(&mut chart.subtitle);
+        for panel in &mut chart.panels {
+            [&mut panel.x.label, &mut panel.y.label].into_iter().for_each(named);
+            panel.series.iter_mut().map(|series| &mut series.name).for_each(named);
+            panel.references.iter_mut().map(|reference| &mut reference.label).for_each(named);
+        }
+    }
+    chart
 }
 
 pub(super) struct Layout {

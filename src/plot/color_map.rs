@@ -1,6 +1,6 @@
 //! From the values of a field to colours.
 
-use super::palette::{Colour, linear, scale_colour};
+use super::palette::{Colour, encoded, linear, scale_colour};
 use super::ticks::{AxisMap, LARGEST};
 use crate::plot::Scale;
 
@@ -104,8 +104,7 @@ pub(super) fn srgb_from_oklab([lightness, a, b]: [f64; 3]) -> Colour {
     let channel = |weights: [f64; 3]| {
         let light: f64 = weights.iter().zip(cones).map(|(weight, cone)| weight * cone).sum();
         let light = light.clamp(0.0, 1.0);
-        let encoded = if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
-        (255.0 * encoded).round() as u8
+        (255.0 * encoded(light)).round() as u8
     };
     [
         channel([4.076_741_662_1, -3.307_711_591_3, 0.230_969_929_2]),

@@ -62,6 +62,7 @@ mod stress_charts;
 mod text;
 mod ticks;
 mod transport_charts;
+mod vector;
 
 pub use cell_charts::{energetic_cells_chart, neighbours_chart, shear_wave_chart};
 pub use cells::{CellPicture, ShownValues};
@@ -82,7 +83,7 @@ pub use presets::{
 pub use profile_charts::{ProfiledSpecies, profiles_chart};
 pub(crate) use quantities::UNEQUILIBRATED;
 pub use quantities::{Averages, averages_note, quantity_label};
-pub use renderer::Plotter;
+pub use renderer::{Plotter, vector_graphics};
 pub use stress_charts::{stress_chart, stress_correlation_chart};
 pub use text::missing_glyphs;
 pub use transport_charts::{ChainKind, chain_sizes_chart, diffusion_chart, viscosity_chart};

@@ -9,9 +9,9 @@ use super::field::{self, FieldPicture};
 use super::palette::linear;
 use super::particles::{self, ParticlePicture};
 use super::pipelines::{COLOUR_FORMAT, Page, Target, draw_instances, view};
-use super::readback;
+use super::{readback, vector};
 use crate::gpu::Gpu;
-use crate::scene::{PlotStyle, Snapshot, Theme};
+use crate::scene::{PlotStyle, Snapshot, Theme, VectorFormat};
 use image::RgbaImage;
 use std::sync::OnceLock;
 
@@ -193,6 +193,35 @@ impl<'g> Plotter<'g> {
             (viewport, self.filled_texture("plot: glyphs", size, wgpu::TextureFormat::R8Unorm, coverage))
         })
     }
+}
+
+/// A chart as a file of vector graphics, with a note that no picture shows. The same input gives the same bytes everywhere; no adapter is needed.
+///
+/// ```
+/// use mesoscope::plot::{Chart, Panel, Series, vector_graphics};
+/// use mesoscope::scene::{PlotStyle, VectorFormat};
+///
+/// let panel = Panel::new("x", "√x").with(Series::line("root", vec![[0.0, 0.0], [1.0, 1.0], [4.0, 2.0]]));
+/// let chart = Chart { title: "A root".to_owned(), panels: vec![panel], ..Chart::default() };
+/// let svg = vector_graphics(&chart, &PlotStyle::default(), VectorFormat::Svg, "")?;
+/// assert!(svg.starts_with(b"<svg") && String::from_utf8_lossy(&svg).contains("<title>"));
+/// assert!(vector_graphics(&chart, &PlotStyle::default(), VectorFormat::Pdf, "")?.starts_with(b"%PDF"));
+/// # Ok::<(), mesoscope::plot::PlotError>(())
+/// ```
+///
+/// # Errors
+/// [`PlotError::Input`] if a series has errors but not one per point.
+pub fn vector_graphics(
+    chart: &Chart,
+    style: &PlotStyle,
+    format: VectorFormat,
+    note: &str,
+) -> Result<Vec<u8>, PlotError> {
+    let canvas = chart_layout::lay_out(chart, style)?;
+    Ok(match format {
+        VectorFormat::Svg => vector::svg(&canvas, &chart.title, note).into_bytes(),
+        VectorFormat::Pdf => vector::pdf(&canvas, &chart.title, note),
+    })
 }
 
 /// The clipping rectangle in whole pixels inside the picture: x, y, width, height. None where nothing is left.

@@ -1,7 +1,7 @@
 //! Lines of text: metrics, wrapping, and the glyphs they need rasterised into one atlas.
 
 use super::error::PlotError;
-use ab_glyph::{Font, FontRef, GlyphId, PxScale, ScaleFont};
+use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve, PxScale, ScaleFont};
 use std::collections::HashMap;
 
 /// Height of a capital letter in units of the type size.
@@ -32,6 +32,16 @@ pub(super) struct PlacedGlyph {
     pub texel: [u32; 2],
     /// Size in the atlas.
     pub size: [u32; 2],
+}
+
+/// The outline of a glyph.
+pub(super) struct Letter {
+    /// In units of the font from the start of its baseline, upwards.
+    pub curves: Vec<OutlineCurve>,
+    /// Pixels of a unit.
+    pub scale: f64,
+    /// Corner of its texture, in pixels right of and below the start of its baseline.
+    pub corner: [f64; 2],
 }
 
 /// Sets lines of text and collects the glyphs they use.
@@ -157,6 +167,17 @@ impl Typesetter {
             return Err(PlotError::TypeTooLarge);
         }
         Ok((ATLAS_WIDTH, (self.coverage.len() / ATLAS_WIDTH as usize) as u32, &self.coverage))
+    }
+
+    /// The outlines of the glyphs in the atlas, by their corners there.
+    pub(super) fn letters(&self) -> HashMap<[u32; 2], Letter> {
+        let letter = |(&(weight, glyph, scale), placed): (&(Weight, GlyphId, u32), &Option<PlacedGlyph>)| {
+            let (font, placed) = (self.font(weight), (*placed)?);
+            let curves = font.outline(glyph)?.curves;
+            let scale = f64::from(f32::from_bits(scale) / font.height_unscaled());
+            Some((placed.texel, Letter { curves, scale, corner: placed.offset.map(f64::from) }))
+        };
+        self.entries.iter().filter_map(letter).collect()
     }
 
     /// Breaks a text at spaces into at most `lines` lines no wider than `width`; what does not fit ends in an ellipsis.

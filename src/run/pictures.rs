@@ -16,15 +16,16 @@ use crate::plan::Options;
 use crate::plot::{
     Averages, CellPicture, Chart, ColorMap, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter,
     ShownValues, averages_note, energetic_cells_chart, energies_chart, mesh_energies_chart, missing_glyphs,
-    snapshot_size,
+    snapshot_size, vector_graphics,
 };
 use crate::printable;
-use crate::scene::{AnalysisTable, Scene, Snapshot, SnapshotColor, WrittenScene};
+use crate::scene::{AnalysisTable, PlotStyle, Scene, Snapshot, SnapshotColor, VectorFormat, WrittenScene};
 use crate::shaders::Array;
 use crate::state::{Reported, crossings};
 use crate::table::Table;
 use crate::tessellation::Tessellation;
 use image::RgbaImage;
+use std::path::Path;
 
 /// Draws the pictures of a run again from the files it left, with changes to the look given as overrides of the scene
 /// (`output.plot.width=800`). Returns the names of the files written.
@@ -70,6 +71,8 @@ pub fn redraw(
             written.push(files::SNAPSHOT);
         }
     }
+    let is_vector = |name: &&str| !name.ends_with("png") && pictures.written.iter().any(|written| written == name);
+    written.extend(files::all().filter(|name| !written.contains(name)).filter(is_vector).collect::<Vec<_>>());
     Ok(written)
 }
 
@@ -185,7 +188,7 @@ impl<'a> Pictures<'a> {
         proceed: &dyn Fn() -> Result<(), RunError>,
     ) -> Result<Vec<&'static str>, RunError> {
         let mut drawn = Vec::new();
-        for (id, place, AnalysisTable { file, plot }) in analyses::tables() {
+        for (id, place, AnalysisTable { file, plot, .. }) in analyses::tables() {
             proceed()?;
             let path = self.directory.file(file);
             if !path.exists() {
@@ -384,7 +387,9 @@ impl<'a> Pictures<'a> {
 
     fn chart(&mut self, name: &str, chart: &Chart) -> Result<(), RunError> {
         let style = &self.scene.output.plot;
-        self.draw(name, |plotter| plotter.draw_chart(chart, style))
+        self.draw(name, |plotter| plotter.draw_chart(chart, style))?;
+        self.written.extend(save_vector(self.directory, name, self.run, chart, style)?);
+        Ok(())
     }
 
     /// Draws and writes a picture.
@@ -402,6 +407,31 @@ impl<'a> Pictures<'a> {
         self.written.push(name.to_owned());
         Ok(())
     }
+}
+
+/// Writes a chart in the formats of vector graphics that a style asks for, beside its picture, and returns the names; those of other formats show an
+/// earlier chart, and are removed.
+pub(crate) fn save_vector(
+    directory: &RunDirectory,
+    picture: &str,
+    id: Id,
+    chart: &Chart,
+    style: &PlotStyle,
+) -> Result<Vec<String>, RunError> {
+    let mut written = Vec::new();
+    for format in VectorFormat::ALL {
+        let name = Path::new(picture).with_extension(format.extension()).to_string_lossy().into_owned();
+        if style.vector.contains(&format) {
+            let note = format!("{} {id}", id.key());
+            let drawn = vector_graphics(chart, style, format, &note);
+            let bytes = drawn.map_err(|source| RunError::Plot { name: name.clone(), source })?;
+            directory.write(&name, |writer| writer.write_all(&bytes))?;
+            written.push(name);
+        } else {
+            directory.remove_file(&name)?;
+        }
+    }
+    Ok(written)
 }
 
 /// Writes a picture, which appears complete or not at all.

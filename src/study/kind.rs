@@ -71,7 +71,7 @@ pub(crate) const STABILITY: Kind = Kind {
     // A run ends when its verdict is certain.
     estimate: "at most",
     asked: &["arguments"],
-    files: &["stability.csv", "stability.md", "stability.png"],
+    files: &["stability.csv", "stability.md", "stability.png", "stability.svg", "stability.pdf"],
     has_plots: false,
     runs: &[],
 };
@@ -111,7 +111,8 @@ impl Kind {
 
     fn is_plot(&self, name: &str) -> bool {
         let rest = name.strip_prefix(self.command).and_then(|rest| rest.strip_prefix('-'));
-        rest.and_then(|rest| rest.strip_suffix(".png")).is_some_and(|quantity| !quantity.is_empty())
+        let quantity = rest.and_then(|rest| [".png", ".svg", ".pdf"].iter().find_map(|end| rest.strip_suffix(end)));
+        quantity.is_some_and(|quantity| !quantity.is_empty())
     }
 }
 

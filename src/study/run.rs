@@ -272,7 +272,9 @@ fn draw<R: Record>(
     for (name, chart) in charts {
         proceed()?;
         run::save(place, &name, record.id(), plotter.draw_chart(&chart, style))?;
+        let vector = run::save_vector(place, &name, record.id(), &chart, style)?;
         written.push(name);
+        written.extend(vector);
     }
     Ok(written)
 }

@@ -669,3 +669,33 @@ fn warnings_and_quiet() {
     let summary = place.summary("out");
     assert!(summary.warnings.iter().any(|warning| warning.starts_with("space.box[2]")));
 }
+
+/// Charts in vector formats are files of a run: listed, drawn again, gone where nobody asks for them any more, and named with the id of the run.
+#[test]
+fn charts_are_vector_graphics_too() {
+    let output = json!({"plot": {"width": 640, "height": 480}, "snapshot": {"width": 100, "height": 80},
+        "clusters": {"every": 5, "distance": 0.5}});
+    let place = place().with("/output", output).with("/time/steps", json!(20));
+    let vector = r#"output.plot.vector=["svg","pdf"]"#;
+    let said = place.run("out", &["--quiet", "--set", vector]);
+    assert!(said.is_empty(), "{said}");
+    let (out, summary) = (place.path("out"), place.summary("out"));
+    let drawn = |end: &str| -> Vec<String> { listing(&out).into_iter().filter(|name| name.ends_with(end)).collect() };
+    for end in ["svg", "pdf"] {
+        let names = ["cluster_sizes", "clusters", "energies"].map(|name| format!("{name}.{end}"));
+        assert_eq!(drawn(end), names);
+        assert!(names.iter().all(|name| summary.files.as_ref().unwrap().contains(name)), "{:?}", summary.files);
+    }
+    let svg = fs::read_to_string(out.join("energies.svg")).unwrap();
+    assert!(svg.contains(&format!("run_id {}", summary.run_id)), "{}", &svg[..400]);
+    let argument = place.argument("out");
+    assert!(succeeds(&["plot", &argument, "--set", r#"output.plot.vector=["svg"]"#]).contains("energies.svg"));
+    assert!(drawn("pdf").is_empty() && fs::read_to_string(out.join("energies.svg")).unwrap() == svg);
+    succeeds(&["plot", &argument, "--set", "output.plot.vector=[]"]);
+    assert!(drawn("svg").is_empty() && drawn("png").len() == 4);
+    fails(
+        &["plot", &argument, "--set", r#"output.plot.vector=["eps"]"#],
+        2,
+        &["found the text \"eps\"", "\"svg\", \"pdf\""],
+    );
+}

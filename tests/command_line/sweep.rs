@@ -144,8 +144,15 @@ fn table_summary_and_plots() {
 
     // A plot for every quantity that changes, of the size that the scene asks for.
     let plots: Vec<String> = listing(&out).into_iter().filter(|name| name.starts_with("sweep-")).collect();
-    let expected =
-        ["configurational_temperature", "kinetic_energy", "means-2", "means", "potential_energy", "pressure"];
+    let expected = [
+        "configurational_temperature",
+        "kinetic_energy",
+        "means-2",
+        "means-3",
+        "means",
+        "potential_energy",
+        "pressure",
+    ];
     let expected = expected.into_iter().chain(["pressure_conservative", "temperature", "total_energy"]);
     assert_eq!(plots, expected.map(|quantity| format!("sweep-{quantity}.png")).collect::<Vec<_>>());
     for name in &plots {

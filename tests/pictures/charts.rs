@@ -5,9 +5,9 @@ use image::RgbaImage;
 use mesoscope::measure::statistics::Estimate;
 use mesoscope::plot::{
     Averages, CellPicture, Chart, Panel, ParticlePicture, PlotError, Plotter, Scale, Series, SeriesStyle, ShownValues,
-    diffusion_chart, energies_chart, radial_distribution_chart,
+    diffusion_chart, energies_chart, radial_distribution_chart, vector_graphics,
 };
-use mesoscope::scene::{PlotStyle, Snapshot, SnapshotColor, Theme};
+use mesoscope::scene::{Headings, PlotStyle, Snapshot, SnapshotColor, Theme, UnitNames, VectorFormat};
 use mesoscope::table::Table;
 use mesoscope::tessellation::Tessellation;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
@@ -130,7 +130,7 @@ fn small_wide_and_enlarged_pictures() {
     for (width, height, scale) in
         [(320, 240, 1.0), (1600, 400, 1.0), (800, 2000, 1.0), (1600, 1200, 1.6), (640, 480, 8.0)]
     {
-        let style = PlotStyle { width, height: Some(height), scale, theme: Theme::Light };
+        let style = PlotStyle { width, height: Some(height), scale, ..PlotStyle::default() };
         let picture = chart_picture(&format!("energies-{width}x{height}-{scale}"), &chart, &style);
         assert_eq!((picture.width(), picture.height()), (width, height));
         assert!(ink(&picture, [0, 0, width, height]) > 500);
@@ -274,6 +274,65 @@ fn many_series_and_styles() {
     };
     let picture = chart_picture("many", &chart, &PlotStyle { height: Some(1600), ..PlotStyle::default() });
     assert!(bounds(&picture, BLUE).is_some());
+}
+
+/// The numbers of a path of SVG.
+fn numbers(data: &str) -> Vec<f64> {
+    data.split(|c: char| c.is_ascii_alphabetic() || c == ',' || c == ' ').filter_map(|part| part.parse().ok()).collect()
+}
+
+/// Vector graphics have what the picture of a chart has, in the same places: curves run through its pixels, and letters lie on its ink.
+#[test]
+fn vector_graphics_lie_on_the_picture() {
+    let points: Vec<[f64; 2]> = (0..60).map(|x| [f64::from(x), (f64::from(x) * 0.2).sin()]).collect();
+    let panel = Panel::new("Time (time units)", "Speed (length units/time unit)").with(Series::line("wave", points));
+    let units = UnitNames { time: Some("τ".to_owned()), ..UnitNames::default() };
+    let style = PlotStyle { units, headings: Headings::Conditions, ..PlotStyle::default() };
+    let chart = panel_chart(panel);
+    let picture = chart_picture("vector", &chart, &style);
+    let files = VectorFormat::ALL.map(|format| vector_graphics(&chart, &style, format, "run_id r1").unwrap());
+    assert_eq!(files, VectorFormat::ALL.map(|format| vector_graphics(&chart, &style, format, "run_id r1").unwrap()));
+    for (file, end) in files.iter().zip(["svg", "pdf"]) {
+        std::fs::write(format!("{}/vector.{end}", env!("CARGO_TARGET_TMPDIR")), file).unwrap();
+    }
+    let text = String::from_utf8(files[0].clone()).unwrap();
+    assert!(text.contains("run_id r1") && text.contains(r#"viewBox="0 0 1600 1200""#) && text.contains("135.47mm"));
+    // What is left out of the picture is still the title of the document.
+    assert_eq!(text.matches("A title").count(), 1);
+    let (mut curves, mut outlines, mut moves) = (0, 0, 1);
+    for event in svg::read(&text).unwrap() {
+        let svg::parser::Event::Tag("path", _, attributes) = event else { continue };
+        moves += attributes["d"].matches('M').count();
+        let numbers = numbers(&attributes["d"]);
+        let near = |x: f64, y: f64, is_shown: &dyn Fn(image::Rgba<u8>) -> bool| {
+            let (x, y) = (x.round() as u32, y.round() as u32);
+            (x.saturating_sub(2)..=x + 2)
+                .any(|x| (y.saturating_sub(2)..=y + 2).any(|y| is_shown(*picture.get_pixel(x, y))))
+        };
+        if attributes.get("stroke").is_some_and(|stroke| **stroke == *"#0072b2") && numbers.len() > 8 {
+            curves += 1;
+            assert!(numbers.len() >= 100, "{} numbers", numbers.len());
+            for point in numbers.chunks_exact(2) {
+                assert!(near(point[0], point[1], &|pixel| close(pixel, BLUE)), "{point:?}");
+            }
+        }
+        if attributes["d"].contains('C') {
+            outlines += 1;
+            let inked =
+                numbers.chunks_exact(2).filter(|point| near(point[0], point[1], &|pixel| pixel[1] < 200)).count();
+            assert!(10 * inked > 9 * (numbers.len() / 2), "{inked} of {}", numbers.len() / 2);
+        }
+    }
+    // The curve, and letters of two inks.
+    assert!(curves == 1 && outlines >= 2, "{curves} {outlines}");
+    let pdf = &files[1];
+    assert!(pdf.starts_with(b"%PDF-1.7") && pdf.trim_ascii_end().ends_with(b"%%EOF"));
+    let begin = pdf.windows(6).position(|bytes| bytes == b"stream").unwrap() + 7;
+    let content = miniz_oxide::inflate::decompress_to_vec_zlib(&pdf[begin..]).unwrap();
+    let content = String::from_utf8(content).unwrap();
+    // The same paths, and the area that clips the curve.
+    let found = content.lines().filter(|line| line.ends_with(" m")).count();
+    assert_eq!(found + 1, moves);
 }
 
 #[test]

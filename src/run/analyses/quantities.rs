@@ -348,8 +348,8 @@ const fn histogram(name: &'static str, symbol: &'static str, [unit, square, four
 }
 
 /// Numbers of results that are no quantities: counts, and what was asked for.
-const COUNTS: [&str; 11] =
-    ["range", "interfaces", "samples", "windows", "values", "below", "above", "modes", "chains", "beads", "bins"];
+const COUNTS: [&str; 10] =
+    ["range", "samples", "windows", "values", "below", "above", "modes", "chains", "beads", "bins"];
 
 /// The quantity of a column or of a number in a result. A name may begin with a word (`micro_peak`), and end with an axis, a component, the
 /// numbers of species or sizes, and `error`.
@@ -469,13 +469,8 @@ mod tests {
             .to_owned();
         for id in AnalysisId::ALL {
             let tables: Vec<String> = id.tables().iter().map(|names| format!("`{}`", names.file)).collect();
-            write!(
-                text,
-                "\n## {}\n\n{}\n\n| name | symbol | unit | meaning |\n|---|---|---|---|\n",
-                id.name(),
-                tables.join(", ")
-            )
-            .unwrap();
+            let (name, tables) = (id.name(), tables.join(", "));
+            write!(text, "\n## {name}: {tables}\n\n| name | symbol | unit | meaning |\n|---|---|---|---|\n").unwrap();
             for quantity in of(id) {
                 row(&mut text, quantity, "");
             }

@@ -85,9 +85,11 @@ impl Descriptor for Stress {
             let normal = normal as usize;
             let interfaces = asked.interfaces.unwrap_or(2);
             let length = model.units.edges()[normal] / f64::from(interfaces);
-            result[INTERFACES] = json!(interfaces);
             let tension = |of: &dyn Fn(&Kept) -> [f64; 6]| {
-                tensors.mean(|sample| surface_tension(&of(sample), normal, model.units.dimension, length))
+                let mut found =
+                    tensors.mean(|sample| surface_tension(&of(sample), normal, model.units.dimension, length));
+                found[INTERFACES] = json!(interfaces);
+                found
             };
             if !model.is_driven() {
                 result[CONSERVATIVE_TENSION] = tension(&|sample| part(sample, CONSERVATIVE));
@@ -132,7 +134,7 @@ impl Descriptor for Stress {
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
         let line = |(label, name): &(&str, &str)| {
-            let interfaces = result[INTERFACES].as_u64().filter(|_| name.starts_with(SURFACE_TENSION));
+            let interfaces = result[*name][INTERFACES].as_u64();
             let of_each = interfaces.map(|count| format!(", of each of {count} interfaces")).unwrap_or_default();
             Some((format!("{label}{of_each}"), printed_estimate(&result[*name])?))
         };
