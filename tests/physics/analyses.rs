@@ -455,6 +455,32 @@ fn surface_tension_belongs_to_the_distance_of_walls() {
     assert!((found / expected - 1.0).abs() < 1e-9, "{found}, expected {expected}");
 }
 
+/// Without particles of its species an analysis says so, and the run goes to its end.
+#[test]
+fn species_without_particles_have_no_structure() {
+    for (analysis, settings) in [
+        ("structure_factor", r#"{"every":5,"range":6,"species":"none"}"#),
+        ("structure_factor", r#"{"every":5,"range":6,"species":["A","none"]}"#),
+        ("clusters", r#"{"every":5,"distance":0.5,"species":"none"}"#),
+    ] {
+        let directory = tempfile::tempdir().unwrap();
+        let particles = r#"particles=[{"species":"A","count":200},{"species":"none","count":0}]"#;
+        let output = format!("output.{analysis}={settings}");
+        let outcome = run(fluid(&["time.step=0.01", "time.steps=10", particles, &output]), directory.path());
+        assert!(!outcome.summary.results.contains_key(analysis));
+        let missing = format!("no result for `output.{analysis}`: there are no particles");
+        assert!(outcome.summary.warnings.contains(&missing), "{:?}", outcome.summary.warnings);
+    }
+    // Nor has a gas clusters of hundred; none of them are no clusters, and have no size.
+    let directory = tempfile::tempdir().unwrap();
+    let clusters = r#"output.clusters={"every":5,"distance":0.1,"least":100}"#;
+    let outcome = run(fluid(&["time.step=0.01", "time.steps=10", clusters]), directory.path());
+    assert_eq!(number(&outcome, &["clusters", "clusters"]), 0.0);
+    assert!(outcome.summary.results["clusters"]["mean_size"].is_null());
+    let text = std::fs::read_to_string(directory.path().join("clusters.csv")).unwrap();
+    assert!(text.lines().skip(1).all(|line| line.ends_with(",0,,,")), "{text}");
+}
+
 /// The tension of four interfaces is half of that of two.
 #[test]
 fn interfaces_share_the_surface_tension() {

@@ -38,7 +38,8 @@ impl Descriptor for Clusters {
         let (model, asked) = (scene.model(), scene.output.clusters.as_ref()?);
         let sizes = sizes(asked, model, state);
         let counted = || sizes.iter().filter(|size| **size >= asked.least as usize).map(|size| *size as f64);
-        let [clusters, particles, squares] = [0, 1, 2].map(|power| counted().map(|size| size.powi(power)).sum::<f64>());
+        let [clusters, particles, squares] =
+            [0, 1, 2].map(|power| counted().fold(0.0, |sum, size: f64| sum + size.powi(power)));
         let mut numbers = vec![state.step as f64, clusters, particles / clusters, squares / particles];
         numbers.push(counted().fold(f64::NAN, f64::max));
         let first = numbers.len();

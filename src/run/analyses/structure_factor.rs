@@ -105,7 +105,9 @@ impl Descriptor for StructureFactor {
         let asked = scene.output.structure_factor.as_ref()?;
         let (sets, bins, blocks) = (Sets::of(asked, model), Bins::of(asked, model, plan)?, gathered.blocks()?);
         let count = bins.vectors.len();
-        let filled: Vec<usize> = (0..count).filter(|bin| bins.vectors[*bin] > 0).collect();
+        // Without particles there is no curve, and nothing to draw.
+        let has_curves = !sets.curves.is_empty();
+        let filled: Vec<usize> = (0..count).filter(|bin| has_curves && bins.vectors[*bin] > 0).collect();
         let curves = || sets.curves.iter().enumerate();
         let suffix = |place: usize| sets.pairs.suffix(sets.curves[place].place);
         let columns = curves().flat_map(|(place, _)| {
@@ -122,7 +124,7 @@ impl Descriptor for StructureFactor {
         let table = Table::new(names, rows.collect());
         let result = if blocks.samples() == 0 {
             Err(NO_SAMPLE.to_owned())
-        } else if sets.curves.is_empty() {
+        } else if !has_curves {
             Err("there are no particles".to_owned())
         } else {
             let found = curves().map(|(place, curve)| {
