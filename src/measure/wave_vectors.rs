@@ -4,7 +4,7 @@ use crate::noise::{direction, pcg4d};
 use std::collections::HashSet;
 use std::f64::consts::TAU;
 
-/// Along an axis, so many waves and fewer are all looked at, in one, two and three dimensions.
+/// The waves along an axis up to which all wave vectors are looked at, in one, two and three dimensions.
 const REACH: [i32; 3] = [4096, 256, 24];
 
 /// Wave vectors of a periodic box by their magnitude, in bins of equal width up to `range`: of each no more than `most`, chosen at random and
@@ -47,7 +47,7 @@ pub fn wave_vectors(edges: [Option<f64>; 3], range: f64, bins: u32, most: u32) -
         all.sort_by_key(random);
         all.truncate(most as usize);
         if (bin + 1) as f64 * width > complete {
-            // Of more than can be looked at those next to points spread at random in the shell.
+            // A shell of more than can be looked at has those next to points spread at random in it.
             let mut taken: HashSet<[i32; 3]> = all.iter().copied().collect();
             for words in (0..8 * most).map(|point| pcg4d([point, bin as u32, 0, 1])) {
                 let way = direction([words[0], words[1]], periodic);
@@ -103,7 +103,7 @@ mod tests {
                 let place = wave_number(*waves, [Some(100.0); 3]) / 0.6;
                 assert!(place >= bin as f64 && place < (bin + 1) as f64 && is_first(*waves), "{waves:?}");
             }
-            // Of half of all directions every octant has a quarter.
+            // Every octant has a quarter of half of all directions.
             let upper = waves.iter().filter(|waves| waves[1] > 0 && waves[2] > 0).count();
             assert!(upper > 3 && upper < 40, "{bin}: {upper}");
         }

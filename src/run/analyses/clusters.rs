@@ -29,7 +29,7 @@ impl Descriptor for Clusters {
     }
 
     fn parts(&self, scene: &Checked) -> Vec<Part> {
-        // A step and what is known of its clusters; the clusters of each size.
+        // The step, number and sizes of its clusters; the clusters of each size.
         let asked = scene.output.clusters.iter();
         asked.flat_map(|asked| [Part::series(5), Part::sums(1 + members(asked, scene.model()) as usize)]).collect()
     }

@@ -22,7 +22,7 @@ pub(super) enum SpeciesPairs {
 }
 
 impl SpeciesPairs {
-    /// Those that a scene asks for.
+    /// The pairs that a scene asks for.
     pub fn of(asked: Option<&CountedPairs>, model: &Model) -> Self {
         let number = |name: &String| model.species_named(name).unwrap_or_default();
         match asked {
