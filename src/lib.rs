@@ -30,7 +30,7 @@
 //!
 //! let temperature = measure::statistics::estimate(&settled).ok_or("there is no row to average")?;
 //! assert_eq!(temperature.samples, 21);
-//! assert!((temperature.mean - 1.0).abs() < 0.1, "{temperature:?}");
+//! assert!((temperature.value - 1.0).abs() < 0.1, "{temperature:?}");
 //! assert_eq!(engine.reported()?.total_momentum(), [0; 3]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

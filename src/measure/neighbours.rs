@@ -19,7 +19,7 @@ pub const RANDOM_POINTS: [f64; 14] =
 /// let cells = Tessellation::new([3.0, 2.0], &[[0.1, 0.2], [1.1, 0.1], [2.3, 0.6], [0.6, 1.2], [1.5, 1.4]]);
 /// let counts = NeighbourCounts::from_samples(&[NeighbourCounts::of_cells(&cells)]);
 /// // By Euler's formula, whatever the points.
-/// assert_eq!(counts.mean().map(|found| found.mean), Some(6.0));
+/// assert_eq!(counts.mean().map(|found| found.value), Some(6.0));
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct NeighbourCounts {

@@ -140,6 +140,8 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
     let mut output = json!({"energies": {"every": 1}});
     let analyses = [
         (RadialDistribution, "radial_distribution", json!({"every": 2, "range": 1.5, "bins": 10})),
+        (StructureFactor, "structure_factor", json!({"every": 2, "range": 9, "bins": 5, "vectors": 2})),
+        (Clusters, "clusters", json!({"every": 2, "distance": 0.5})),
         (Diffusion, "diffusion", json!({"every": 1, "window": 2})),
         (ChainSizes, "chain_sizes", json!({"every": 2})),
         (Viscosity, "viscosity", json!({"every": 1, "window": 8})),

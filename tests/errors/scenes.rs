@@ -349,10 +349,6 @@ fn lengths_and_durations() {
             r#"profiles={"axis":"x","every":1,"species":"heads"}"#,
             "profiles.species: found \"heads\"; did you mean `head`?",
         ),
-        (
-            r#"stress={"every":1,"interfaces":4}"#,
-            "stress.interfaces: found 4; accepted: `normal`, the axis across them",
-        ),
         (r#"structure_factor={"every":1,"range":9,"species":["tail","heads"]}"#, "species[1]: found \"heads\""),
         (r#"diffusion={"every":1,"window":2,"species":"wall"}"#, "diffusion.species: found \"wall\", which is held"),
         (r#"histograms=[{"quantity":"speed","every":1,"species":"Head"}]"#, "histograms[0].species: found \"Head\""),
@@ -360,6 +356,10 @@ fn lengths_and_durations() {
     ] {
         FLUID.refused_with(&[particles, &format!("output.{asked}")], &[refusal]);
     }
+    FLUID.refused_with(
+        &[r#"output.stress={"every":1,"interfaces":4}"#],
+        &["output.stress.interfaces: found 4; accepted: `normal`, the axis across them"],
+    );
     let taken = particles.replace("head", "all-pairs");
     FLUID.refused_with(
         &[&taken, r#"output.radial_distribution={"every":1,"range":2,"species":"all-pairs"}"#],
