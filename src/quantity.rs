@@ -89,8 +89,10 @@ impl Unit {
 use Unit::{Energy, Other, Pressure, Temperature};
 
 const MOMENTUM: Unit = Other("mass units × length units/time unit");
-const VELOCITY: Unit = Other("length units/time unit");
-const NUMBER: Unit = Other("number");
+pub(crate) const VELOCITY: Unit = Other("length units/time unit");
+pub(crate) const NUMBER: Unit = Other("number");
+pub(crate) const TIME: Unit = Other("time units");
+pub(crate) const RATE: Unit = Other("1/time unit");
 const WORK: Unit = Other("energy units");
 const BATH: Unit = Other("square of its unit");
 const FORCE_MOMENTUM: Unit = Other("force units × momentum units");
@@ -114,7 +116,7 @@ pub const QUANTITIES: [Quantity; 30] = [
     settling("bath_times_displacement", "⟨hx⟩", WORK, "mean over all coordinates of oscillators in baths"),
     settling("momentum_times_displacement", "⟨px⟩", ACTION, "mean over all coordinates of oscillators in baths"),
     quantity("step", "n", NUMBER, "steps since the start of the run"),
-    quantity("time", "t", Other("time units"), "time since the start of the run"),
+    quantity("time", "t", TIME, "time since the start of the run"),
     quantity("momentum", "P", MOMENTUM, "total momentum"),
     quantity("center_of_mass_velocity", "V", VELOCITY, "velocity of the centre of mass"),
     quantity("body_force_momentum", "P_f", MOMENTUM, "impulse of body forces since the start"),

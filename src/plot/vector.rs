@@ -37,9 +37,18 @@ enum Command {
 /// A chart as SVG, with the title and a note that readers of the file find, and no picture shows.
 pub(super) fn svg(canvas: &Canvas, title: &str, note: &str) -> String {
     let (width, height) = (canvas.width, canvas.height);
-    let mut definitions = Definitions::new();
-    let mut drawn = Group::new();
     let mut clips: Vec<Area> = Vec::new();
+    for area in canvas.batches.iter().filter_map(|batch| batch.clip) {
+        if !clips.contains(&area) {
+            clips.push(area);
+        }
+    }
+    let definitions = clips.iter().enumerate().fold(Definitions::new(), |definitions, (number, area)| {
+        let [x, y, width, height] = [area.left, area.top, area.width(), area.height()].map(rounded);
+        let inside = Rectangle::new().set("x", x).set("y", y).set("width", width).set("height", height);
+        definitions.add(ClipPath::new().set("id", format!("area-{number}")).add(inside))
+    });
+    let mut drawn = Group::new();
     for path in paths(canvas) {
         let data = path.commands.iter().fold(Data::new(), |data, command| match *command {
             Command::Move([x, y]) => data.move_to((rounded(x), rounded(y))),
@@ -60,16 +69,8 @@ pub(super) fn svg(canvas: &Canvas, title: &str, note: &str) -> String {
         if let Some(opacity) = opacity {
             element = element.set(if path.width.is_some() { "stroke-opacity" } else { "fill-opacity" }, opacity);
         }
-        if let Some(area) = path.clip {
-            let known = clips.iter().position(|clip| *clip == area).unwrap_or_else(|| {
-                clips.push(area);
-                let [x, y, width, height] = [area.left, area.top, area.width(), area.height()].map(rounded);
-                let inside = Rectangle::new().set("x", x).set("y", y).set("width", width).set("height", height);
-                definitions = std::mem::replace(&mut definitions, Definitions::new())
-                    .add(ClipPath::new().set("id", format!("area-{}", clips.len())).add(inside));
-                clips.len() - 1
-            });
-            element = element.set("clip-path", format!("url(#area-{})", known + 1));
+        if let Some(number) = path.clip.and_then(|area| clips.iter().position(|clip| *clip == area)) {
+            element = element.set("clip-path", format!("url(#area-{number})"));
         }
         drawn = drawn.add(element);
     }

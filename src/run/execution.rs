@@ -315,11 +315,17 @@ impl<'a> Run<'a> {
         summary.start = StartSummary::new(self.scene);
         let model = self.scene.model();
         summary.columns.insert(files::ENERGIES.to_owned(), ColumnSummary::of_energies(model));
-        summary.numbered = self
-            .schedule
-            .numbered()
-            .map(|(number, step)| NumberedFrame { number, step, time: step as f64 * model.time_step })
-            .collect();
+        // Parts of a run without pictures left none.
+        let fields = self.scene.output.fields.clone().unwrap_or_default().quantities;
+        let is_there = |number: u64| match model.picture() {
+            PictureKind::Fields => fields
+                .iter()
+                .any(|field| self.directory.file(&files::field(field.stem(), Some(number), "npy")).exists()),
+            _ => self.directory.file(&files::snapshot(number)).exists(),
+        };
+        let numbered = self.schedule.numbered().filter(|(number, _)| is_there(*number));
+        let frame = |(number, step)| NumberedFrame { number, step, time: step as f64 * model.time_step };
+        summary.numbered = numbered.map(frame).collect();
         if let Some((nodes, quantities)) = model.physics().fields(self.scene) {
             let columns = quantities.iter().map(|quantity| {
                 (files::field(quantity.name, None, "npy"), vec![ColumnSummary::new(quantity.name, quantity, 2)])

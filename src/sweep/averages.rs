@@ -64,8 +64,9 @@ impl Group<'_> {
             let all = || std::iter::once(&observable).chain(rest.iter().copied());
             let values: Vec<f64> = all().map(|observable| observable.value).collect();
             let unequilibrated = all().any(|observable| observable.unequilibrated);
-            let Estimate { value, error, .. } = independent(&values)?;
-            Some(Observable { name: observable.name, value, error, from_few_samples: false, unequilibrated })
+            let Estimate { value, error, few, .. } = independent(&values)?;
+            let from_few_samples = error.is_some() && few;
+            Some(Observable { name: observable.name, value, error, from_few_samples, unequilibrated })
         };
         observables(first).into_iter().filter_map(average).collect()
     }
@@ -82,7 +83,7 @@ pub(super) fn averages(variants: &[VariantSummary]) -> Vec<SeedAverage> {
             let spoilt = observables.iter().filter(|observable| observable.unequilibrated);
             let unequilibrated = spoilt.map(|observable| observable.name.clone()).collect();
             let means = observables.into_iter().map(|Observable { name, value, error, .. }| {
-                let estimate = Estimate { few: false, ..Estimate::new(value, error, seeds) };
+                let estimate = Estimate::new(value, error, seeds);
                 // Plain numbers and nothing else: this conversion cannot fail.
                 (name, serde_json::to_value(estimate).unwrap_or_default())
             });

@@ -578,6 +578,10 @@ fn a_run_without_pictures_can_be_drawn_later() {
     assert_eq!(left, ["snapshot-000001.png", "snapshot-000002.png"]);
     let said = resumed(&["--steps", "90"]);
     assert!(said.contains("3 numbered snapshots") && said.contains("energies.png"), "{said}");
+    let numbered = place.summary("part").numbered;
+    let frames: Vec<_> = numbered.iter().map(|frame| (frame.number, frame.step, frame.time)).collect();
+    assert_eq!(frames, [(1, 0, 0.0), (2, 25, 0.75), (4, 75, 2.25)]);
+    assert!(place.summary("out").numbered.is_empty());
 }
 
 /// Every line on standard error is an event, from the start to the end, also of a run that goes on.

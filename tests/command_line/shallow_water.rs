@@ -76,6 +76,27 @@ fn circulations_of_nothing() {
     assert_eq!(circulation["outer"], nothing);
 }
 
+/// The summary says what arrays hold: their quantity, the places of the nodes, and the steps of those with numbers.
+#[test]
+fn arrays_of_fields_are_described() {
+    let fields = json!({"every": 16, "quantities": ["depth", "vorticity"]});
+    let place = place().with("/output/fields", fields).with("/space/box", json!([TAU, 2.0 * TAU]));
+    let place = place.with("/interactions/0/mesh", json!([16, 32]));
+    place.run("out", &["--no-pictures", "--quiet"]);
+    let summary = place.summary("out");
+    let mesh = summary.mesh.unwrap();
+    assert_eq!(array(&place.path("out/depth-000002.npy")).0.matches("(16, 32)").count(), 1);
+    assert_eq!((mesh.nodes, mesh.spacing), ([16, 32], [TAU / 16.0; 2]));
+    let steps: Vec<_> = summary.numbered.iter().map(|frame| (frame.number, frame.step)).collect();
+    assert_eq!(steps, [(1, 0), (2, 16), (3, 32)]);
+    let described = &summary.columns["vorticity.npy"][0];
+    assert_eq!((&described.symbol[..], &described.unit[..]), ("ζ", "1/time unit"));
+    // Loops have names of their own, and are of no species.
+    let circulations = &summary.columns["circulation.csv"];
+    assert_eq!(circulations.iter().map(|column| &column.name[..]).collect::<Vec<_>>(), ["time", "inner", "outer"]);
+    assert!(circulations.iter().all(|column| column.species.is_empty()) && circulations[1].symbol == "Γ");
+}
+
 /// What the plan for any adapter would need lavapipe cannot bind; what it needs itself it can.
 #[test]
 fn a_large_mesh_is_planned_for_the_adapter_that_is_there() {

@@ -55,6 +55,7 @@ fn cases() -> Vec<(Vec<&'static str>, Vec<[u32; 3]>)> {
                 MIXTURE_FORCE,
                 RADIAL,
                 PARTIAL,
+                r#"output.clusters={"every":5,"distance":0.5,"least":2}"#,
                 FOLLOWED,
                 DIFFUSING,
                 DIFFUSING_B,

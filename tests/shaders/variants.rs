@@ -218,6 +218,7 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
     let of_species = [
         json!({
             "radial_distribution": {"every": 2, "range": 1.1, "species": "all-pairs"},
+            "structure_factor": {"every": 2, "range": 9, "species": "all-pairs"},
             "diffusion": {"every": 2, "window": 4, "species": "A"},
             "autocorrelations": [
                 {"quantity": "velocity", "every": 2, "window": 4, "species": "A"},

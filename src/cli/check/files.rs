@@ -44,6 +44,10 @@ pub fn outputs(scene: &Checked, sizes: &Sizes) -> String {
         let when = asked.detail.map_or(sampled.clone(), |detail| format!("{detail}, {sampled}"));
         rows.extend(asked.tables.iter().map(|names| (format!("{}, {}", names.file, names.plot), when.clone())));
     }
+    let formats: Vec<&str> = output.plot.vector.iter().map(|format| format.extension()).collect();
+    if !formats.is_empty() {
+        rows.push((format!("all charts as {}", formats.join(", ")), "at the end".to_owned()));
+    }
     format!("\nFiles\n{}", labelled(rows, "  "))
 }
 

@@ -5,7 +5,7 @@ use super::flow::MeshFlow;
 use crate::document::FieldQuantity;
 use crate::families::pictures::{MeshPictures, ShownField};
 use crate::families::{Field, Model, ShallowWater};
-use crate::quantity::{Quantity, Unit, quantity};
+use crate::quantity::{Quantity, RATE, Unit, VELOCITY, quantity};
 use crate::state::Reported;
 
 /// Fields of a state with a smoothed depth, and loops of tracers that are still curves.
@@ -23,8 +23,6 @@ pub(super) fn pictures(
 
 /// The quantity of a field, which has the name of its files.
 pub(super) fn described(field: FieldQuantity) -> Quantity {
-    const RATE: Unit = Unit::Other("1/time unit");
-    const VELOCITY: Unit = Unit::Other("length units/time unit");
     let (symbol, unit, meaning) = match field {
         FieldQuantity::Depth => ("h", Unit::Other("mean depths"), "depth"),
         FieldQuantity::PotentialVorticity => ("(ζ + f_{0})/h", RATE, "potential vorticity"),

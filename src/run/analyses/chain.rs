@@ -82,10 +82,6 @@ impl Descriptor for Chain {
         Some(Conclusion { tables, result: Ok(result), warnings: Vec::new() })
     }
 
-    fn species_of(&self, _: &Checked, _: &[usize]) -> Vec<String> {
-        Vec::new()
-    }
-
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let [pulse, memory, equilibrium] = subtitles(drawn.scene);
         let (title, table) = (drawn.title(), drawn.table);

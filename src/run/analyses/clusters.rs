@@ -1,15 +1,13 @@
 //! Clusters of particles that are close to each other.
 
-use super::{
-    Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Sampling, Setting, found, of_species, printed_estimate,
-};
+use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Sampling, Setting, mean, of_species};
 use crate::families::{Bonds, Checked, Model, close_pairs};
 use crate::measure::statistics::estimate;
-use crate::plot::{Axis, Chart, Mean, Panel, Series, SeriesInk};
+use crate::plot::{Axis, Chart, Panel, Series, SeriesInk};
 use crate::scene;
 use crate::state::Reported;
 use crate::table::Table;
-use serde_json::{Value, json};
+use serde_json::json;
 
 /// Columns of the table over time, and names in the result.
 const COLUMNS: [&str; 4] = ["clusters", "mean_size", "weighted_size", "largest_size"];
@@ -92,12 +90,7 @@ impl Descriptor for Clusters {
             return Chart { title: drawn.title().to_owned(), subtitle, panels: vec![panel] };
         }
         let series = |column: &str, name: &str, ink: usize| {
-            let mean = found(&drawn.result[column]).map(|found| Mean {
-                value: found.value,
-                standard_error: found.error,
-                from_few_samples: found.few,
-                ..Mean::default()
-            });
+            let mean = mean(&drawn.result[column]);
             let points = drawn.table.over_time(column, 1.0).unwrap_or_default();
             Series { mean, ..Series::line(name, points).with_ink(SeriesInk::Numbered(ink)) }
         };
@@ -110,16 +103,12 @@ impl Descriptor for Clusters {
         Chart { title: drawn.title().to_owned(), subtitle, panels: vec![number, size] }
     }
 
-    fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        let labels = [
+    fn labels(&self) -> &'static [(&'static str, &'static str)] {
+        &[
             ("clusters", COLUMNS[0]),
             ("particles in a cluster", COLUMNS[1]),
-            ("particles in the largest", COLUMNS[3]),
-        ];
-        labels
-            .iter()
-            .filter_map(|(label, name)| Some(((*label).to_owned(), printed_estimate(&result[*name])?)))
-            .collect()
+            ("particles in the largest cluster", COLUMNS[3]),
+        ]
     }
 
     fn finds(&self, _: &Checked) -> Vec<&'static str> {

@@ -72,6 +72,12 @@ fn total_mass(model: &Model) -> f64 {
     model.species.iter().map(|species| species.mass * species.count as f64).sum()
 }
 
+/// The names of species by their numbers.
+fn species_of(scene: &Checked, numbers: &[usize]) -> Vec<String> {
+    let species = numbers.iter().filter_map(|number| scene.model().species.get(*number));
+    species.map(|species| species.name.clone()).collect()
+}
+
 /// What reports have to leave for the analyses that a scene asks for.
 pub(super) fn needs(output: &Output) -> Vec<Need> {
     output.analyses().into_iter().flat_map(|id| describe(id).needs(output)).copied().collect()

@@ -1,7 +1,8 @@
 //! Profiles of density, velocity, temperature and stress along an axis of the box.
 
 use super::{
-    Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler, total_mass,
+    Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, SumSampler, species_of,
+    total_mass,
 };
 use crate::engine::Sample;
 use crate::families::{Checked, Model};
@@ -144,6 +145,10 @@ impl Descriptor for Profiles {
             ));
         }
         Some(Conclusion { warnings, ..Conclusion::new(table, result) })
+    }
+
+    fn species_of(&self, scene: &Checked, numbers: &[usize]) -> Vec<String> {
+        species_of(scene, numbers)
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {

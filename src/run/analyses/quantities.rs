@@ -1,24 +1,20 @@
 //! The quantities in tables and results of analyses, with units and definitions.
 
 use crate::quantity::{
-    Quantity, Unit,
+    NUMBER, Quantity, RATE, TIME, Unit,
     Unit::{Density, Other, Pressure, Temperature, Tension, Viscosity},
-    quantity,
+    VELOCITY, quantity,
 };
 use crate::scene::{AnalysisId, CorrelatedQuantity, CountedQuantity};
 use serde_json::{Map, Value, json};
 
 const LENGTH: Unit = Other("length units");
 const AREA: Unit = Other("length units²");
-const TIME: Unit = Other("time units");
-const RATE: Unit = Other("1/time unit");
 const WAVE_NUMBER: Unit = Other("1/length unit");
-const VELOCITY: Unit = Other("length units/time unit");
 const VELOCITY_SQUARED: Unit = Other("length units²/time unit²");
 const DIFFUSION: Unit = Other("length units²/time unit");
 const ACCELERATION: Unit = Other("length units/time unit²");
 const VELOCITIES: [Unit; 3] = [VELOCITY, VELOCITY_SQUARED, Other("length units⁴/time unit⁴")];
-const NUMBER: Unit = Other("number");
 const INVERSE: Unit = Other("1 over the unit of the quantity");
 
 const LAG: Quantity = quantity("time", "t", TIME, "lag");

@@ -1,8 +1,8 @@
 //! The radial distribution function.
 
 use super::pair_histogram::PairHistogram;
-use super::species_pairs::{PAIRS, SPECIES, SpeciesPairs, names, pair_in_words, results_of};
-use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, printed_estimate};
+use super::species_pairs::{SPECIES, SpeciesPairs, names, pair_in_words, printed_peaks, results_of};
+use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, species_of};
 use crate::engine::Sample;
 use crate::families::Checked;
 use crate::measure::blocks::BlockSums;
@@ -111,7 +111,7 @@ impl Descriptor for RadialDistribution {
             for curve in &curves {
                 let [distance, height] = [0, 1].map(|part| counts.jackknife(|means| Some(curve.peak(means)?[part])));
                 let mut result = json!({ "samples": counts.samples(), PEAK_DISTANCE: distance, PEAK_HEIGHT: height });
-                let pair = species.get(curve.place).map(|pair| pair.map(|number| &model.species[number].name[..]));
+                let pair = pairs.names(curve.place, model);
                 if let Some(pair) = pair {
                     result[SPECIES] = json!(pair);
                 }
@@ -124,9 +124,13 @@ impl Descriptor for RadialDistribution {
                     ));
                 }
             }
-            Ok(if pairs.are_all() { json!({ PAIRS: found }) } else { found.swap_remove(0) })
+            Ok(pairs.result(found))
         };
         Some(Conclusion { warnings, ..Conclusion::new(table, result) })
+    }
+
+    fn species_of(&self, scene: &Checked, numbers: &[usize]) -> Vec<String> {
+        species_of(scene, numbers)
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -147,20 +151,13 @@ impl Descriptor for RadialDistribution {
     }
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        let line = |peaks: &Value| {
-            let [distance, height] = [PEAK_DISTANCE, PEAK_HEIGHT].map(|key| printed_estimate(&peaks[key]));
-            let pair = pair_in_words(names(peaks)).map(|pair| format!(" of {pair}")).unwrap_or_default();
-            Some((format!("g(r) peak{pair}"), format!("{} at {}", height?, distance?)))
-        };
-        results_of(result).iter().filter_map(line).collect()
+        printed_peaks(result, "g(r)", [PEAK_HEIGHT, PEAK_DISTANCE])
     }
 
     fn finds(&self, scene: &Checked) -> Vec<&'static str> {
         let asked = scene.output.radial_distribution.as_ref();
-        match asked.map(|asked| SpeciesPairs::of(asked.species.as_ref(), scene.model())) {
-            Some(SpeciesPairs::All(_)) => Vec::new(),
-            _ => vec![PEAK_DISTANCE, PEAK_HEIGHT],
-        }
+        let pairs = asked.map(|asked| SpeciesPairs::of(asked.species.as_ref(), scene.model()));
+        pairs.filter(|pairs| !pairs.are_all()).map_or_else(Vec::new, |_| vec![PEAK_DISTANCE, PEAK_HEIGHT])
     }
 }
 

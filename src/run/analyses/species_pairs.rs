@@ -1,13 +1,14 @@
 //! Pairs of species that analyses have a curve each of.
 
+use super::printed_estimate;
 use crate::families::Model;
 use crate::printable;
 use crate::scene::CountedPairs;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::borrow::Cow;
 
 /// The pairs of species of a result, and the two species of a pair.
-pub(super) const PAIRS: &str = "pairs";
+const PAIRS: &str = "pairs";
 pub(super) const SPECIES: &str = "species";
 
 /// The pairs of species that have a curve each.
@@ -53,6 +54,16 @@ impl SpeciesPairs {
         }
     }
 
+    /// The names of the two species of a curve; none of all particles alike.
+    pub fn names(self, place: usize, model: &Model) -> Option<[&str; 2]> {
+        self.species().get(place).map(|pair| pair.map(|number| model.species[number].name.as_str()))
+    }
+
+    /// The result of curves, of which there is one unless all pairs are asked for.
+    pub fn result(self, mut of_curves: Vec<Value>) -> Value {
+        if self.are_all() { json!({ PAIRS: of_curves }) } else { of_curves.swap_remove(0) }
+    }
+
     /// True if results are those of several curves.
     pub fn are_all(self) -> bool {
         matches!(self, Self::All(_))
@@ -78,4 +89,14 @@ pub(super) fn names(result: &Value) -> impl Iterator<Item = &str> {
 pub(super) fn pair_in_words<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let names: Vec<Cow<'_, str>> = names.into_iter().map(printable::name).collect();
     (names.len() == 2).then(|| names.join("–"))
+}
+
+/// Heights and places of peaks as they are printed at the end of a run, by their keys.
+pub(super) fn printed_peaks(result: &Value, symbol: &str, keys: [&str; 2]) -> Vec<(String, String)> {
+    let line = |peaks: &Value| {
+        let [height, place] = keys.map(|key| printed_estimate(&peaks[key]));
+        let pair = pair_in_words(names(peaks)).map(|pair| format!(" of {pair}")).unwrap_or_default();
+        Some((format!("{symbol} peak{pair}"), format!("{} at {}", height?, place?)))
+    };
+    results_of(result).iter().filter_map(line).collect()
 }

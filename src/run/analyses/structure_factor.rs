@@ -1,7 +1,7 @@
 //! The static structure factor.
 
-use super::species_pairs::{PAIRS, SPECIES, SpeciesPairs, names, pair_in_words, results_of};
-use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, printed_estimate};
+use super::species_pairs::{SPECIES, SpeciesPairs, names, pair_in_words, printed_peaks, results_of};
+use super::{Conclusion, Descriptor, Drawn, Gathered, NO_SAMPLE, Part, Planner, Sampling, Setting, species_of};
 use crate::engine::Sample;
 use crate::families::{Checked, Model};
 use crate::measure::blocks::BlockSums;
@@ -14,6 +14,7 @@ use crate::plan::serial_memory::TURNS;
 use crate::plan::{Contents, Plan, Sampler};
 use crate::plot::{Chart, Panel, Series};
 use crate::scene::{self, AnalysisId};
+use crate::shaders::analyses::OfWave;
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
@@ -52,8 +53,8 @@ impl Descriptor for StructureFactor {
         let (groups, entries) = (waves.len() as u64 * parts, 2 * waves.len() as u64 * parts);
         let sums = [(Array::PartialSums, Array::DensityWaves)];
         let entry = Entry::SumDensityWaves;
-        let Some(kernel) = planner.kernel_of_particles("structure_factor", entry, &Choices::new(), groups, &sums)
-        else {
+        let choices = Choices::new().with_if(sets.are_of_species, OfWave::Species);
+        let Some(kernel) = planner.kernel_of_particles("structure_factor", entry, &choices, groups, &sums) else {
             return;
         };
         let constants = vec![(Constant::WaveParts, parts as f64), (Constant::Quantities, 2.0)];
@@ -135,15 +136,18 @@ impl Descriptor for StructureFactor {
                     [0, 1].map(|part| blocks.jackknife(|means| Some(peak(&rows(means))?[part])));
                 let mut found =
                     json!({ "samples": blocks.samples(), PEAK_WAVE_NUMBER: wave_number, PEAK_HEIGHT: height });
-                if let Some(pair) = sets.pairs.species().get(curve.place) {
-                    found[SPECIES] = json!(pair.map(|number| &model.species[number].name));
+                if let Some(pair) = sets.pairs.names(curve.place, model) {
+                    found[SPECIES] = json!(pair);
                 }
                 found
             });
-            let mut found: Vec<Value> = found.collect();
-            Ok(if sets.pairs.are_all() { json!({ PAIRS: found }) } else { found.swap_remove(0) })
+            Ok(sets.pairs.result(found.collect()))
         };
         Some(Conclusion::new(table, result))
+    }
+
+    fn species_of(&self, scene: &Checked, numbers: &[usize]) -> Vec<String> {
+        species_of(scene, numbers)
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
@@ -162,20 +166,13 @@ impl Descriptor for StructureFactor {
     }
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        let line = |peaks: &Value| {
-            let [place, height] = [PEAK_WAVE_NUMBER, PEAK_HEIGHT].map(|key| printed_estimate(&peaks[key]));
-            let pair = pair_in_words(names(peaks)).map(|pair| format!(" of {pair}")).unwrap_or_default();
-            Some((format!("S(q) peak{pair}"), format!("{} at {}", height?, place?)))
-        };
-        results_of(result).iter().filter_map(line).collect()
+        printed_peaks(result, "S(q)", [PEAK_HEIGHT, PEAK_WAVE_NUMBER])
     }
 
     fn finds(&self, scene: &Checked) -> Vec<&'static str> {
         let asked = scene.output.structure_factor.as_ref();
-        match asked.map(|asked| SpeciesPairs::of(asked.species.as_ref(), scene.model())) {
-            Some(SpeciesPairs::All(_)) => Vec::new(),
-            _ => vec![PEAK_WAVE_NUMBER, PEAK_HEIGHT],
-        }
+        let pairs = asked.map(|asked| SpeciesPairs::of(asked.species.as_ref(), scene.model()));
+        pairs.filter(|pairs| !pairs.are_all()).map_or_else(Vec::new, |_| vec![PEAK_WAVE_NUMBER, PEAK_HEIGHT])
     }
 }
 
@@ -188,8 +185,9 @@ fn edges(model: &Model) -> [Option<f64>; 3] {
 /// The density of particles that a wave of a species has, or of all; and the pairs of these whose products are taken.
 struct Sets {
     pairs: SpeciesPairs,
-    /// Species by their numbers, or -1 for all.
+    /// Species by their numbers; one that stands for all where waves are of none.
     species: Vec<i32>,
+    are_of_species: bool,
     curves: Vec<Curve>,
 }
 
@@ -218,12 +216,10 @@ impl Sets {
             |number: usize| model.species.get(number).filter(|found| !found.frozen).map_or(0, |found| found.count);
         let free: Vec<usize> = (0..model.species.len()).filter(|number| count(*number) > 0).collect();
         let numbers = match pairs {
-            SpeciesPairs::Between([a, b]) => {
-                if a == b {
-                    vec![a]
-                } else {
-                    vec![a, b]
-                }
+            SpeciesPairs::Between(pair) => {
+                let mut numbers = pair.to_vec();
+                numbers.dedup();
+                numbers
             }
             SpeciesPairs::Alike | SpeciesPairs::All(_) => free.clone(),
         };
@@ -242,8 +238,13 @@ impl Sets {
             };
             pairs.species().into_iter().enumerate().map(pair).collect()
         };
-        let species = if is_whole { vec![-1] } else { numbers.iter().map(|number| *number as i32).collect() };
-        Self { pairs, species, curves: curves.into_iter().filter(|curve| curve.particles > 0.0).collect() }
+        let species = if is_whole { vec![0] } else { numbers.iter().map(|number| *number as i32).collect() };
+        Self {
+            pairs,
+            species,
+            are_of_species: !is_whole,
+            curves: curves.into_iter().filter(|curve| curve.particles > 0.0).collect(),
+        }
     }
 }
 

@@ -674,6 +674,19 @@ pub fn features() -> Vec<Feature> {
             always: true,
         },
         Feature {
+            name: "structure factor of species",
+            ground: |scene| {
+                no_analyses(scene);
+                write(scene, "structure_factor", json!({"every": 2, "range": 9}));
+            },
+            with: |scene| write(scene, "structure_factor", json!({"every": 2, "range": 9, "species": "A"})),
+            without: |scene| write(scene, "structure_factor", json!({"every": 2, "range": 9})),
+            own: Some(&["analyses/of_wave"]),
+            more: &[],
+            instead: &[],
+            always: false,
+        },
+        Feature {
             name: "sizes of chains",
             ground: no_analyses,
             with: |scene| write(scene, "chain_sizes", json!({"every": 2})),
