@@ -85,7 +85,7 @@ fn arrays_of_fields_are_described() {
     place.run("out", &["--no-pictures", "--quiet"]);
     let summary = place.summary("out");
     let mesh = summary.mesh.unwrap();
-    assert_eq!(array(&place.path("out/depth-000002.npy")).0.matches("(16, 32)").count(), 1);
+    assert!(array(&place.path("out/depth-000002.npy")).0.contains("(16, 32,)"));
     assert_eq!((mesh.nodes, mesh.spacing), ([16, 32], [TAU / 16.0; 2]));
     let steps: Vec<_> = summary.numbered.iter().map(|frame| (frame.number, frame.step)).collect();
     assert_eq!(steps, [(1, 0), (2, 16), (3, 32)]);
