@@ -14,7 +14,7 @@ type Variant<'a> = (&'a str, usize, String);
 type Names = BTreeMap<String, String>;
 
 /// The module of everything.
-pub fn generate(files: &Files) -> String {
+pub fn generate(files: &Files, sources: &BTreeMap<String, String>) -> String {
     let mut code = String::new();
     let mut entries = Names::new();
     let mut slots: BTreeMap<&str, BTreeMap<&str, Vec<Variant<'_>>>> = BTreeMap::new();
@@ -23,10 +23,16 @@ pub fn generate(files: &Files) -> String {
         let _ = writeln!(code, "    ({file:?}, {text:?}),");
         entries.extend(wgsl::kernels(text));
         if let [domain, slot, variant] = file.split('/').collect::<Vec<_>>()[..] {
-            slots.entry(domain).or_default().entry(slot).or_default().push((variant, number, first_sentence(text)));
+            slots.entry(domain).or_default().entry(slot).or_default().push((
+                variant,
+                number,
+                first_sentence(text.trim_start()),
+            ));
         }
     }
     code.push_str("];\n\n");
+    let sources: Vec<(&String, &String)> = sources.iter().collect();
+    let _ = writeln!(code, "pub(super) static SOURCES: [(&str, &str); {}] = {sources:?};\n", sources.len());
     number_slots(&mut code, files);
     enumerate(&mut code, "Entry", "The entry points of all kernels.", "function", &entries);
     let constants = constants(files);

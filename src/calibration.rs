@@ -208,7 +208,8 @@ fn apart(one: &Scene, other: &Scene) -> f64 {
 
 /// The single choice among those of the interactions that has another name in a scene that was measured: its key and that name.
 fn other_choice(scene: &Scene, measured: &Scene) -> Option<String> {
-    let [own, known] = [scene, measured].map(|scene| serde_json::to_value(&scene.interactions).unwrap_or_default());
+    let [own, known] =
+        [scene, measured].map(|scene| serde_json::to_value(&scene.system).unwrap_or_default()["interactions"].take());
     let mut found = Vec::new();
     differences(&own, &known, "interactions", &mut found);
     match &found[..] {
@@ -248,9 +249,10 @@ fn is_like(one: &Scene, other: &Scene) -> bool {
     let alike = |(a, b): (&scene::ParticleGroup, &scene::ParticleGroup)| {
         (a.mass, a.fixed, a.is_frozen(), a.tracer, &a.chain) == (b.mass, b.fixed, b.is_frozen(), b.tracer, &b.chain)
     };
-    (one.interactions == other.interactions || other_choice(one, other).is_some())
+    one.system.particle_integrator() == other.system.particle_integrator()
+        && one.system.integrator_name() == other.system.integrator_name()
+        && (one.system == other.system || other_choice(one, other).is_some())
         && one.temperature == other.temperature
-        && one.integrator == other.integrator
         && one.space.lengths.len() == other.space.lengths.len()
         && one.space.walls == other.space.walls
         && one.particles.len() == other.particles.len()

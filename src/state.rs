@@ -211,6 +211,23 @@ impl Reported {
         self.images.get(particle).copied().unwrap_or_default()
     }
 
+    /// The particles of these numbers, in their order; those that do not exist are left out.
+    #[must_use]
+    pub fn of_particles(&self, numbers: &[u32]) -> Self {
+        fn of<T: Copy>(array: &[T], numbers: &[u32]) -> Vec<T> {
+            numbers.iter().filter_map(|number| array.get(*number as usize).copied()).collect()
+        }
+        Self {
+            step: self.step,
+            positions: of(&self.positions, numbers),
+            momenta: of(&self.momenta, numbers),
+            species: of(&self.species, numbers),
+            masses: of(&self.masses, numbers),
+            energies: of(&self.energies, numbers),
+            images: of(&self.images, numbers),
+        }
+    }
+
     /// Number of particles.
     #[must_use]
     pub fn len(&self) -> usize {

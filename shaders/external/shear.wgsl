@@ -80,3 +80,133 @@ fn note_crossing(taken: i32) {
         atomicAdd(&wall_impulses[1], value.y + carry);
     }
 }
+
+// == external/shift/kept
+// As an invocation has found it for all of its pairs.
+fn shift_here() -> u32 { return shift_of_visit; }
+
+// == space/travel/sheared
+// Through boundaries that shear, which change the momentum of what crosses them: see external/shear.
+fn travel(position: vec4<u32>, momentum: Steps, species: i32) -> Travel {
+    is_booked = is_own(position);
+    let flight = drift_through_all(ShearedFlight(fraction_of(position), momentum), species);
+    return Travel(flight.place, flight.momentum, Steps(1));
+}
+fn travel_rest(position: vec4<u32>, momentum: Steps, species: i32) -> Travel {
+    is_booked = is_own(position);
+    let flight = drift_through(ShearedFlight(fraction_of(position), momentum), species, 2u * SHEAR_PART);
+    return Travel(flight.place, flight.momentum, Steps(1));
+}
+
+// == space/relative_motion/sheared
+// The copy of the second in the order of ids has, across a boundary that shears, a momentum of its own.
+fn relative_motion(me: Particle, other: Particle, mine: Steps, theirs: Steps) -> Vector {
+    let up = boxes_up(fraction_of(me.position), fraction_of(other.position));
+    if (ONE_MASS == 1u) {
+        var exact = mine - theirs;
+        exact.x -= up * jump_of(species_of(me));
+        return Vector(exact);
+    }
+    let in_order = mine_first(me, other);
+    let species = vec2<i32>(species_of(me), species_of(other));
+    let ordered = select(species.yx, species, in_order);
+    var copy = select(mine, theirs, in_order);
+    copy.x += select(-up, up, in_order) * jump_of(ordered.y);
+    let difference = Vector(select(theirs, mine, in_order)) * inverse_mass_of(ordered.x)
+        - Vector(copy) * inverse_mass_of(ordered.y);
+    return select(-difference, difference, in_order);
+}
+
+// == pairs/apart/sheared
+// The nearest copy of the other particle is one that shear displaces, and moves, across a boundary.
+fn way_between(position: vec4<u32>, other: vec4<u32>) -> Steps {
+    let mine = fraction_of(position);
+    let theirs = fraction_of(other);
+    var way = signed(mine - theirs);
+    way.x -= boxes_up(mine, theirs) * bitcast<i32>(shift_here());
+    return way;
+}
+fn copy_drift(position: vec4<u32>, other: vec4<u32>) -> Steps {
+    var way = Steps(0);
+    way.x = boxes_up(fraction_of(position), fraction_of(other)) * SHEAR_STEP;
+    return way;
+}
+
+// == pairs/visit/sheared
+// Reports need the place of the particle. Across a boundary that shears, the neighbouring cells are those of the place to which the
+// shift takes it.
+fn begin_visit(row: u32, me: Particle) {
+    approach_faces(row);
+    visited_place = fraction_of(me.position);
+}
+fn columns_of(me: Particle) -> vec2<u32> {
+    let place = fraction_of(me.position);
+    var displaced = place;
+    displaced.x -= face_shift;
+    return vec2<u32>(column_of(place), column_of(displaced));
+}
+fn column_towards(row: u32, other_row: u32, columns: vec2<u32>) -> u32 {
+    return select(columns.x, columns.y, is_across(row, other_row));
+}
+
+// == pairs/hits/sheared
+// As by default, but it notes where the particle is whose hits are wanted.
+fn prepare_cluster_hits(row: u32, me: Particle, lane: u32, s: Stretches) {
+    visited_place = fraction_of(me.position);
+    hits_middle = row_middle(row);
+    hits_probe = probe_of(visited_place, hits_middle);
+    hits_next = candidate_of_lane(s, lane);
+}
+
+// == pairs/prefilter_source/sheared
+// The prefilter reads positions, and sees the copies next to the row.
+fn candidate_probe(index: u32, middle: Middle) -> Probe {
+    return probe_of(copy_at_row(fraction_of(position_at(index))), middle);
+}
+
+// == pairs/cluster_rows/sheared
+// Across a boundary that shears, the stretches are displaced by the shift. That is no whole number of cells, so that they are a cell longer.
+fn cluster_stretches(row: u32, lane: u32, column: u32) -> Stretches {
+    approach_faces(row);
+    let others = neighbour_rows() - 1u;
+    let lane_row = min(lane + select(0u, 1u, lane >= others / 2u), others);
+    let other_row = neighbour_row(row, lane_row);
+    let lane_start = other_row * row_width();
+    let own_start = row * row_width();
+    // A cluster that extends round the whole box visits each cell once: the row without its frame.
+    let leftmost = subgroupShuffle(column, 0u);
+    let rightmost = subgroupShuffle(column, 7u);
+    let whole = rightmost - leftmost + 1u + 2u * frame() > CELLS_X;
+    let from_cell = select(leftmost, frame(), whole);
+    let to_cell = select(rightmost + 1u + 2u * frame(), frame() + CELLS_X, whole);
+    // Cells by which the stretch lies further right. The margin is wider than what columns are rounded by.
+    let displaced = f32((0u - face_shift) >> 8u) * (f32(CELLS_X) / 16777216.0);
+    let first = i32(floor(displaced - 0.01));
+    let last = i32(floor(displaced + 0.01)) + 1;
+    let across_from = u32(i32(leftmost + CELLS_X) + first) % CELLS_X;
+    let across_to = across_from + rightmost - leftmost + u32(last - first) + 1u + 2u * frame();
+    let whole_across = across_to > row_width() || across_to - across_from > CELLS_X;
+    let is_displaced = is_across(row, other_row);
+    let other_from = select(from_cell, select(across_from, frame(), whole_across), is_displaced);
+    let other_to = select(to_cell, select(across_to, frame() + CELLS_X, whole_across), is_displaced);
+    let begin = cell_at(lane_start + other_from);
+    let length = select(0u, cell_at(lane_start + other_to) - begin, lane < others);
+    let own = cell_at(own_start + from_cell);
+    return stretches_of(own, cell_at(own_start + to_cell) - own, begin, length);
+}
+
+// == couplings/margin/sheared
+// Copies across a boundary that shears move on without their particles. The margin holds how far they go until the
+// shift reaches the next multiple of a part of it: then neighbours are listed again.
+override SHEAR_MARGIN: u32; // that part, in 2^-32 of the box
+
+fn way_from_anchor(place: Fraction, anchor: Fraction) -> Steps {
+    var way = signed(place - anchor);
+    way.x -= boxes_up(place, anchor) * bitcast<i32>(shift_at(halves_of(control.next)));
+    return way;
+}
+fn is_outdated(step: vec2<u32>) -> bool {
+    let halves = halves_of(step);
+    let before = shift_at(sum64_add(halves, Sum64(0xfffffffeu, 0xffffffffu))); // two half steps
+    return shift_at(halves) / SHEAR_MARGIN != before / SHEAR_MARGIN;
+}

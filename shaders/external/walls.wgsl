@@ -139,3 +139,69 @@ fn report_walls(@builtin(local_invocation_index) lane: u32) {
     }
 }
 override WALL_COUNT: u32; // sums: three for each wall
+
+// == external/drifted/between_walls
+// A drift that walls may have reflected, followed back: reflection is its own inverse.
+fn work_of_drift(me: Particle, kick: Steps, step: u32) -> f32 {
+    let species = species_of(me);
+    let back = fly_all(Flight(fraction_of(me.position), -steps_of(me.momentum), Steps(1), -1), species);
+    let opening = external_kick_at(back.place, species, step - 1u);
+    return dot(Vector(kick), Vector(steps_of(me.momentum))) + dot(Vector(opening), Vector(-back.momentum));
+}
+
+// == external/reflections/booked
+// Adds the momentum that a wall absorbs to its sums, low and high words, in any order.
+fn note_reflection(axis: u32, upper: bool, momentum: Steps) {
+    let word = momentum_word(momentum, 0);
+    let first = 6u * wall_number(axis, upper);
+    for (var k = 0u; k < 3u; k++) {
+        let value = select(Sum64(0u), sum64_of_i32(word[k]), is_booked);
+        let before = atomicAdd(&wall_impulses[first + 2u * k], value.x);
+        let carry = select(0u, 1u, before + value.x < before);
+        atomicAdd(&wall_impulses[first + 2u * k + 1u], value.y + carry);
+    }
+}
+
+// == space/travel/between_walls
+// Between walls, which reflect what meets them and absorb the momentum that it loses: see external/walls.
+fn travel(position: vec4<u32>, momentum: Steps, species: i32) -> Travel {
+    is_booked = is_own(position);
+    let flight = fly_all(Flight(fraction_of(position), momentum, Steps(1), 1), species);
+    return Travel(flight.place, flight.momentum, flight.turned);
+}
+fn travel_rest(position: vec4<u32>, momentum: Steps, species: i32) -> Travel {
+    is_booked = is_own(position);
+    let flight = fly(Flight(fraction_of(position), momentum, Steps(1), 1), species);
+    return Travel(flight.place, flight.momentum, flight.turned);
+}
+// Followed back: reflection is its own inverse.
+fn last_way(position: vec4<u32>, momentum: vec4<i32>) -> Steps {
+    is_booked = false;
+    let end = fraction_of(position);
+    let start = fly_all(Flight(end, -steps_of(momentum), Steps(1), -1), species_in(momentum));
+    return signed(end - start.place);
+}
+
+// == bonds/way/between_walls
+// Between walls a bath with memory sees the way that an end has taken; one without sees its velocity, as friction does.
+fn way_of_end(kind: BondKind, particle: Particle) -> Steps {
+    return select(last_drift(particle), last_way(particle.position, particle.momentum), kind.remembers);
+}
+
+// == analyses/counted_pairs/between_walls
+// Between walls no pair is counted through the space behind them, and none of a frozen particle, which is there.
+fn counts_pair(position: vec4<u32>, other: vec4<u32>) -> bool {
+    let ends = vec3<u32>(WALL_X, WALL_Y, WALL_Z);
+    let open = ends == vec3<u32>(0u);
+    let inside = open | (max(position.xyz, other.xyz) < ends);
+    // The nearest copy of a particle that is more than half a period away is one on the other side of the walls.
+    let apart = max(position.xyz, other.xyz) - min(position.xyz, other.xyz);
+    let straight = open | ((apart >> vec3<u32>(31u)) == vec3<u32>(0u));
+    return position.w < other.w && all(inside & straight);
+}
+
+// == analyses/layers/between_walls
+// Layers between walls: the integer part of LAYERS times the fraction of the way from one wall to the other.
+override LAYER_SCALE: u32; // layers in 2^46 places
+
+fn layer_of(fraction: u32) -> u32 { return min(high_of_product(fraction, LAYER_SCALE) >> 14u, LAYERS - 1u); }

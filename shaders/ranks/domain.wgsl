@@ -63,3 +63,61 @@ fn forget_slots(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     let id = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (id < arrayLength(&slots)) { slots[id] = NOWHERE; }
 }
+
+// == ranks/inner/marked
+// Those in inner cells are marked, and left alone where the others are sent and counted: see pairs/rows_of_part.
+fn mark_of(row: u32, index: u32, own: bool) -> u32 {
+    let inner = inner_of_row(row);
+    return select(select(0u, 1u, own), INNER, (index >= inner.x) & (index < inner.y));
+}
+fn is_inner(slot: u32) -> bool { return slot < sorted_count() && owned_slots[slot] == INNER; }
+
+// == grid/stored/of_rank
+// Of several ranks: as many as are stored, without those that were forgotten, which get no rank in any cell.
+const NO_RANK: u32 = 0xffffffffu;
+
+fn stored_count() -> u32 { return stored_number; }
+// After a sort, which leaves out those that are forgotten.
+fn sorted_count() -> u32 { return atomicLoad(&outgoing_counts[PEERS]); }
+fn is_own(position: vec4<u32>) -> bool { return position.w != NOBODY && lies_in(OWN, position); }
+fn forgets(index: u32) -> bool {
+    // What stays where it was has been counted.
+    if (is_inner(index)) { return true; }
+    let forgotten = stored_position(index).w == NOBODY;
+    if (forgotten) { put_rank(index, NO_RANK); }
+    return forgotten;
+}
+fn has_no_rank(rank: u32) -> bool { return rank == NO_RANK; }
+
+// == bonds/presence/of_rank
+// Of one of several ranks: what is not within its halo is nowhere. A bond with an end within the domain of bonds has to have both.
+override BOND_REACH: f32; // the longest bond along which friction is passed on
+
+fn is_known(slot: u32) -> bool { return slot != NOWHERE; }
+fn are_known(slots_of_ends: vec3<u32>) -> bool {
+    let known = slots_of_ends != vec3<u32>(NOWHERE);
+    if (all(known)) { return true; }
+    for (var end = 0u; end < 3u; end++) {
+        if (known[end] && lies_in(bonded_domain(), particle_at(slots_of_ends[end]).position)) { raise(FAILURE_REACH); }
+    }
+    return false;
+}
+fn check_reach(me: vec4<u32>, other: vec4<u32>, distance: f32) {
+    let relied_on = lies_in(bonded_domain(), me) || lies_in(bonded_domain(), other);
+    raise(select(0u, FAILURE_REACH, relied_on && !is_within(distance, BOND_REACH)));
+}
+
+// == couplings/slots/of_rank
+// Of one of several ranks: where each particle that it knows is sorted, by id; the others are nowhere.
+fn note_slot(id: u32, slot: u32) { slots[id] = slot; }
+fn forget_slot(id: u32) { slots[id] = NOWHERE; }
+
+// == space/followed/of_rank
+// Of several ranks: whoever owns a particle counts its crossings, and whoever knows of it notes where it was, in every step. A particle is
+// known to its next owner before it becomes that one's, and the crossings that all ranks have counted are its own.
+fn followed_count() -> u32 { return stored_number; }
+fn follow(id: u32, position: vec4<u32>) {
+    if (id == NOBODY) { return; }
+    let crossed = select(vec4<i32>(0), crossings(paths[id].last, position), lies_in(OWN, position));
+    paths[id] = Path(position, paths[id].images + crossed);
+}

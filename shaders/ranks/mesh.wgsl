@@ -36,3 +36,38 @@ fn check_node_masses(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
     if (node >= CELLS_X * CELLS_Y) { return; }
     raise_at(select(0u, FAILURE_CROWDING, bitcast<i32>(node_masses[node]) < LEAST_MASS), node);
 }
+
+// == mesh/gathered/of_rank
+// Of several ranks: too much on one of them is too much on all.
+fn kept_mass(mass: i32, least: i32) -> u32 { return bitcast<u32>(select(mass, TOO_MUCH, least < LEAST_MASS)); }
+
+// == mesh/visited/of_rank
+// Of several ranks: the rows of its part. A part of no width is all of the box.
+fn first_visited_row() -> u32 { return place_along(domains[OWN].low.y, CELLS_Y).cell; }
+fn end_of_visited_rows() -> u32 {
+    let width = domains[OWN].width.y;
+    let last = place_along(domains[OWN].low.y + width - 1u, CELLS_Y).cell;
+    return select(last + 1u, CELLS_Y, width == 0u);
+}
+
+// == water/followed/of_rank
+// Of several ranks: each counts the crossings of a particle from where it has arrived to where it leaves.
+fn follow_leaver(id: u32, position: vec4<u32>) { follow(id, position); }
+fn follow_arrival(index: u32) {
+    let particle = load_water(index);
+    paths[particle.id].last = vec4<u32>(particle.position, 0u, 0u);
+}
+
+// == water/stored/of_rank
+// Of several ranks: the places in use, but those whose particles have gone to other ranks. What has arrived lies behind the sorted ones.
+fn first_uncounted() -> u32 { return sorted_count(); }
+fn holds_water(index: u32) -> bool { return index < stored_count() && load_water(index).id != NOBODY; }
+fn ordered_count() -> u32 { return cells[CELLS_X * CELLS_Y - 1u]; }
+
+// How many places the sort has looked at, and how many are left when particles have been put in order.
+fn note_ordered(index: u32) {
+    if (index == 0u) { atomicStore(&outgoing_counts[PEERS], stored_count()); }
+}
+fn note_tidied(index: u32) {
+    if (index == 0u) { atomicStore(&outgoing_counts[PEERS], ordered_count()); }
+}

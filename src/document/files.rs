@@ -46,6 +46,10 @@ pub struct Trajectory {
     /// The file format.
     #[serde(default)]
     pub format: TrajectoryFormat,
+    /// The species whose particles are written, with the numbers that the particles have in the scene; left out, all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 256))]
+    pub species: Vec<String>,
 }
 
 /// The format of a trajectory.

@@ -32,12 +32,21 @@ pub struct ParticleGroup {
     pub mass: f64,
     /// Shallow water: particles without mass that drift with the flow. The circulation of a tracer group on a circle is measured.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[schemars(extend("x-of" = ["shallow-water"]))]
     pub tracer: bool,
     /// Whether the particles stay where they start.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+        "shallow-water": "particles that move: in shallow water all of them carry the depth along",
+        "voronoi": "cells that move: one that is held would absorb momentum and energy of the others",
+    }))]
     pub fixed: bool,
     /// The chains that the particles form, one after the other; left out, none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+        "shallow-water": "no chains in shallow water: its particles have no forces between them",
+        "voronoi": "no chains in Voronoi DPD: its cells have no forces but those at their faces",
+    }))]
     pub chain: Option<Chain>,
     /// Where the particles start.
     #[serde(default)]
@@ -113,6 +122,7 @@ pub enum Placement {
     /// In a layer behind the walls across an axis, evenly but in no order. The particles are frozen: they never move against their wall, and
     /// the wall absorbs what pairs give them.
     #[serde(rename_all = "kebab-case")]
+    #[schemars(extend("x-of" = ["particles"]))]
     BehindWalls {
         /// The axis that the walls cross.
         axis: Axis,
@@ -176,8 +186,10 @@ pub enum Velocities {
     /// At rest.
     Rest,
     /// Shallow water: in balance between rotation and the slope of the smoothed surface, V = (c₀²/f₀)(-∂H/∂y, ∂H/∂x).
+    #[schemars(extend("x-of" = ["shallow-water"]))]
     Geostrophic,
     /// Voronoi DPD: a transverse wave `u_x = amplitude sin(2π periods y/L)` on top of Maxwell's distribution.
+    #[schemars(extend("x-of" = ["voronoi"]))]
     ShearWave {
         /// The largest velocity.
         amplitude: f64,

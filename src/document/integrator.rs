@@ -4,14 +4,13 @@ use super::defaults::hundredths;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// How the equations of motion are integrated.
+/// Integrator of particles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Integrator {
     /// Splitting A(½) B(½) O B(½) A(½) with the pair velocities relaxed at the half-drifted positions; one neighbour
     /// traversal per step. The default: both temperatures are within about one per cent at a step of 0.04 in the
-    /// standard fluid. Baths without memory on particles and along bonds relax exactly. In Voronoi DPD O is friction and
-    /// noise by Crank-Nicolson.
+    /// standard fluid. Baths without memory on particles and along bonds relax exactly.
     Splitting {
         /// How O relaxes pairs that share particles. Left out, `mean-field`, unless that is expected to leave the temperature or the
         /// viscosity of the scene more than 1 % too low: then `two-stages`. The scene in run.json has the choice.
@@ -30,35 +29,46 @@ pub enum Integrator {
     /// their scheme (14)-(17): the default of scenes with memory, coloured noise, fixed particles or one dimension, and
     /// of those with friction along bonds or couplings on single particles and no pair force.
     CotterReich {},
+}
+
+impl Default for Integrator {
+    fn default() -> Self {
+        Self::Splitting { relaxation: None }
+    }
+}
+
+/// Integrator of shallow water.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum WaterIntegrator {
     /// Shallow water: kick(½) G kick(½), where G is the exact flow of free particles that the rotation bends into
     /// circles. Symplectic in its magnetic form, so that it conserves the circulation of material loops at any time step.
     /// The default of scenes of shallow water.
     Gyro {},
     /// Shallow water: R(½) kick(½) drift kick(½) R(½) with R the rotation of velocities alone.
     Rotate {},
+}
+
+impl Default for WaterIntegrator {
+    fn default() -> Self {
+        Self::Gyro {}
+    }
+}
+
+/// Integrator of Voronoi DPD.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum CellIntegrator {
+    /// Voronoi DPD: splitting A(½) B(½) O B(½) A(½), in which O is friction and noise by Crank-Nicolson (default).
+    Splitting {},
     /// Voronoi DPD: the explicit scheme of Euler, as printed by Flekkøy, Coveney and De Fabritiis,
     /// doi:10.1103/PhysRevE.62.2140. Its temperature is 2 % too high at a time step of 0.005, where that of `splitting` is right even at 0.16.
     Euler {},
 }
 
-impl Integrator {
-    /// The name in a scene.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Splitting { .. } => "splitting",
-            Self::GrootWarren { .. } => "groot-warren",
-            Self::CotterReich {} => "cotter-reich",
-            Self::Gyro {} => "gyro",
-            Self::Rotate {} => "rotate",
-            Self::Euler {} => "euler",
-        }
-    }
-}
-
-impl Default for Integrator {
+impl Default for CellIntegrator {
     fn default() -> Self {
-        Self::Splitting { relaxation: None }
+        Self::Splitting {}
     }
 }
 

@@ -1,8 +1,8 @@
-//! Interactions: the tagged union of a scene, which names the families.
+//! Interactions of particles: the tagged union of their laws.
 
 use super::{
     AnglesInteraction, Bath, BodyForceInteraction, BondsInteraction, ColouredNoiseInteraction, DpdInteraction,
-    HarmonicChainInteraction, LangevinInteraction, ShallowWaterInteraction, TetherInteraction, VoronoiInteraction,
+    HarmonicChainInteraction, LangevinInteraction, TetherInteraction,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -27,10 +27,6 @@ pub enum Interaction {
     Angles(AnglesInteraction),
     /// Harmonic chains of beads and of clusters side by side, with their particles; the only interaction of a scene.
     HarmonicChain(HarmonicChainInteraction),
-    /// Rotating shallow water by the Hamiltonian particle-mesh method, with a heat bath on the mesh if asked for.
-    ShallowWater(ShallowWaterInteraction),
-    /// Voronoi DPD: particles that are the cells of a tessellation, with friction, noise and pressure at their faces.
-    Voronoi(VoronoiInteraction),
 }
 
 impl Interaction {
@@ -46,15 +42,7 @@ impl Interaction {
             Self::Bonds(_) => "bonds",
             Self::Angles(_) => "angles",
             Self::HarmonicChain(_) => "harmonic-chain",
-            Self::ShallowWater(_) => "shallow-water",
-            Self::Voronoi(_) => "voronoi",
         }
-    }
-
-    /// Whether it acts on particles and can be combined with others; the others are the only interaction of a scene of another family.
-    #[must_use]
-    pub fn is_of_particles(&self) -> bool {
-        !matches!(self, Self::ShallowWater(_) | Self::Voronoi(_))
     }
 
     /// Its heat bath with the largest friction, if it has one on particles, pairs or bonds.
@@ -87,9 +75,6 @@ impl Interaction {
 
     /// Temperature of the heat bath, in a scene of a temperature; that of the scene without one.
     pub(crate) fn bath_temperature(&self, scene: f64) -> f64 {
-        match self {
-            Self::Voronoi(voronoi) => voronoi.hottest(scene),
-            _ => self.bath().map_or(scene, |(bath, _)| bath.temperature(scene)),
-        }
+        self.bath().map_or(scene, |(bath, _)| bath.temperature(scene))
     }
 }

@@ -23,6 +23,7 @@ mod shallow_water;
 mod shear;
 mod species_names;
 mod state;
+mod system;
 mod voronoi;
 mod walls;
 
@@ -34,7 +35,7 @@ pub use file_start::{EarlierRun, FileLinks, FilePlaces, FileStart, KeptStart, Or
 pub use files::{Checkpoint, Energies, Trajectory, TrajectoryFormat};
 pub(crate) use groups::NumberedGroup;
 pub use groups::{Chain, FileType, ParticleGroup, Placement, Velocities, WallSide};
-pub use integrator::{Integrator, PairRelaxation};
+pub use integrator::{CellIntegrator, Integrator, PairRelaxation, WaterIntegrator};
 pub use interaction::Interaction;
 pub(crate) use links::{LinkSource, Links};
 pub use molecules::Molecule;
@@ -50,5 +51,6 @@ pub use shear::Shear;
 pub(crate) use species_names::{NumberedSpecies, SpeciesNames};
 pub(crate) use state::number_of_copies;
 pub use state::{OutsidePositions, StateFile, StateVelocities};
+pub use system::{System, SystemKind};
 pub use voronoi::*;
 pub use walls::{Reflection, WallPair, Walls};

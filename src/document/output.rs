@@ -20,6 +20,9 @@ pub struct Output {
     pub plot: PlotStyle,
     /// Pictures of the particles.
     #[serde(default)]
+    #[schemars(extend("x-of" = ["particles", "voronoi"], "x-instead" = {
+        "shallow-water": "no `output.snapshot` in shallow water: `output.fields` draws the water, `output.plot` says how",
+    }))]
     pub snapshot: Snapshot,
     /// Checkpoints to resume from.
     #[serde(default)]
@@ -29,49 +32,67 @@ pub struct Output {
     pub trajectory: Option<Trajectory>,
     /// The radial distribution function g(r).
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+        "voronoi": "`neighbours`, which counts the neighbours of cells; pairs have no range here",
+    }))]
     pub radial_distribution: Option<RadialDistribution>,
     /// The static structure factor S(q).
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles", "voronoi"]))]
     pub structure_factor: Option<StructureFactor>,
     /// Mean squared displacement and velocity autocorrelation of the particles that can move.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles", "voronoi"]))]
     pub diffusion: Option<Diffusion>,
     /// Clusters of particles that are close to each other, such as micelles and drops.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+        "voronoi": "`neighbours`, which counts the neighbours of cells; cells fill the box, and so are one cluster",
+    }))]
     pub clusters: Option<Clusters>,
     /// Sizes of chains and molecules: squared distance of the ends and squared radius of gyration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles"]))]
     pub chain_sizes: Option<SampleInterval>,
     /// Shear viscosity from the decay of transverse momentum waves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles", "voronoi"]))]
     pub viscosity: Option<Viscosity>,
     /// Tables and plots of harmonic chains.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles"]))]
     pub chain: Option<SampleInterval>,
     /// Normalised autocorrelations of velocities and forces of the particles that can move, each quantity at most once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(max = 16))]
+    #[schemars(length(max = 16), extend("x-of" = ["particles", "voronoi"]))]
     pub autocorrelations: Vec<Autocorrelation>,
     /// Histograms of velocities and accelerations of the particles that can move, each quantity at most once.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(max = 16))]
+    #[schemars(length(max = 16), extend("x-of" = ["particles", "voronoi"]))]
     pub histograms: Vec<Histogram>,
     /// The pressure tensor and what follows from it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+        "voronoi": "`viscosity` or `shear_wave` for what the stress is wanted for; the faces of cells have no virial",
+    }))]
     pub stress: Option<Stress>,
     /// Profiles of density, velocity and temperature along an axis of the box.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles", "voronoi"]))]
     pub profiles: Option<Profiles>,
     /// The numbers of neighbours of Voronoi cells after equilibration, as a table and a plot.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["voronoi"]))]
     pub neighbours: Option<SampleInterval>,
     /// The decay after equilibration of the shear wave that Voronoi cells start with, and the shear viscosity that
     /// follows from it. The time between samples is to be long compared with that in which friction relaxes a single
     /// cell, and short compared with the decay of the wave.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["voronoi"]))]
     pub shear_wave: Option<SampleInterval>,
     /// Fields on the mesh of shallow water, as pictures and arrays; left out, depth and potential vorticity at the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["shallow-water"]))]
     pub fields: Option<Fields>,
 }
 
@@ -100,13 +121,6 @@ impl Output {
         let correlated = self.autocorrelations.iter().map(|asked| AnalysisId::Autocorrelation(asked.quantity));
         let counted = self.histograms.iter().map(|asked| AnalysisId::Histogram(asked.quantity));
         asked.chain(correlated).chain(counted).collect()
-    }
-
-    /// The parts of a scene that ask for the stress.
-    pub(crate) fn asks_for_stress(&self) -> impl Iterator<Item = &'static str> {
-        let profile = self.profiles.as_ref().is_some_and(|asked| asked.quantities.contains(&ProfiledQuantity::Stress));
-        let asked = [("output.stress", self.stress.is_some()), ("output.profiles.quantities", profile)];
-        asked.into_iter().filter(|(_, asked)| *asked).map(|(path, _)| path)
     }
 
     /// Pairs of species that analyses name, with the places of these in the scene, and the bins that a workgroup counts of each pair.

@@ -165,13 +165,17 @@ pub struct Snapshot {
     pub height: Option<u32>,
     /// Radius of the drawn discs in units of length; left out, a third of the largest cutoff.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-of" = ["particles"], "x-instead" = {
+        "voronoi": "no `radius` in Voronoi DPD: pictures show cells, not discs",
+    }))]
     pub radius: Option<f64>,
     /// Whether bonds are drawn, where there are any.
     pub bonds: bool,
     /// The species that are shown; left out, all.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(max = 256))]
+    #[schemars(length(max = 256), extend("x-of" = ["particles"], "x-instead" = {
+        "voronoi": "no `species` in Voronoi DPD: its cells fill the box",
+    }))]
     pub species: Vec<String>,
     /// The quantity that the colour of a particle shows; left out, the species, or the density for Voronoi cells of one species.
     pub color: SnapshotColor,
@@ -206,7 +210,9 @@ pub enum SnapshotColor {
     /// The speed, on a perceptually uniform scale.
     Speed,
     /// The density, for Voronoi cells only.
+    #[schemars(extend("x-of" = ["voronoi"]))]
     Density,
     /// The internal temperature, for Voronoi cells with internal energies only.
+    #[schemars(extend("x-of" = ["voronoi"]))]
     Temperature,
 }

@@ -11,6 +11,9 @@ pub enum CorrelatedQuantity {
     Velocity,
     /// The change of momentum around the report over the time it takes: all forces, friction and noise included.
     /// With `splitting` it is that of the whole step, two half kicks and the relaxation between them.
+    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+        "voronoi": "\"velocity\" in Voronoi DPD, where momentum moves with mass",
+    }))]
     Force,
 }
 
@@ -59,6 +62,9 @@ pub enum CountedQuantity {
     /// The magnitude of the velocity.
     Speed,
     /// Components of the acceleration: the force that `autocorrelations` correlate over the mass.
+    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+        "voronoi": "\"velocity\" or \"speed\" in Voronoi DPD, where momentum moves with mass",
+    }))]
     Acceleration,
 }
 
@@ -86,6 +92,9 @@ pub enum ProfiledQuantity {
     Temperature,
     /// The pressure tensor: momentum relative to the mean velocity of the bin, and the virials of its particles, of which each has
     /// half of every pair and bond.
+    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+        "voronoi": "`output.viscosity` or `output.shear_wave` for what the stress is wanted for; the faces of cells have no virial",
+    }))]
     Stress,
 }
 

@@ -2,8 +2,8 @@
 
 use super::defaults::whole;
 use super::{
-    DpdInteraction, EarlierRun, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, NumberedGroup,
-    Origin, Output, ParticleGroup, Shear, StateFile, StateVelocities, Walls,
+    DpdInteraction, EarlierRun, FileStart, Generator, Interaction, KeptStart, Molecule, NumberedGroup, Origin, Output,
+    ParticleGroup, Shear, StateFile, StateVelocities, System, Walls,
 };
 use crate::noise::seed_from_state;
 use schemars::JsonSchema;
@@ -36,29 +36,28 @@ pub struct Scene {
     pub space: Space,
     /// A file that the particles start from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+        "voronoi": "no `state` in Voronoi DPD: its cells have masses and energies, which files of particles do not have",
+    }))]
     pub state: Option<StateFile>,
     /// Molecules, in place of numbers of particles in groups: all particles of the scene are beads of one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(max = 1024))]
+    #[schemars(length(max = 1024), extend("x-of" = ["particles"]))]
     pub molecules: Vec<Molecule>,
     /// Time step and duration.
     pub time: Time,
     /// Temperature kT of the heat bath, in units of energy. Zero switches the noise off.
     #[schemars(range(min = 0.0))]
     pub temperature: f64,
-    /// How the equations of motion are integrated.
-    #[serde(default)]
-    pub integrator: Integrator,
     /// How random numbers are generated.
     #[serde(default)]
     pub noise: Noise,
     /// Groups of particles.
     #[schemars(length(max = 1024))]
     pub particles: Vec<ParticleGroup>,
-    /// Forces between particles.
-    #[serde(default)]
-    #[schemars(length(max = 256))]
-    pub interactions: Vec<Interaction>,
+    /// The kind of the system, with its interactions and its integrator.
+    #[serde(flatten)]
+    pub system: System,
     /// What the run writes.
     #[serde(default)]
     pub output: Output,
@@ -96,9 +95,15 @@ fn amounts_or_a_file(schema: &mut schemars::Schema) {
 }
 
 impl Scene {
+    /// The interactions of particles, of which scenes of other kinds have none.
+    #[must_use]
+    pub fn interactions(&self) -> &[Interaction] {
+        self.system.interactions()
+    }
+
     /// The `dpd` interactions, with their places in the list.
     pub(crate) fn pair_interactions(&self) -> impl Iterator<Item = (usize, &DpdInteraction)> {
-        self.interactions.iter().enumerate().filter_map(|(index, interaction)| match interaction {
+        self.interactions().iter().enumerate().filter_map(|(index, interaction)| match interaction {
             Interaction::Dpd(dpd) => Some((index, dpd)),
             _ => None,
         })
@@ -176,9 +181,11 @@ pub struct Space {
     pub lengths: Vec<f64>,
     /// Plane walls at the faces of the box.
     #[serde(default, skip_serializing_if = "Walls::is_empty")]
+    #[schemars(extend("x-of" = ["particles"]))]
     pub walls: Walls,
     /// Shear flow by periodic boundaries that move past each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["particles"]))]
     pub shear: Option<Shear>,
 }
 

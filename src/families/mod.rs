@@ -57,7 +57,7 @@ pub use particles::terms::tethers::Tethers;
 pub use particles::{Particles, combinations};
 pub use pictures::PictureKind;
 pub use registry::Family;
-pub(crate) use registry::{check_interactions, complete, settle};
+pub(crate) use registry::{check_system, complete, settle};
 pub(crate) use shallow_water::model::{LARGEST_DEPTH, chebyshev_iterations};
 pub use shallow_water::model::{ShallowWater, Tracers};
 pub use start::{initial_state, start_in_words};

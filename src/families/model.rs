@@ -1,7 +1,7 @@
 //! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
 
 use super::{Family, Particles, Physics, PictureKind, ShallowWater, Voronoi, particles, speeds};
-use crate::document::{Distribution, Generator, Integrator, Output, Scene};
+use crate::document::{Distribution, Generator, Output, Scene};
 use crate::noise;
 use crate::plan::{Plan, Quanta, StateLayout};
 use crate::state::Units;
@@ -58,8 +58,6 @@ pub struct Model {
     pub generator: Generator,
     /// Distribution of the pair noise; where pairs relax in two stages it is Gaussian.
     pub distribution: Distribution,
-    /// Integrator.
-    pub integrator: Integrator,
     /// The largest velocity along an axis that is expected of a particle, of which thermal ones have the standard deviation.
     pub(crate) expected_velocity: f64,
     /// What belongs to its family.
@@ -86,7 +84,7 @@ impl Model {
         let mut species = Species::of(scene);
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
-        let family = Family::of(scene, &mut species);
+        let family = Family::new(scene, &mut species);
         let earlier = scene.earlier_run();
         let momentum =
             earlier.map_or_else(|| family.physics().momentum_unit(scene, &species), |earlier| earlier.momentum_unit);
@@ -106,12 +104,11 @@ impl Model {
             steps_before: earlier.map_or(0, |earlier| earlier.steps),
             generator: scene.noise.generator,
             distribution: scene.noise.distribution,
-            integrator: scene.integrator.clone(),
             expected_velocity,
             family,
         };
         // Uniform numbers leave pairs that relax wholly in a step too few fast ones: few neighbours end up cold.
-        if model.particles().relaxes_in_two_stages(&model) {
+        if model.particles().relaxes_in_two_stages() {
             model.distribution = Distribution::Gaussian;
         }
         model

@@ -170,7 +170,7 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
         let part = linked.parts.iter().rev().find(|part| part.begins <= line);
         part.map_or_else(
             || "shaders".to_owned(),
-            |part| format!("shaders/{}.wgsl:{}", part.path, part.line + line - part.begins),
+            |part| format!("shaders/{}.wgsl:{}", part.source, part.line + line - part.begins),
         )
     };
     let module = naga::front::wgsl::parse_str(text).map_err(|error| {

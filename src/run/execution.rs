@@ -98,10 +98,11 @@ impl<'a> Run<'a> {
             Some(asked) => {
                 let name = files::trajectory(asked.format);
                 let path = directory.file(name);
-                Some(match written(name)? {
+                let trajectory = match written(name)? {
                     None => TrajectoryWriter::create(&path, asked.format, model, *id)?,
                     Some(written) => TrajectoryWriter::resume(&path, asked.format, model, *id, written)?,
-                })
+                };
+                Some(trajectory.of_species(&asked.species))
             }
         };
         let pictures = Pictures::new(gpu, directory, scene, start, task.draws)?;
@@ -388,7 +389,7 @@ fn with_flow(frame: &mut Reported, scene: &Checked) {
     let model = scene.model();
     let particles = model.particles();
     let Some(shear) =
-        particles.shear.as_ref().filter(|_| particles.splits(model) && needs(&scene.output).contains(&Need::Momenta))
+        particles.shear.as_ref().filter(|_| particles.splits() && needs(&scene.output).contains(&Need::Momenta))
     else {
         return;
     };

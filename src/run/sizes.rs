@@ -61,8 +61,11 @@ impl Sizes {
         let energies = times(output.energies.every).saturating_mul(NUMBER * columns);
         let analyses = asked_analyses(scene);
         let trajectory = output.trajectory.as_ref().map_or(0, |asked| {
+            let shown =
+                model.species.iter().filter(|known| asked.species.is_empty() || asked.species.contains(&known.name));
+            let particles: u64 = shown.map(|species| species.count).sum();
             times(asked.every)
-                .saturating_mul(bytes_per_particle(asked.format).saturating_mul(plan.particles).saturating_add(300))
+                .saturating_mul(bytes_per_particle(asked.format).saturating_mul(particles).saturating_add(300))
         });
         let plot_pixels = f64::from(output.plot.width) * f64::from(output.plot.height());
         let plot = (PLOT_PIXEL * plot_pixels) as u64;

@@ -106,7 +106,10 @@ fn small_scene(scene: &Checked) -> Result<Checked, RunError> {
     }
     let fluid = scene::load("dpd-fluid", &SMALL.map(str::to_owned))?;
     Ok(fluid.changed(|small| {
-        small.integrator.clone_from(&scene.integrator);
+        let integrators = scene.system.particle_integrator().zip(small.system.particle_integrator_mut());
+        if let Some((own, integrator)) = integrators {
+            integrator.clone_from(own);
+        }
         small.noise.clone_from(&scene.noise);
     }))
 }

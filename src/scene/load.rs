@@ -16,8 +16,8 @@ use super::path::related;
 use super::shape::{Schema, Substitute};
 use super::start::Fits;
 use super::{
-    FileStart, KeptStart, Problem, Problems, Scene, SceneError, StateFiles, Warning, builtin, nearest, overrides,
-    semantics, shape, shorten, start, text,
+    FileStart, KeptStart, Problem, Problems, Scene, SceneError, StateFiles, System, SystemKind, Warning, builtin,
+    nearest, overrides, semantics, shape, shorten, start, text,
 };
 
 /// Reads the scene in the file `source`, or the built-in scene of that name where there is no such file, applies
@@ -198,7 +198,8 @@ impl WrittenScene {
         let notices = self.steps.map(|steps| shorten::shorten(&mut document, steps, &self.set)).unwrap_or_default();
         let left_out = |place: &str| document.pointer(place).is_none();
         let (integrator, colour) = (left_out("/integrator"), left_out("/output/snapshot/color"));
-        problems.append(shape::check(&SHAPE, &mut document, substitute));
+        let system = kind_of_system(&document, &mut problems);
+        problems.append(shape::check(&SHAPE, &mut document, system, substitute));
         let groups = document.get("particles").and_then(Value::as_array).into_iter().flatten();
         let masses = groups.map(|group| group.get("mass").is_some()).collect();
         // What the shape check has mended may be readable, and then everything can be said at once.
@@ -314,6 +315,27 @@ static SCHEMA: LazyLock<Value> = LazyLock::new(schema);
 
 /// The same as documents are compared with it.
 static SHAPE: LazyLock<Schema<'_>> = LazyLock::new(|| Schema::read(&SCHEMA, &SCHEMA));
+
+/// The kind of the system of a document, as far as its interactions say so; some of these stand alone.
+fn kind_of_system(document: &Value, problems: &mut Problems) -> Option<SystemKind> {
+    let interactions = document["interactions"].as_array().map_or(&[][..], Vec::as_slice);
+    let types: Option<Vec<&str>> = interactions.iter().map(|interaction| interaction["type"].as_str()).collect();
+    let known = SCHEMA["properties"]["interactions"]["items"]["oneOf"].as_array()?;
+    let is_known = |name: &&str| known.iter().any(|known| known["properties"]["type"]["const"] == **name);
+    let types = types.filter(|types| types.iter().all(is_known))?;
+    let kind = SystemKind::from_interactions(interactions);
+    if types.len() < 2 {
+        return Some(kind);
+    }
+    let mut seen = HashSet::new();
+    for (index, name) in types.into_iter().enumerate() {
+        if System::STANDING_ALONE.contains(&name) && seen.insert(name) {
+            let accepted = format!("`{name}` as the only interaction of a scene");
+            problems.refuse(format!("interactions[{index}]"), "together with another interaction", accepted);
+        }
+    }
+    seen.is_empty().then_some(kind)
+}
 
 /// Applies overrides to the JSON of a scene; returns those that cannot be.
 fn overridden(document: &mut Value, overrides: &[String]) -> Vec<Problem> {

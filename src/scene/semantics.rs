@@ -142,7 +142,7 @@ pub(super) fn check_number_of_species(species: &SpeciesNames<'_>, problems: &mut
 /// All bonds and angles are numbered, those along chains too.
 fn check_number_of_runs(scene: &Scene, problems: &mut Problems) {
     let (mut bonds, mut angles) = (0_u64, 0_u64);
-    for (index, interaction) in scene.interactions.iter().enumerate() {
+    for (index, interaction) in scene.interactions().iter().enumerate() {
         let (sum, found, what) = match interaction {
             Interaction::Bonds(asked) => (&mut bonds, asked.links(scene).count(scene), "bonds"),
             Interaction::Angles(asked) => (&mut angles, asked.links(scene).count(scene), "angles"),
@@ -177,7 +177,7 @@ fn quantity(number: f64) -> String {
 }
 
 fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, problems: &mut Problems) {
-    families::check_interactions(scene, species, problems);
+    families::check_system(scene, species, problems);
     // Cutoffs of single pairs of species are checked where they are given.
     let common = scene.pair_interactions().filter_map(|(_, dpd)| dpd.common_cutoff(species.count()));
     let cutoff = common.fold(0.0, f64::max);
@@ -299,8 +299,11 @@ fn check_species_of_analyses(scene: &Scene, species: &SpeciesNames<'_>, problems
             problems.refuse(path, format!("\"{name}\", which is frozen"), accepted);
         }
     }
-    for (index, name) in scene.output.snapshot.species.iter().enumerate() {
-        species.check(name, &format!("output.snapshot.species[{index}]"), problems);
+    let trajectory = scene.output.trajectory.iter().map(|asked| ("trajectory", &asked.species));
+    for (key, names) in trajectory.chain([("snapshot", &scene.output.snapshot.species)]) {
+        for (index, name) in names.iter().enumerate() {
+            species.check(name, &format!("output.{key}.species[{index}]"), problems);
+        }
     }
     for (path, pairs, bins) in scene.output.pairs_of_species() {
         check_pairs(pairs, path, bins, scene, species, problems);

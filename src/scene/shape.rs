@@ -6,7 +6,7 @@
 use serde_json::{Map, Value};
 
 use super::path::Path;
-use super::{Problem, Problems, nearest};
+use super::{Problem, Problems, SystemKind, nearest};
 
 /// Substitutes for numbers that are refused, and for lists of a wrong length: two choices that are far apart, so that a message that
 /// both give does not depend on the substitute.
@@ -20,9 +20,15 @@ pub(super) enum Substitute {
 
 /// Checks `document` against `schema` and repairs it: afterwards it satisfies the schema wherever it can be read at all. Unknown keys,
 /// and optional values that cannot be read, are removed after they are reported; numbers out of range and lists of a wrong length
-/// are replaced; whole numbers written as `1e6` or `2000.0` become integers.
-pub(super) fn check(schema: &Schema<'_>, document: &mut Value, substitute: Substitute) -> Problems {
-    let mut walker = Walker { substitute, problems: Problems::default() };
+/// are replaced; whole numbers written as `1e6` or `2000.0` become integers. Keys and choices of other kinds of systems are refused,
+/// where the kind of this one is known.
+pub(super) fn check(
+    schema: &Schema<'_>,
+    document: &mut Value,
+    system: Option<SystemKind>,
+    substitute: Substitute,
+) -> Problems {
+    let mut walker = Walker { system, substitute, problems: Problems::default() };
     walker.check(schema, document, &Path::Root);
     walker.problems
 }
@@ -39,6 +45,17 @@ pub(super) struct Schema<'a> {
     kind: Kind<'a>,
     /// True if there may be no value.
     nullable: bool,
+    /// The kinds of systems in which it has a meaning, if not in all.
+    only: Option<Only<'a>>,
+}
+
+/// A restriction to kinds of systems.
+struct Only<'a> {
+    kinds: Vec<&'a str>,
+    /// What is accepted in place of it, by the kind of the system.
+    instead: &'a Value,
+    /// The value of a key that is left out.
+    default: &'a Value,
 }
 
 enum Kind<'a> {
@@ -49,7 +66,7 @@ enum Kind<'a> {
     Text(u64),
     List(List<'a>),
     Object(Object<'a>),
-    Choices(Vec<&'a str>),
+    Choices(Vec<(&'a str, Schema<'a>)>),
     /// Several kinds of object, distinguished by the text of `type`.
     Tagged(Vec<(&'a str, Schema<'a>)>),
     Alternatives(Vec<Schema<'a>>),
@@ -73,6 +90,16 @@ struct Object<'a> {
 impl<'a> Schema<'a> {
     /// Reads a part of a schema, in which no type contains itself.
     pub(super) fn read(root: &'a Value, schema: &'a Value) -> Self {
+        let only = schema["x-of"].is_array().then(|| Only {
+            kinds: texts(&schema["x-of"]),
+            instead: &schema["x-instead"],
+            default: &schema["default"],
+        });
+        Self { only, ..Self::read_all(root, schema) }
+    }
+
+    /// Reads a schema, whatever the kind of the system.
+    fn read_all(root: &'a Value, schema: &'a Value) -> Self {
         let read = |schema: &'a Value| Self::read(root, schema);
         if let Some(reference) = schema["$ref"].as_str() {
             return read(root.pointer(reference.strip_prefix('#').unwrap_or(reference)).unwrap_or(&Value::Null));
@@ -98,20 +125,21 @@ impl<'a> Schema<'a> {
             }),
             _ => return Self::one_of(root, schema),
         };
-        Self { kind, nullable }
+        Self { kind, nullable, only: None }
     }
 
     /// Reads a schema of alternatives.
     fn one_of(root: &'a Value, schema: &'a Value) -> Self {
         let Some(all) = schema["oneOf"].as_array().or_else(|| schema["anyOf"].as_array()) else {
-            return Self { kind: Kind::Any, nullable: false };
+            return Self { kind: Kind::Any, nullable: false, only: None };
         };
         let tag = |branch: &'a Value| branch["properties"]["type"]["const"].as_str();
         let read = |branch: &'a Value| Self::read(root, branch);
         let mut others: Vec<Self> = all.iter().filter(|branch| branch["type"] != "null").map(read).collect();
         let nullable = others.len() < all.len();
-        let kind = if let Some(choices) = all.iter().map(|choice| choice["const"].as_str()).collect() {
-            Kind::Choices(choices)
+        let constants: Option<Vec<&str>> = all.iter().map(|choice| choice["const"].as_str()).collect();
+        let kind = if let Some(choices) = constants {
+            Kind::Choices(choices.into_iter().zip(others).collect())
         } else if let Some(tags) = all.iter().map(tag).collect::<Option<Vec<_>>>() {
             Kind::Tagged(tags.into_iter().zip(others).collect())
         } else if others.len() == 1 {
@@ -119,11 +147,17 @@ impl<'a> Schema<'a> {
         } else {
             Kind::Alternatives(others)
         };
-        Self { kind, nullable }
+        Self { kind, nullable, only: None }
     }
 
-    /// A phrase for what it accepts.
-    fn accepted(&self) -> String {
+    /// True if it has a meaning in a kind of systems, as far as that is known.
+    fn is_of(&self, system: Option<SystemKind>) -> bool {
+        let Some((only, system)) = self.only.as_ref().zip(system) else { return true };
+        only.kinds.contains(&system.name())
+    }
+
+    /// A phrase for what it accepts in a kind of systems.
+    fn accepted(&self, system: Option<SystemKind>) -> String {
         match &self.kind {
             Kind::Any => "any value".to_owned(),
             Kind::Boolean => "true or false".to_owned(),
@@ -138,13 +172,36 @@ impl<'a> Schema<'a> {
                     (None, Some(most)) => format!(" of at most {most} entries"),
                     (None, None) => String::new(),
                 };
-                format!("a list{length}, each {}", items.accepted())
+                format!("a list{length}, each {}", items.accepted(system))
             }
-            Kind::Object(object) => format!("an object with {}", quoted(object.names(), '`')),
-            Kind::Choices(choices) => quoted(choices.iter().copied(), '"'),
-            Kind::Tagged(kinds) => format!("an object whose `type` is {}", quoted(names(kinds), '"')),
-            Kind::Alternatives(all) => all.iter().map(Self::accepted).collect::<Vec<_>>().join(", or "),
+            Kind::Object(object) => format!("an object with {}", quoted(object.names(system), '`')),
+            Kind::Choices(choices) => quoted(names(choices, system), '"'),
+            Kind::Tagged(kinds) => format!("an object whose `type` is {}", quoted(names(kinds, system), '"')),
+            Kind::Alternatives(all) => all.iter().map(|one| one.accepted(system)).collect::<Vec<_>>().join(", or "),
         }
+    }
+}
+
+impl Only<'_> {
+    /// True if a value is what leaving it out would be.
+    fn is_left_out(&self, value: &Value) -> bool {
+        let is_empty = match value {
+            Value::Null | Value::Bool(false) => true,
+            Value::Array(list) => list.is_empty(),
+            Value::Object(object) => object.is_empty(),
+            _ => false,
+        };
+        is_empty || value == self.default
+    }
+
+    /// What is accepted in place of a key in a system of another kind.
+    fn accepted(&self, system: SystemKind) -> String {
+        if let Some(instead) = self.instead[system.name()].as_str() {
+            return instead.to_owned();
+        }
+        let kinds = SystemKind::ALL.into_iter().filter(|kind| self.kinds.contains(&kind.name()));
+        let scenes: Vec<String> = kinds.map(|kind| format!("a scene of {}", kind.in_words())).collect();
+        format!("{} only", scenes.join(" or "))
     }
 }
 
@@ -170,9 +227,9 @@ impl<'a> Object<'a> {
         self.known.iter().find(|(name, _)| *name == key).map(|(_, schema)| schema)
     }
 
-    /// Keys as messages name them.
-    fn names(&self) -> impl Iterator<Item = &'a str> {
-        names(&self.known).filter(|name| *name != "$schema")
+    /// Keys as messages name them, in a kind of systems.
+    fn names(&self, system: Option<SystemKind>) -> impl Iterator<Item = &'a str> {
+        names(&self.known, system).filter(|name| *name != "$schema")
     }
 
     /// Keys that an object has to have.
@@ -184,6 +241,7 @@ impl<'a> Object<'a> {
 }
 
 struct Walker {
+    system: Option<SystemKind>,
     substitute: Substitute,
     problems: Problems,
 }
@@ -193,14 +251,7 @@ impl Walker {
     fn check(&mut self, schema: &Schema<'_>, value: &mut Value, path: &Path<'_>) -> bool {
         match (&schema.kind, &mut *value) {
             (_, Value::Null) if schema.nullable => true,
-            (Kind::Choices(choices), _) => {
-                let is_right = value.as_str().is_some_and(|text| choices.contains(&text));
-                if !is_right {
-                    let suggestion = value.as_str().and_then(|text| nearest(text, choices.iter().copied()));
-                    self.report(schema, path, found(value), suggestion);
-                }
-                is_right
-            }
+            (Kind::Choices(choices), _) => self.check_choice(schema, choices, value, path),
             (Kind::Tagged(kinds), _) => self.check_tagged(schema, kinds, value, path),
             (Kind::Alternatives(all), _) => self.check_alternatives(schema, all, value, path),
             (Kind::Any, _) | (Kind::Boolean, Value::Bool(_)) => true,
@@ -227,8 +278,35 @@ impl Walker {
 
     /// Reports what is not accepted by `schema`, and what may have been meant.
     fn report(&mut self, schema: &Schema<'_>, path: &Path<'_>, phrase: String, suggestion: Option<String>) {
-        let accepted = if self.problems.is_full() { String::new() } else { schema.accepted() };
+        let accepted = if self.problems.is_full() { String::new() } else { schema.accepted(self.system) };
         self.problems.push(Problem::new(path, phrase, accepted).suggest(suggestion));
+    }
+
+    /// One of several texts.
+    fn check_choice(
+        &mut self,
+        schema: &Schema<'_>,
+        choices: &[(&str, Schema<'_>)],
+        value: &Value,
+        path: &Path<'_>,
+    ) -> bool {
+        let text = value.as_str().unwrap_or_default();
+        match choices.iter().find(|(choice, _)| *choice == text) {
+            Some((_, chosen)) if chosen.is_of(self.system) => return true,
+            Some((_, chosen)) => self.refuse_choice(chosen, text, path, schema.accepted(self.system)),
+            None => {
+                self.report(schema, path, found(value), nearest(text, names(choices, self.system)));
+            }
+        }
+        false
+    }
+
+    /// Refuses a choice of another kind of systems.
+    fn refuse_choice(&mut self, chosen: &Schema<'_>, text: &str, path: &Path<'_>, accepted: String) {
+        if let Some((only, system)) = chosen.only.as_ref().zip(self.system) {
+            let accepted = only.instead[system.name()].as_str().map_or(accepted, ToOwned::to_owned);
+            self.problems.refuse(path, format!("\"{text}\" in a scene of {}", system.in_words()), accepted);
+        }
     }
 
     fn check_alternatives(
@@ -271,11 +349,11 @@ impl Walker {
         path: &Path<'_>,
     ) -> bool {
         let Value::Object(object) = value else {
-            let meant = value.as_str().and_then(|text| nearest(text, names(kinds)));
+            let meant = value.as_str().and_then(|text| nearest(text, names(kinds, self.system)));
             self.report(schema, path, found(value), meant.map(|tag| format!("{{\"type\": \"{tag}\"}}")));
             return false;
         };
-        let (place, accepted) = (path.key("type"), quoted(names(kinds), '`'));
+        let (place, accepted) = (path.key("type"), quoted(names(kinds, self.system), '`'));
         match object.get("type") {
             None => {
                 // A misspelt `type` is both an unknown key and a missing one.
@@ -284,11 +362,16 @@ impl Walker {
                 self.problems.add(place, found, accepted);
             }
             Some(Value::String(text)) => {
-                if let Some((_, chosen)) = kinds.iter().find(|(tag, _)| tag == text) {
+                let of_this_name = || kinds.iter().filter(|(tag, _)| tag == text).map(|(_, chosen)| chosen);
+                if let Some(chosen) = of_this_name().find(|chosen| chosen.is_of(self.system)) {
                     return self.check(chosen, value, path);
                 }
+                if let Some(foreign) = of_this_name().next() {
+                    self.refuse_choice(foreign, text, &place, accepted);
+                    return false;
+                }
                 let problem = Problem::new(place, format!("found \"{text}\""), accepted);
-                self.problems.push(problem.suggest(nearest(text, names(kinds))));
+                self.problems.push(problem.suggest(nearest(text, names(kinds, self.system))));
             }
             Some(other) => self.problems.add(place, found(other), accepted),
         }
@@ -340,8 +423,20 @@ impl Walker {
 
         let mut taken_out = Vec::new();
         for (key, value) in object.iter_mut() {
-            match kind.schema(key) {
-                Some(schema) if self.check(schema, value, &path.key(key)) => {}
+            let schema = kind.schema(key);
+            let only = schema.filter(|known| !known.is_of(self.system)).and_then(|known| known.only.as_ref());
+            let refused = only.zip(self.system).filter(|(only, _)| !only.is_left_out(value));
+            if let Some((only, system)) = refused {
+                let found = format!("in a scene of {}", system.in_words());
+                self.problems.refuse(path.key(key), found, only.accepted(system));
+            }
+            // What is refused as a whole is refused once, and read so that nothing else seems to be missing.
+            let system = self.system;
+            self.system = system.filter(|_| refused.is_none());
+            let is_readable = schema.is_some_and(|schema| self.check(schema, value, &path.key(key)));
+            self.system = system;
+            match schema {
+                Some(_) if is_readable => {}
                 // Without a list of interactions or pairs a scene would be another one.
                 Some(_) if value.is_array() => readable = false,
                 Some(_) => {
@@ -354,10 +449,11 @@ impl Walker {
                 }
                 None if kind.is_closed => {
                     // What is not there yet is likelier to be meant than what is; a missing key most of all.
-                    let suggestion = nearest(key, missing.iter().copied()).or_else(|| nearest(key, names(&kind.known)));
+                    let suggestion =
+                        nearest(key, missing.iter().copied()).or_else(|| nearest(key, names(&kind.known, self.system)));
                     // A misspelt required key is one mistake, not two.
                     missing.retain(|key| suggestion.as_deref() != Some(*key));
-                    let accepted = kind.names().collect::<Vec<_>>().join(", ");
+                    let accepted = kind.names(self.system).collect::<Vec<_>>().join(", ");
                     let problem = Problem::new(path.key(key), "unknown key", accepted);
                     self.problems.push(problem.suggest(suggestion));
                     taken_out.push(key.clone());
@@ -369,7 +465,7 @@ impl Walker {
             object.remove(&key);
         }
         for key in missing {
-            let accepted = kind.schema(key).map_or_else(|| "any value".to_owned(), Schema::accepted);
+            let accepted = kind.schema(key).map_or_else(|| "any value".to_owned(), |known| known.accepted(self.system));
             self.problems.add(path.key(key), "missing", accepted);
         }
         readable
@@ -381,8 +477,8 @@ fn texts(value: &Value) -> Vec<&str> {
     value.as_array().map_or(std::slice::from_ref(value), Vec::as_slice).iter().filter_map(Value::as_str).collect()
 }
 
-fn names<'a>(schemas: &[(&'a str, Schema<'_>)]) -> impl Iterator<Item = &'a str> {
-    schemas.iter().map(|(name, _)| *name)
+fn names<'a>(schemas: &[(&'a str, Schema<'_>)], system: Option<SystemKind>) -> impl Iterator<Item = &'a str> {
+    schemas.iter().filter(move |(_, schema)| schema.is_of(system)).map(|(name, _)| *name)
 }
 
 /// Names in a row, each between quotes.
@@ -487,7 +583,8 @@ mod tests {
     /// Every keyword in the published schema, by the place where keywords stand.
     fn keywords(schema: &Value, into: &mut Vec<String>) {
         let Some(object) = schema.as_object() else { return };
-        let may_stand_beside = |key: &String| ["$ref", "default", "description"].contains(&key.as_str());
+        let may_stand_beside =
+            |key: &String| ["$ref", "default", "description", "x-instead", "x-of"].contains(&key.as_str());
         assert!(!object.contains_key("$ref") || object.keys().all(may_stand_beside), "beside a reference: {object:?}");
         for (key, value) in object {
             into.push(key.clone());
@@ -533,6 +630,8 @@ mod tests {
             "then",
             "title",
             "type",
+            "x-instead",
+            "x-of",
         ];
         let mut found = Vec::new();
         keywords(&crate::scene::schema(), &mut found);
@@ -542,7 +641,10 @@ mod tests {
     }
 
     fn messages(schema: &Value, mut value: Value) -> Vec<String> {
-        check(&Schema::read(schema, schema), &mut value, Substitute::Least).iter().map(ToString::to_string).collect()
+        check(&Schema::read(schema, schema), &mut value, None, Substitute::Least)
+            .iter()
+            .map(ToString::to_string)
+            .collect()
     }
 
     #[test]
@@ -612,7 +714,7 @@ mod tests {
     fn whole_numbers_may_be_written_with_an_exponent() {
         let schema = json!({"type": "integer", "format": "uint64", "minimum": 0});
         let mut value = json!(1e12);
-        assert!(check(&Schema::read(&schema, &schema), &mut value, Substitute::Least).is_empty());
+        assert!(check(&Schema::read(&schema, &schema), &mut value, None, Substitute::Least).is_empty());
         assert_eq!(value, json!(1_000_000_000_000_u64));
         assert_eq!(messages(&schema, json!(1e30)).len(), 1);
         assert_eq!(messages(&schema, json!(-1.0)).len(), 1);

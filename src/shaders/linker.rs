@@ -52,6 +52,8 @@ pub struct Declaration {
 pub struct File {
     /// Path below `shaders`, without the extension: `domain/topic`, or `domain/slot/variant`.
     pub path: &'static str,
+    /// The path of the file that holds it: its own, or that of a file which has variants of one name for several slots.
+    pub source: &'static str,
     /// Its declarations, in order.
     pub declarations: Vec<Declaration>,
 }
@@ -100,6 +102,8 @@ pub struct Part {
     pub begins: u32,
     /// The page or the variant that it is from.
     pub path: &'static str,
+    /// The file that holds it.
+    pub source: &'static str,
     /// Its first line there.
     pub line: u32,
 }
@@ -125,9 +129,19 @@ impl Library {
             for (index, declaration) in declarations.iter().enumerate() {
                 library.by_name.entry(declaration.name).or_default().push((number, index));
             }
-            library.files.push(File { path, declarations });
+            library.files.push(File { path, source: path, declarations });
         }
         Ok(library)
+    }
+
+    /// The same files, some of which are parts of others, by their paths.
+    #[must_use]
+    pub fn with_sources(mut self, sources: &[(&'static str, &'static str)]) -> Self {
+        for file in &mut self.files {
+            let shared = sources.iter().find(|(path, _)| *path == file.path);
+            file.source = shared.map_or(file.path, |(_, source)| source);
+        }
+        self
     }
 
     /// All files.
@@ -142,7 +156,7 @@ impl Library {
 
     /// A failure at a declaration.
     fn unlinked(&self, at: Place, reason: String) -> Unlinked {
-        Unlinked { place: format!("{}.wgsl:{}", self.files[at.0].path, self.declaration(at).line), reason }
+        Unlinked { place: format!("{}.wgsl:{}", self.files[at.0].source, self.declaration(at).line), reason }
     }
 
     /// Whether two declarations are the same but for comments and spaces.
@@ -183,7 +197,7 @@ impl Library {
     /// Parameters and variables of functions that have the name of something that the library declares.
     #[must_use]
     pub fn shadows(&self) -> Vec<String> {
-        let all = self.files.iter().flat_map(|file| file.declarations.iter().map(move |own| (file.path, own)));
+        let all = self.files.iter().flat_map(|file| file.declarations.iter().map(move |own| (file.source, own)));
         let functions = all.filter(|(_, own)| matches!(own.kind, Kind::Function | Kind::Entry));
         functions
             .flat_map(|(path, own)| {
@@ -284,8 +298,8 @@ impl Library {
         let (mut lines, mut number) = (0, 0);
         for &(file, index) in reached {
             let declaration = &self.files[file].declarations[index];
-            let path = self.files[file].path;
-            linked.parts.push(Part { begins: lines + 1, path, line: declaration.line });
+            let File { path, source, .. } = self.files[file];
+            linked.parts.push(Part { begins: lines + 1, path, source, line: declaration.line });
             if declaration.kind == Kind::Array {
                 let text = if atomics.contains(declaration.name) {
                     declaration

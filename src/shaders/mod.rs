@@ -48,7 +48,10 @@ mod generated {
 /// [`Unlinked`] where a file holds something that is no declaration.
 pub fn library() -> Result<&'static Library, Unlinked> {
     static LIBRARY: OnceLock<Result<Library, Unlinked>> = OnceLock::new();
-    LIBRARY.get_or_init(|| Library::new(&generated::FILES)).as_ref().map_err(Clone::clone)
+    LIBRARY
+        .get_or_init(|| Library::new(&generated::FILES).map(|read| read.with_sources(&generated::SOURCES)))
+        .as_ref()
+        .map_err(Clone::clone)
 }
 
 /// The text of a kernel. An array lies in a buffer unless a choice says otherwise.

@@ -341,8 +341,7 @@ mod tests {
         assert_eq!(steps(&still), [0.005, 0.01, 0.005]);
         let scenes = still.finer_scenes().unwrap();
         assert_eq!(scenes.iter().map(|(name, _)| *name).collect::<Vec<_>>(), still.finer_names());
-        let same_but_for =
-            |scene: &Checked| scene.clone().changed(|scene| scene.integrator = scenes[0].1.integrator.clone());
+        let same_but_for = |scene: &Checked| scene.clone().changed(|scene| scene.system = scenes[0].1.system.clone());
         assert_ne!(scenes[2].1, scenes[0].1);
         assert_eq!(same_but_for(&scenes[2].1), scenes[0].1);
         assert_eq!(steps(&request.clone().with_finer(finer, Some("time.step=0.0025")).unwrap()), [0.005, 0.01, 0.0025]);

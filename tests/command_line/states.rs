@@ -475,7 +475,8 @@ fn a_sheared_run_goes_on_from_where_its_boundaries_are() {
     assert!(crossing.count() > 1, "bonds cross the boundary");
     // Of a scheme that measures the configuration where the state is, not half a drift later.
     let energy = |scene: &Checked, state: State| {
-        let scene = edited(scene, |scene| scene.integrator = Integrator::CotterReich {});
+        let scene =
+            edited(scene, |scene| *scene.system.particle_integrator_mut().unwrap() = Integrator::CotterReich {});
         let model = scene.model();
         Reference::new(model.clone(), state).observe().unwrap().potential_energy
     };

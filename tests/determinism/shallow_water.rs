@@ -94,7 +94,7 @@ fn every_way_gives_the_same_bytes(chosen: fn(usize, usize, usize) -> bool) {
             for (index, traversal) in [in_eights().traversal, Some(Traversal::Rows)].into_iter().enumerate() {
                 if chosen(number, way, index) {
                     let options = Options { traversal, ..options };
-                    assert!(plain == run(&scene, options, BATCH), "{options:?} {:?}", scene.interactions);
+                    assert!(plain == run(&scene, options, BATCH), "{options:?} {:?}", scene.system);
                 }
             }
         }
@@ -116,11 +116,11 @@ fn a_rerun_and_batches_of_any_size_give_the_same_bytes() {
             assert!(steps == run(&scene, in_eights(), batch), "batches of {batch}");
         }
         let pieces = bytes::in_pieces(&scene, in_eights(), &[1, 4, 5, 2], 3);
-        assert!(steps == pieces, "piece by piece: {:?}", scene.interactions);
+        assert!(steps == pieces, "piece by piece: {:?}", scene.system);
         let storage = [Storage::Bins, Storage::Sorted][number % 2];
         let options = Options { storage: Some(storage), ..in_eights() };
         let watched = bytes::watched(&scene, options, STEPS);
-        assert!(steps == watched, "watched at every step, {storage:?}: {:?}", scene.interactions);
+        assert!(steps == watched, "watched at every step, {storage:?}: {:?}", scene.system);
         // How often it is sampled changes no state.
         let seldom = edited(&scene, |scene| scene.output.energies.every = 7);
         let seldom = run(&seldom, in_eights(), BATCH);
@@ -136,7 +136,7 @@ fn the_storage_order_does_not_matter() {
         for storage in [Storage::Bins, Storage::Sorted] {
             let options = Options { storage: Some(storage), ..in_eights() };
             let shuffled = bytes::shuffled(&scene, options, STEPS, BATCH, &mut random);
-            assert!(expected == shuffled, "{storage:?}: {:?}", scene.interactions);
+            assert!(expected == shuffled, "{storage:?}: {:?}", scene.system);
         }
     }
 }
@@ -194,11 +194,11 @@ fn a_run_split_in_two_at_any_step_is_the_run() {
             after.upload(&restored).unwrap();
             after.advance(STEPS - first, BATCH).unwrap();
             let (last, reported) = (after.state().unwrap(), after.reported().unwrap());
-            assert!(last == unbroken.state, "split at {first}: state ({:?})", scene.interactions);
-            assert!(reported == unbroken.reported, "split at {first}: reported ({:?})", scene.interactions);
+            assert!(last == unbroken.state, "split at {first}: state ({:?})", scene.system);
+            assert!(reported == unbroken.reported, "split at {first}: reported ({:?})", scene.system);
             let samples = after.finish().unwrap();
             let later: Vec<&Sample> = unbroken.samples.iter().filter(|sample| sample.step >= first).collect();
-            assert!(samples.iter().eq(later), "split at {first}: samples ({:?})", scene.interactions);
+            assert!(samples.iter().eq(later), "split at {first}: samples ({:?})", scene.system);
         }
     }
 }

@@ -24,7 +24,10 @@ fn base() -> Value {
 #[test]
 fn the_base_is_right_and_keeps_its_integrator() {
     let scene = DRIVEN.accepted(&[]);
-    assert!(matches!(scene.integrator, mesoscope::scene::Integrator::Splitting { relaxation: Some(_) }));
+    assert!(matches!(
+        scene.system.particle_integrator(),
+        Some(mesoscope::scene::Integrator::Splitting { relaxation: Some(_) })
+    ));
     assert_eq!(DRIVEN.warnings(&[]), Vec::<String>::new());
 }
 

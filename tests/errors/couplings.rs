@@ -36,7 +36,8 @@ fn the_base_is_right_and_has_nothing_to_be_warned_of() {
 #[test]
 fn scenes_of_couplings_have_an_integrator_of_their_own() {
     use mesoscope::scene::Integrator;
-    let integrator = |overrides: &[&str]| CHAINS.parse(overrides).unwrap().integrator.clone();
+    let integrator =
+        |overrides: &[&str]| CHAINS.parse(overrides).unwrap().system.particle_integrator().unwrap().clone();
     // Bonds and angles without a bath are no couplings of their own, and beside pairs what remembers nothing is none.
     for beside in [&[][..], &["interactions.1.friction=1"], &[r#"interactions.2={"type":"langevin","friction":1}"#]] {
         assert!(matches!(integrator(beside), Integrator::Splitting { relaxation: Some(_) }), "{beside:?}");
@@ -251,7 +252,7 @@ fn integrators() {
     for water in ["gyro", "rotate"] {
         CHAINS.refused_with(
             &[&format!(r#"integrator={{"type":"{water}"}}"#)],
-            &[&format!("integrator.type: found `{water}`"), "a scene with a `shallow-water` interaction only"],
+            &[&format!("integrator.type: found \"{water}\" in a scene of particles"), "`cotter-reich`"],
         );
     }
     let groot_warren = r#"integrator={"type":"groot-warren"}"#;
@@ -313,12 +314,12 @@ fn lines_and_fixed_particles() {
     let water = r#"interactions=[{"type":"shallow-water","mesh":[16,16],"wave_speed":1}]"#;
     let found = CHAINS.problems(&["space.box=[10,10]", water, "particles.1.fixed=true"]);
     assert_eq!(found.len(), 2, "{found:#?}");
-    assert!(
-        found
-            .iter()
-            .any(|line| line.starts_with("particles[0].chain: found a chain; accepted: no chains in shallow water"))
-    );
-    assert!(found.iter().any(|line| line.starts_with("particles[1].fixed: found true; accepted: particles that move")));
+    assert!(found.iter().any(|line| {
+        line.starts_with("particles[0].chain: found in a scene of shallow water; accepted: no chains in shallow water")
+    }));
+    assert!(found.iter().any(|line| {
+        line.starts_with("particles[1].fixed: found in a scene of shallow water; accepted: particles that move")
+    }));
 }
 
 #[test]

@@ -20,7 +20,10 @@ fn base() -> Value {
 #[test]
 fn the_base_is_right_and_keeps_its_integrator() {
     let scene = LIQUID.accepted(&[]);
-    assert!(matches!(scene.integrator, mesoscope::scene::Integrator::Splitting { relaxation: Some(_) }));
+    assert!(matches!(
+        scene.system.particle_integrator(),
+        Some(mesoscope::scene::Integrator::Splitting { relaxation: Some(_) })
+    ));
     // Attraction alone would be warned of.
     assert_eq!(LIQUID.warnings(&[]), Vec::<String>::new());
     assert!(LIQUID.warnings(&["interactions.0.many_body.repulsion=0"]).join(" ").contains("collapse"));

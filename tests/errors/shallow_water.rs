@@ -34,7 +34,7 @@ const CHEBYSHEV: &str = r#"interactions.0.smoothing.solver={"type":"chebyshev"}"
 fn the_base_is_right_and_draws_no_warning() {
     let scene = WATER.accepted(&[]);
     assert!(mesoscope::families::warnings(&scene).is_empty(), "{:?}", mesoscope::families::warnings(&scene));
-    assert_eq!(scene.integrator, scene::Integrator::Gyro {}, "the default of shallow water");
+    assert_eq!(scene.system.integrator_name(), "gyro", "the default of shallow water");
     let validator = jsonschema::draft202012::new(&scene::schema()).unwrap();
     assert!(validator.is_valid(&base()));
     assert!(validator.is_valid(&serde_json::to_value(&scene).unwrap()));
@@ -170,7 +170,7 @@ fn a_smoothing_beyond_all_measure() {
 fn snapshots_of_particles() {
     WATER.refused(
         &["output.snapshot.every=10"],
-        "output.snapshot: found settings of pictures of particles; accepted: no `output.snapshot` in shallow water: \
+        "output.snapshot: found in a scene of shallow water; accepted: no `output.snapshot` in shallow water: \
          `output.fields` draws the water, `output.plot` says how",
     );
 }
@@ -291,17 +291,15 @@ fn integrators_of_the_other_kind() {
     for name in ["splitting", "groot-warren", "cotter-reich"] {
         WATER.refused(
             &[&format!(r#"integrator={{"type":"{name}"}}"#)],
-            &format!("integrator.type: found `{name}`; accepted: `gyro` or `rotate`, the integrators of shallow water"),
+            &format!("integrator.type: found \"{name}\" in a scene of shallow water; accepted: `gyro`, `rotate`"),
         );
     }
     for name in ["gyro", "rotate"] {
         let integrator = format!(r#"integrator={{"type":"{name}"}}"#);
         WATER.accepted(&[&integrator]);
         let found = fluid(&[&integrator]);
-        assert_eq!(
-            found,
-            [format!("integrator.type: found `{name}`; accepted: a scene with a `shallow-water` interaction only")]
-        );
+        let accepted = "`splitting`, `groot-warren`, `cotter-reich`";
+        assert_eq!(found, [format!("integrator.type: found \"{name}\" in a scene of particles; accepted: {accepted}")]);
     }
 }
 
@@ -333,17 +331,22 @@ fn the_same_field_twice() {
 }
 
 #[test]
-fn measurements_of_pairs() {
-    for (name, value) in [
-        ("radial_distribution", r#"{"every":5,"range":2}"#),
-        ("diffusion", r#"{"every":2,"window":8}"#),
-        ("viscosity", r#"{"every":2,"window":8}"#),
+fn measurements_of_particles() {
+    for (name, value, scenes) in [
+        ("radial_distribution", r#"{"every":5,"range":2}"#, "particles"),
+        ("structure_factor", r#"{"every":5,"range":2}"#, "particles or a scene of Voronoi DPD"),
+        ("diffusion", r#"{"every":2,"window":8}"#, "particles or a scene of Voronoi DPD"),
+        ("viscosity", r#"{"every":2,"window":8}"#, "particles or a scene of Voronoi DPD"),
+        ("histograms", r#"[{"quantity":"speed","every":2}]"#, "particles or a scene of Voronoi DPD"),
+        ("stress", r#"{"every":2}"#, "particles"),
     ] {
         WATER.refused(
             &[&format!("output.{name}={value}")],
-            &format!("output.{name}: found in a scene of shallow water; accepted: scenes with pair forces only"),
+            &format!("output.{name}: found in a scene of shallow water; accepted: a scene of {scenes} only"),
         );
     }
+    // A key that says what leaving it out says is none.
+    WATER.accepted(&["output.diffusion=null", "output.histograms=[]", "particles.0.fixed=false"]);
 }
 
 /// The problems of a fluid with some of what only shallow water has.
@@ -355,12 +358,20 @@ fn fluid(overrides: &[&str]) -> Vec<String> {
 
 #[test]
 fn what_only_shallow_water_has() {
-    let only = "a scene with a `shallow-water` interaction only";
-    assert_eq!(fluid(&["particles.0.tracer=true"]), [format!("particles[0].tracer: found true; accepted: {only}")]);
+    let refusal = "found in a scene of particles; accepted: a scene of shallow water only";
+    assert_eq!(fluid(&["particles.0.tracer=true"]), [format!("particles[0].tracer: {refusal}")]);
     let found = fluid(&[r#"particles.0.velocities={"type":"geostrophic"}"#]);
-    assert_eq!(found, [format!("particles[0].velocities.type: found `geostrophic`; accepted: {only}")]);
-    let found = fluid(&[r#"output.fields={"every":5}"#]);
-    assert_eq!(found, [format!("output.fields: found in a scene without a mesh; accepted: {only}")]);
+    let accepted = "`thermal`, `rest`, `listed`";
+    assert_eq!(
+        found,
+        [format!("particles[0].velocities.type: found \"geostrophic\" in a scene of particles; accepted: {accepted}")]
+    );
+    assert_eq!(fluid(&[r#"output.fields={"every":5}"#]), [format!("output.fields: {refusal}")]);
+    // Mistakes in what has no place are mistakes too.
+    let found = fluid(&[r#"output.fields={"every":-5}"#]);
+    assert_eq!(found.len(), 2, "{found:?}");
+    assert!(found[0].starts_with(&format!("output.fields: {refusal}")), "{found:?}");
+    assert!(found[1].starts_with("output.fields.every: found -5"), "{found:?}");
     let found = fluid(&[r#"particles.0.placement={"type":"circle","center":[1,1],"radius":1}"#]);
     assert_eq!(found, ["particles[0].placement.type: found `circle`; accepted: a two-dimensional box for a circle"]);
 }
@@ -379,11 +390,11 @@ fn all_mistakes_at_once() {
         paths,
         [
             "integrator.type",
+            "output.diffusion",
             "interactions[0].mesh[0]",
             "interactions[0].mesh[1]",
             "particles[0].mass",
-            "particles[0].velocities",
-            "output.diffusion"
+            "particles[0].velocities"
         ]
     );
 }
@@ -429,7 +440,7 @@ fn a_time_step_beyond_the_limit() {
     // Without the turn of `gyro` p grows with dt².
     let rotate = r#"integrator={"type":"rotate"}"#;
     let model = WATER.accepted(&[rotate, "time.step=1"]).model().clone();
-    let share = model.shallow_water().unwrap().stability(&model.integrator, [6.0, 6.0], 1.0);
+    let share = model.shallow_water().unwrap().stability([6.0, 6.0], 1.0);
     let step = |p: f64| format!("time.step={}", (p / share).sqrt());
     assert!(WATER.warnings(&[rotate, &step(0.51)]).is_empty());
     let near = warned(&[rotate, &step(0.8)]);

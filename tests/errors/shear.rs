@@ -122,10 +122,7 @@ fn what_takes_no_shear() {
     );
     for other in [r#"{"type":"voronoi","viscosity":1}"#, r#"{"type":"shallow-water","mesh":[16,16],"wave_speed":1}"#] {
         let problems = SHEARED.problems(&["space.box=[10,10]", &format!("interactions=[{other}]")]);
-        assert!(
-            problems.iter().any(|problem| problem.contains("space.shear: found in a scene of another kind")),
-            "{problems:#?}"
-        );
+        assert!(problems.iter().any(|problem| problem.contains("space.shear: found in a scene of ")), "{problems:#?}");
     }
     SHEARED.refused_with(
         &[r#"output.stress={"every":1,"window":8}"#],

@@ -1020,10 +1020,7 @@ fn what_does_not_go_with_a_file() {
         let place = Place::of("init", XYZ);
         let found =
             place.problems("init", &[("/interactions", json!([interaction])), ("/space", json!({"box": [4, 5]}))]);
-        assert!(
-            found.iter().any(|problem| problem.starts_with("state: found in a scene with interactions[0]")),
-            "{found:?}"
-        );
+        assert!(found.iter().any(|problem| problem.starts_with("state: found in a scene of ")), "{found:?}");
     }
     refused(
         XYZ,

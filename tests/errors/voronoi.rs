@@ -36,7 +36,7 @@ fn warned(overrides: &[&str], path: &str, expected: &str) {
 fn the_base_is_right_and_draws_no_warning() {
     let scene = CELLS.accepted(&[]);
     assert!(mesoscope::families::warnings(&scene).is_empty(), "{:?}", mesoscope::families::warnings(&scene));
-    assert_eq!(scene.integrator, scene::Integrator::Splitting { relaxation: None }, "the default of Voronoi DPD");
+    assert_eq!(scene.system.integrator_name(), "splitting", "the default of Voronoi DPD");
     assert_eq!(scene.output.snapshot.color, scene::SnapshotColor::Density, "one species");
     let validator = jsonschema::draft202012::new(&scene::schema()).unwrap();
     assert!(validator.is_valid(&base()));
@@ -67,15 +67,15 @@ fn cells_are_alone_and_in_a_plane() {
     );
     CELLS.refused(
         &["integrator.type=cotter-reich"],
-        "integrator.type: found `cotter-reich`; accepted: `splitting` or `euler`, the integrators of Voronoi DPD",
+        "integrator.type: found \"cotter-reich\" in a scene of Voronoi DPD; accepted: `splitting`, `euler`",
     );
     CELLS.refused(
         &["integrator.type=splitting", "integrator.relaxation=two-stages"],
-        "integrator.relaxation: found one in a scene of Voronoi DPD; accepted: no `relaxation`, which is one of pairs",
+        "integrator.relaxation: unknown key; accepted: type",
     );
     CELLS.refused(
         &["integrator.type=gyro"],
-        "integrator.type: found `gyro`; accepted: a scene with a `shallow-water` interaction only",
+        "integrator.type: found \"gyro\" in a scene of Voronoi DPD; accepted: `splitting`, `euler`",
     );
 }
 
@@ -83,17 +83,17 @@ fn cells_are_alone_and_in_a_plane() {
 fn cells_move_freely() {
     CELLS.refused(
         &["particles.0.fixed=true"],
-        "particles[0].fixed: found true; accepted: cells that move: one that is held would absorb momentum and energy of \
+        "particles[0].fixed: found in a scene of Voronoi DPD; accepted: cells that move: one that is held would absorb momentum and energy of \
          the others",
     );
     CELLS.refused(
         &[r#"particles.0.chain={"beads":6}"#],
-        "particles[0].chain: found a chain; accepted: no chains in Voronoi DPD: its cells have no forces but those at their \
+        "particles[0].chain: found in a scene of Voronoi DPD; accepted: no chains in Voronoi DPD: its cells have no forces but those at their \
          faces",
     );
     CELLS.refused(
         &["particles.0.tracer=true"],
-        "particles[0].tracer: found true; accepted: a scene with a `shallow-water` interaction only",
+        "particles[0].tracer: found in a scene of Voronoi DPD; accepted: a scene of shallow water only",
     );
     CELLS.refused(
         &[r#"particles=[{"species":"A","count":9},{"species":"B","count":9,"mass":1e-6}]"#],
@@ -174,7 +174,7 @@ fn pictures_of_cells() {
     CELLS.accepted(&[r#"output={"snapshot":{"color":"temperature"}}"#, "interactions.0.energy={}"]);
     CELLS.refused(
         &[r#"output={"snapshot":{"radius":0.5}}"#],
-        "output.snapshot.radius: found 0.5; accepted: no `radius` in Voronoi DPD: pictures show cells, not discs",
+        "output.snapshot.radius: found in a scene of Voronoi DPD; accepted: no `radius` in Voronoi DPD: pictures show cells, not discs",
     );
 }
 
@@ -189,16 +189,16 @@ fn analyses_of_particles() {
     );
     CELLS.refused(
         &[r#"output={"snapshot":{"species":["A"]}}"#],
-        "output.snapshot.species: found some species; accepted: no `species` in Voronoi DPD: its cells fill the box",
+        "output.snapshot.species: found in a scene of Voronoi DPD; accepted: no `species` in Voronoi DPD: its cells fill the box",
     );
     CELLS.refused(
         &[r#"output={"autocorrelations":[{"quantity":"force","every":1,"window":9}]}"#],
-        "output.autocorrelations[0].quantity: found \"force\"; accepted: \"velocity\" in Voronoi DPD, where momentum moves \
+        "output.autocorrelations[0].quantity: found \"force\" in a scene of Voronoi DPD; accepted: \"velocity\" in Voronoi DPD, where momentum moves \
          with mass",
     );
     CELLS.refused(
         &[r#"output={"histograms":[{"quantity":"acceleration","every":1}]}"#],
-        "output.histograms[0].quantity: found \"acceleration\"; accepted: \"velocity\" or \"speed\" in Voronoi DPD, where \
+        "output.histograms[0].quantity: found \"acceleration\" in a scene of Voronoi DPD; accepted: \"velocity\" or \"speed\" in Voronoi DPD, where \
          momentum moves with mass",
     );
     // Velocities are those of each cell by its own mass.
@@ -227,22 +227,27 @@ fn a_shear_wave_is_measured_where_there_is_one() {
 
 #[test]
 fn what_only_cells_have() {
-    let only = "a scene with a `voronoi` interaction only";
-    let without = "found in a scene without Voronoi cells";
     let dpd = r#"interactions=[{"type":"dpd"}]"#;
-    for (change, path, found) in [
-        ("integrator.type=euler", "integrator.type", "found `euler`"),
+    let place = "found in a scene of particles; accepted: a scene of Voronoi DPD only";
+    let choice = |name: &str, accepted: &str| format!("found \"{name}\" in a scene of particles; accepted: {accepted}");
+    let colours = "\"species\", \"speed\"";
+    for (change, path, refusal) in [
+        (
+            "integrator.type=euler",
+            "integrator.type",
+            choice("euler", "`splitting`, `groot-warren`, `cotter-reich`").as_str(),
+        ),
         (
             r#"particles.0.velocities={"type":"shear-wave","amplitude":1}"#,
             "particles[0].velocities.type",
-            "found `shear-wave`",
+            &choice("shear-wave", "`thermal`, `rest`, `listed`"),
         ),
-        (r#"output={"snapshot":{"color":"density"}}"#, "output.snapshot.color", "found `density`"),
-        (r#"output={"snapshot":{"color":"temperature"}}"#, "output.snapshot.color", "found `temperature`"),
-        (r#"output={"neighbours":{"every":1}}"#, "output.neighbours", without),
-        (r#"output={"shear_wave":{"every":1}}"#, "output.shear_wave", without),
+        (r#"output={"snapshot":{"color":"density"}}"#, "output.snapshot.color", &choice("density", colours)),
+        (r#"output={"snapshot":{"color":"temperature"}}"#, "output.snapshot.color", &choice("temperature", colours)),
+        (r#"output={"neighbours":{"every":1}}"#, "output.neighbours", place),
+        (r#"output={"shear_wave":{"every":1}}"#, "output.shear_wave", place),
     ] {
-        CELLS.refused(&[dpd, change], &format!("{path}: {found}; accepted: {only}"));
+        CELLS.refused(&[dpd, change], &format!("{path}: {refusal}"));
     }
 }
 

@@ -5,7 +5,7 @@ use mesoscope::families::reference::{ShallowWaterReference, Unstable};
 use mesoscope::families::{Instability, ShallowWater};
 use mesoscope::gpu::AdapterKind;
 use mesoscope::plan::{Options, Storage, Traversal};
-use mesoscope::scene::{Checked, Interaction, Velocities};
+use mesoscope::scene::{Checked, Velocities};
 use mesoscope::shaders::Array;
 use mesoscope::state::State;
 
@@ -48,7 +48,7 @@ fn agrees_in(storages: &[Storage], scene: &Checked, state: &State, steps: u64, u
     let mut reference = ShallowWaterReference::new(model.clone(), state.clone()).unwrap();
     let expected: Vec<State> = (0..steps)
         .map(|_| {
-            reference.step().unwrap_or_else(|error| panic!("{error} ({:?})", scene.interactions));
+            reference.step().unwrap_or_else(|error| panic!("{error} ({:?})", scene.system));
             reference.state().clone()
         })
         .collect();
@@ -70,7 +70,7 @@ fn agrees_in(storages: &[Storage], scene: &Checked, state: &State, steps: u64, u
             let (velocity, position) = largest_difference(&found, expected);
             let allowed = units * step;
             let moved = 4 + allowed + ((allowed * step) as f64 * drift) as i64;
-            let what = (&scene.interactions, &scene.integrator, storage);
+            let what = (&scene.system, storage);
             assert!(velocity <= allowed, "step {step}: velocities differ by {velocity} ({what:?})");
             assert!(position <= moved, "step {step}: positions differ by {position} ({what:?})");
             assert_eq!(found.masses, state.masses);
@@ -87,7 +87,7 @@ fn agrees_in(storages: &[Storage], scene: &Checked, state: &State, steps: u64, u
             ("bath energy", measured.bath_energy, found.bath_energy),
         ] {
             let allowed = 1e-3 * scale.max(if name == "bath energy" { found.bath_energy } else { 0.0 });
-            assert!((a - b).abs() <= allowed, "{name}: {a}, {b} in the reference ({:?})", scene.interactions);
+            assert!((a - b).abs() <= allowed, "{name}: {a}, {b} in the reference ({:?})", scene.system);
         }
         assert_eq!(measured.mass, found.mass);
     }
@@ -113,7 +113,7 @@ fn failure(scene: &Checked, state: &State, options: Options, batch: u64) -> Resu
             }
             explained(error, &engine, scene)
         }
-        Ok(()) => panic!("no failure in {batch} steps ({:?}, {options:?})", scene.interactions),
+        Ok(()) => panic!("no failure in {batch} steps ({:?}, {options:?})", scene.system),
     }
 }
 
@@ -701,9 +701,7 @@ fn more_mass_than_fits_is_caught() {
         (between, 2, "(3, 5), where x = 1.1781 and y = 1.9635"),
     ] {
         let scene = edited(&scene, |scene| {
-            if let Interaction::ShallowWater(water) = &mut scene.interactions[0] {
-                water.spline_order = order;
-            }
+            scene.system.shallow_water_mut().unwrap().spline_order = order;
         });
         for first in [0, 9] {
             let state = State { step: first, ..crowd(&scene, around) };

@@ -197,7 +197,7 @@ fn last_sample_and_reference(scene: &Checked, steps: u64) -> (Vec<i64>, Referenc
     let mut silent = engine(&silent, &state, Options::default());
     silent.advance(steps, 4).unwrap();
     let mut reference = Reference::new(model.clone(), silent.state().unwrap());
-    if matches!(scene.integrator, Integrator::Splitting { .. }) {
+    if matches!(scene.system.particle_integrator(), Some(Integrator::Splitting { .. })) {
         reference = Reference::new(model, reference.state_between_forces().unwrap());
     }
     (found.sums.clone(), reference)

@@ -607,7 +607,7 @@ fn stability_ends_where_b_and_w_add_up_to_four() {
                 let stiffer = Linear { spring: spring + edge - 3.9, ..law };
                 let scene = edited(&scene, |scene| {
                     scene.temperature = 0.0;
-                    scene.interactions[1] =
+                    scene.system.interactions_mut().unwrap()[1] =
                         scene::Interaction::Tether(scene::TetherInteraction { stiffness: stiffer.stiffness() });
                     scene.particles[0].velocities =
                         scene::Velocities::Listed { velocities: vec![vec![1.0, -0.7, 0.4]; 4] };

@@ -215,7 +215,7 @@ fn the_rule_that_no_scene_names_follows_friction_and_step() {
     use mesoscope::scene::{self, Integrator, PairRelaxation};
     let rule = |name: &str, set: &[&str]| {
         let set: Vec<String> = set.iter().map(|change| (*change).to_owned()).collect();
-        scene::load(name, &set).unwrap().integrator.clone()
+        scene::load(name, &set).unwrap().system.particle_integrator().unwrap().clone()
     };
     let (one, two) = (Some(PairRelaxation::MeanField), Some(PairRelaxation::TwoStages));
     for (name, set, relaxation) in [

@@ -167,7 +167,7 @@ fn the_largest_stable_step_of_the_shear_flow() {
     for (step, stable) in [(0.125, true), (0.14, false)] {
         let scene = shear_flow(&[&time_step(step), "output.energies.every=100"]);
         let model = start(&scene).0;
-        let share = model.shallow_water().unwrap().stability(&model.integrator, [TAU, TAU], step);
+        let share = model.shallow_water().unwrap().stability([TAU, TAU], step);
         for mut run in implementations_with_room(&scene) {
             let initial = run.observe().total_energy();
             let energy = if run.attempt(100) { run.observe().total_energy() } else { f64::INFINITY };
@@ -603,7 +603,7 @@ fn is_stable(set_up: SetUp, changes: &[&str], step: f64) -> bool {
 /// The predictor p of a time step.
 fn predicted_share(changes: &[&str], step: f64) -> f64 {
     let model = start(&small_still_water(changes, step)).0;
-    model.shallow_water().unwrap().stability(&model.integrator, [FRAC_PI_2 / 2.0, FRAC_PI_2 / 2.0], step)
+    model.shallow_water().unwrap().stability([FRAC_PI_2 / 2.0, FRAC_PI_2 / 2.0], step)
 }
 
 /// The largest time step for which p is not above a target.
@@ -703,7 +703,7 @@ fn water_at_random_places_is_stable_up_to_the_share_that_it_is_promised() {
         let share = |step: f64| {
             let model = start(&scene(step)).0;
             let water = model.shallow_water().unwrap();
-            (water.stability(&model.integrator, [TAU, TAU], step), water.clean_share())
+            (water.stability([TAU, TAU], step), water.clean_share())
         };
         let step_of = |target: f64| {
             let mut bounds: [f64; 2] = [1e-4, 0.2];

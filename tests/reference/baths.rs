@@ -117,7 +117,7 @@ fn split_steps_beside_memory_and_random_forces_agree_with_the_reference() {
         document["time"]["step"] = json!(0.01);
         let scene = scene(&document.to_string());
         let (model, state) = start(&scene);
-        assert!(model.particles().splits(&model));
+        assert!(model.particles().splits());
         let mut both = SideBySide::new(scene.clone(), model.clone(), &state, Options::default());
         let what = document.to_string();
         both.steps(4, units_of_a_step(false), &what, |_, _, _| {});

@@ -324,7 +324,7 @@ fn the_same_bits_whatever_the_order() {
         assert_eq!(plain, after(&scene, Options::default(), |id| count - 1 - id, 60), "storage order");
         let narrow = Options { workgroup_size: Some(16), ..Options::default() };
         assert_eq!(plain, after(&scene, narrow, |id| id, 60), "workgroups");
-        if start(&scene).0.particles().splits(scene.model()) {
+        if start(&scene).0.particles().splits() {
             let rows = Options { traversal: Some(Traversal::Rows), ..Options::default() };
             assert_eq!(plain, after(&scene, rows, |id| id, 60), "traversals");
         }

@@ -454,7 +454,7 @@ fn equilibrium(mut run: Reference, equilibration: u64, samples: u32) -> Means {
         run.run(5).unwrap();
         let observed = run.observe().unwrap();
         // A split step reports its configuration there already.
-        let between = if run.model().particles().splits(run.model()) {
+        let between = if run.model().particles().splits() {
             observed
         } else {
             Reference::new(run.model().clone(), run.state_between_forces().unwrap()).observe().unwrap()

@@ -25,6 +25,7 @@ const LENGTHS: [f64; 2] = [3.0, 3.0];
 /// Water on a mesh, smoothed over so many cells along x.
 fn water(mesh: [u32; 2], cells: f64, power: u32, solver: SmoothingSolver) -> ShallowWater {
     ShallowWater {
+        integrator: mesoscope::scene::WaterIntegrator::default(),
         mesh,
         spline_order: 3,
         wave_speed: 1.0,

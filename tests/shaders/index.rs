@@ -9,8 +9,9 @@ use mesoscope::shaders::{Declaration, File, Kind, library};
 
 const HEAD: &str = "# The library of shaders
 
-A **page**, `domain/topic.wgsl`, holds one topic whole: kernels beside their functions. A **variant**, `domain/slot/variant.wgsl`, is one of
-several that provide the same functions; the plan of a scene chooses among them (`src/families/*/plan`). A kernel is an entry point and its choices.
+A **page**, `domain/topic.wgsl`, holds one topic whole: kernels beside their functions. A **variant**, `domain/slot/variant`, is one of
+several that provide the same functions; the plan of a scene chooses among them (`src/families/*/plan`). It has a file of its own, or lies in the file of
+the topic that it belongs to, after a line `// == domain/slot/variant`: all of shear is in `external/shear.wgsl`. A kernel is an entry point and its choices.
 
 The linker follows names from the entry point: to the chosen variant that declares a name, else to the caller's own file, else to the only
 page that has it. So a function of a page is the default that a chosen variant replaces, and one name has one meaning everywhere.
@@ -51,7 +52,7 @@ fn index() -> String {
                 .map(|declaration| format!("`{}`", declaration.name))
                 .collect();
             let topic = page.path.rsplit('/').next().unwrap_or_default();
-            let topic = linked_name(&shaders, page.path, topic);
+            let topic = linked_name(&shaders, page.source, topic);
             let _ = writeln!(text, "| {topic} | {} | {} |", about(page), kernels.join(", "));
         }
         if slots.is_empty() {
@@ -63,7 +64,7 @@ fn index() -> String {
             let variants: Vec<String> = (variants.iter())
                 .map(|file| {
                     let name = file.path.rsplit('/').next().unwrap_or_default();
-                    linked_name(&shaders, file.path, name)
+                    linked_name(&shaders, file.source, name)
                 })
                 .collect();
             let name = slot.rsplit('/').next().unwrap_or_default();

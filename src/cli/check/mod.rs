@@ -172,11 +172,15 @@ fn duration(seconds: f64) -> String {
 /// The rows of the overview: names and what is to be said of them.
 fn overview(scene: &Checked, plan: &Plan, trial: Tried<'_>) -> Vec<(&'static str, String)> {
     let lengths: Vec<String> = scene.space.lengths.iter().map(ToString::to_string).collect();
-    let integrator = match scene.integrator {
-        Integrator::GrootWarren { lambda } => format!("groot-warren, λ = {lambda}"),
-        Integrator::Splitting { relaxation: Some(PairRelaxation::MeanField) } => "splitting, one stage".to_owned(),
-        Integrator::Splitting { relaxation: Some(PairRelaxation::TwoStages) } => "splitting, two stages".to_owned(),
-        _ => scene.integrator.name().to_owned(),
+    let integrator = match scene.system.particle_integrator() {
+        Some(Integrator::GrootWarren { lambda }) => format!("groot-warren, λ = {lambda}"),
+        Some(Integrator::Splitting { relaxation: Some(PairRelaxation::MeanField) }) => {
+            "splitting, one stage".to_owned()
+        }
+        Some(Integrator::Splitting { relaxation: Some(PairRelaxation::TwoStages) }) => {
+            "splitting, two stages".to_owned()
+        }
+        _ => scene.system.integrator_name().to_owned(),
     };
     let memory = match (plan.particles, &plan.part) {
         (0, _) => bytes(plan.bytes()),

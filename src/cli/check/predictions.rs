@@ -5,7 +5,7 @@ use mesoscope::families::{self, BathStep, Beyond, Checked, LargestStep};
 use mesoscope::numbers::three_digits;
 use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
-use mesoscope::scene::{Bath, Interaction};
+use mesoscope::scene::Bath;
 
 /// Reports that take more than this part of the time are worth a word.
 const MUCH: f64 = 0.2;
@@ -56,13 +56,13 @@ fn unneeded(scene: &Checked, plan: &Plan, hardware: Hardware) -> Vec<String> {
             100.0 * part
         ));
     }
-    for (index, interaction) in scene.interactions.iter().enumerate() {
+    for (index, interaction) in scene.interactions().iter().enumerate() {
         if let Some((bath, friction)) = interaction.bath()
             && let Bath::Memory { rate, .. } = bath
             && BathStep::of(bath, friction, scene.time.step).persistence.abs() < FORGOTTEN
         {
             let mut without = scene.clone().into_scene();
-            if let Some(bath) = without.interactions.get_mut(index).and_then(Interaction::bath_mut) {
+            if let Some(bath) = without.system.interactions_mut().and_then(|all| all.get_mut(index)?.bath_mut()) {
                 *bath = Bath::White { temperature: Some(bath.temperature(scene.temperature)) };
             }
             let own = plan.operations_per_particle;

@@ -1,7 +1,7 @@
 //! Voronoi DPD: what a scene says about it.
 
 use super::defaults::{hundredths, one};
-use super::{Interaction, Scene, Velocities};
+use super::{Scene, Velocities};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -153,15 +153,6 @@ impl VoronoiInteraction {
         let regions = self.energy.iter().flat_map(|energy| &energy.initial_temperatures);
         regions.fold(temperature, |most, region| most.max(region.temperature))
     }
-}
-
-/// The Voronoi interaction of a scene, if it has one.
-#[must_use]
-pub(crate) fn voronoi(scene: &Scene) -> Option<&VoronoiInteraction> {
-    scene.interactions.iter().find_map(|interaction| match interaction {
-        Interaction::Voronoi(voronoi) => Some(voronoi),
-        _ => None,
-    })
 }
 
 /// Groups that start with a shear wave, with its amplitude and number of periods.

@@ -4,41 +4,37 @@ use std::collections::{HashMap, HashSet};
 
 use crate::document::{
     Bath, Chain, Integrator, Interaction, LinkSource, Links, ParticleGroup, Placement, Problems, Scene, SpeciesNames,
-    Stress,
+    Stress, SystemKind,
 };
 use crate::families::Particles;
 use crate::families::particles::combinations::{self, Feature};
 use crate::families::particles::space;
-use crate::families::particles::terms::{self, SceneTerm};
+use crate::families::particles::terms;
 use crate::numbers::grouped;
 
-/// Checks what interactions and particles have to have in common.
-pub(crate) fn check_scene(scene: &Scene, names: &SpeciesNames<'_>, problems: &mut Problems) {
+/// Checks the interactions of a scene of particles one by one and together, and its groups.
+pub(crate) fn check(scene: &Scene, integrator: &Integrator, names: &SpeciesNames<'_>, problems: &mut Problems) {
+    for (index, interaction) in scene.interactions().iter().enumerate() {
+        terms::of(interaction).check(scene, names, &format!("interactions[{index}]"), problems);
+    }
     combinations::check(scene, problems);
     terms::pairs::check_together(scene, names, problems);
     check_numbers(scene, problems);
     terms::body_forces::check_together(scene, problems);
-    let other = scene.interactions.iter().position(|interaction| !interaction.is_of_particles());
-    if let Some(index) = other {
-        let found = format!("in a scene of another kind, by interactions[{index}]");
-        if !scene.space.walls.is_empty() {
-            problems.refuse("space.walls", &found, "walls with particles only: meshes and tessellations are periodic");
-        }
-        if scene.space.shear.is_some() {
-            let accepted = "shear of particles only: meshes and tessellations are periodic without a shift";
-            problems.refuse("space.shear", &found, accepted);
-        }
-    } else {
-        space::walls::scene::check(scene, problems);
-        space::shear::scene::check(scene, problems);
-    }
+    space::walls::scene::check(scene, problems);
+    space::shear::scene::check(scene, problems);
     space::layers::scene::check(scene, problems);
     check_groups(scene, problems);
-    if matches!(scene.integrator, Integrator::Splitting { .. }) {
+    if matches!(integrator, Integrator::Splitting { .. }) {
         check_splitting(scene, problems);
     }
     if scene.output.chain_sizes.is_some() {
         check_chain_sizes(scene, problems);
+    }
+    let is_chain = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
+    if scene.output.chain.is_some() && !scene.interactions().iter().any(is_chain) {
+        let accepted = "no `chain`, or a scene with the interaction `harmonic-chain`";
+        problems.refuse("output.chain", "in a scene without harmonic chains", accepted);
     }
     if let Some(asked) = &scene.output.stress {
         check_window_of_stress(asked, scene, problems);
@@ -48,8 +44,8 @@ pub(crate) fn check_scene(scene: &Scene, names: &SpeciesNames<'_>, problems: &mu
 /// There are chains or, where a start says which particles there are, bonds that make molecules of them.
 fn check_chain_sizes(scene: &Scene, problems: &mut Problems) {
     let chained = scene.particles.iter().any(|group| group.chain.is_some());
-    let bonded =
-        scene.has_start() && scene.interactions.iter().any(|interaction| matches!(interaction, Interaction::Bonds(_)));
+    let bonded = scene.has_start()
+        && scene.interactions().iter().any(|interaction| matches!(interaction, Interaction::Bonds(_)));
     if !chained && !bonded {
         let accepted =
             "a scene with chains, a `chain` in one of `particles`, or with `bonds` of `molecules` or of a file";
@@ -77,7 +73,7 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
         Interaction::Bonds(bonds) => bonds.has_bath() && !bonds.bath.remembers(),
         _ => false,
     };
-    if asked.every > 1 && scene.interactions.iter().any(has_friction) {
+    if asked.every > 1 && scene.interactions().iter().any(has_friction) {
         let accepted = "1 with a `window`: noise of a step that is not sampled would be missing from the viscosity";
         problems.refuse("output.stress.every", asked.every, accepted);
     }
@@ -92,7 +88,7 @@ fn check_window_of_stress(asked: &Stress, scene: &Scene, problems: &mut Problems
 /// particles are fixed, so that scenes keep the step that was the only one for them.
 pub(crate) fn defaults_to_cotter_reich(scene: &Scene) -> bool {
     let paired = scene.pair_interactions().next().is_some();
-    scene.interactions.iter().all(Interaction::is_of_particles)
+    scene.system.kind() == SystemKind::Particles
         && (scene.space.lengths.len() == 1
             || scene.particles.iter().any(is_fixed_in_space)
             || terms::acting(scene).any(|term| term.is_unsplit(paired)))
@@ -106,8 +102,8 @@ fn is_fixed_in_space(group: &ParticleGroup) -> bool {
 /// Everything that acts on single particles is there at most once.
 fn check_numbers(scene: &Scene, problems: &mut Problems) {
     let mut seen = HashSet::new();
-    for (index, interaction) in scene.interactions.iter().enumerate() {
-        let once = terms::of(interaction).and_then(SceneTerm::at_most_once);
+    for (index, interaction) in scene.interactions().iter().enumerate() {
+        let once = terms::of(interaction).at_most_once();
         let (Some([again, accepted]), name) = (once, interaction.name()) else { continue };
         if !seen.insert(name) {
             problems.add(format!("interactions[{index}]"), format!("a second `{name}` interaction {again}"), accepted);
@@ -134,6 +130,10 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
                 group.species
             );
             problems.refuse(format!("{path}.species"), format!("`{}`", group.species), accepted);
+        }
+        if matches!(group.placement, Placement::Circle { .. }) && scene.space.lengths.len() != 2 {
+            let accepted = "a two-dimensional box for a circle";
+            problems.refuse(format!("{path}.placement.type"), "`circle`", accepted);
         }
         if let Some(chain) = &group.chain {
             check_chain(scene, group, chain, &path, problems);

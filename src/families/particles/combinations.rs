@@ -7,7 +7,7 @@
 use std::fmt;
 
 use super::terms;
-use crate::document::{Integrator, Interaction, Problems, ProfiledQuantity, Scene};
+use crate::document::{Integrator, Problems, ProfiledQuantity, Scene};
 
 /// The features with their names in messages and tables, and what each is.
 macro_rules! features {
@@ -184,7 +184,7 @@ impl Feature {
         let group = |key: &str, wanted: &dyn Fn(&crate::document::ParticleGroup) -> bool| {
             scene.particles.iter().position(wanted).map(|index| format!("particles[{index}]{key}"))
         };
-        let output = &scene.output;
+        let (output, integrator) = (&scene.output, scene.system.particle_integrator());
         match self {
             SeveralPairForces => scene.pair_interactions().nth(1).map(|(index, _)| format!("interactions[{index}]")),
             FixedParticles => group(".fixed", &|group| group.fixed && !group.is_frozen()),
@@ -192,9 +192,9 @@ impl Feature {
             Walls => when(!scene.space.walls.is_empty(), "space.walls"),
             Layers => group(".placement", &|group| group.is_frozen()),
             Shear => when(scene.space.shear.is_some(), "space.shear"),
-            Splitting => when(matches!(scene.integrator, Integrator::Splitting { .. }), "integrator.type"),
-            GrootWarren => when(matches!(scene.integrator, Integrator::GrootWarren { .. }), "integrator.type"),
-            CotterReich => when(matches!(scene.integrator, Integrator::CotterReich {}), "integrator.type"),
+            Splitting => when(matches!(integrator, Some(Integrator::Splitting { .. })), "integrator.type"),
+            GrootWarren => when(matches!(integrator, Some(Integrator::GrootWarren { .. })), "integrator.type"),
+            CotterReich => when(matches!(integrator, Some(Integrator::CotterReich {})), "integrator.type"),
             State => when(scene.state.is_some(), "state"),
             Molecules => when(!scene.molecules.is_empty(), "molecules"),
             RadialDistribution => when(output.radial_distribution.is_some(), "output.radial_distribution"),
@@ -217,8 +217,8 @@ impl Feature {
                 when(stress, "output.profiles.quantities")
             }
             Ranks => None,
-            _ => scene.interactions.iter().enumerate().find_map(|(index, interaction)| {
-                let term = terms::of(interaction).filter(|term| term.acts())?;
+            _ => scene.interactions().iter().enumerate().find_map(|(index, interaction)| {
+                let term = Some(terms::of(interaction)).filter(|term| term.acts())?;
                 let (_, key) = term.features().into_iter().find(|(feature, _)| *feature == self)?;
                 Some(format!("interactions[{index}]{key}"))
             }),
@@ -256,9 +256,6 @@ impl Feature {
 
 /// Adds a mistake for every two features of a scene that do not go together.
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
-    if !scene.interactions.iter().all(Interaction::is_of_particles) {
-        return;
-    }
     for refusal in REFUSALS {
         let Some(path) = refusal.feature.place(scene) else { continue };
         for other in refusal.others {

@@ -22,8 +22,8 @@ pub(super) fn rows(scene: &Checked) -> Vec<(&'static str, String)> {
         format!("{} {}{kind}", species.name, grouped(species.count))
     });
     let mut rows = vec![("species", of_species.collect::<Vec<_>>().join(", "))];
-    let members = |interaction| Some((interaction, terms::of(interaction)?.members(scene, &names)?));
-    let all = scene.interactions.iter().filter_map(members);
+    let members = |interaction| Some((interaction, terms::of(interaction).members(scene, &names)?));
+    let all = scene.interactions().iter().filter_map(members);
     rows.extend(all.map(|(interaction, members)| (interaction.name(), members)));
     // Names may be those of a file.
     rows.into_iter().map(|(name, text)| (name, printable::name(&text).into_owned())).collect()

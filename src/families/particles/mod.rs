@@ -40,6 +40,8 @@ use terms::Term;
 /// What acts on particles.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Particles {
+    /// Integrator.
+    pub integrator: Integrator,
     /// The pair force, if the scene has one.
     pub pair_force: Option<PairForce>,
     /// How dense it is around particles, where there is one and the start says where they are.
@@ -80,27 +82,27 @@ impl Particles {
     /// Whether steps of their model are split, friction apart from the conservative force. Without friction there is nothing to
     /// split.
     #[must_use]
-    pub fn splits(&self, model: &Model) -> bool {
-        self.relaxes_pairs(model) || self.relaxes_particles(model) || self.relaxes_bonds(model)
+    pub fn splits(&self) -> bool {
+        self.relaxes_pairs() || self.relaxes_particles() || self.relaxes_bonds()
     }
 
     /// Whether a split step relaxes the velocities of pairs.
     #[must_use]
-    pub fn relaxes_pairs(&self, model: &Model) -> bool {
-        matches!(model.integrator, Integrator::Splitting { .. })
+    pub fn relaxes_pairs(&self) -> bool {
+        matches!(self.integrator, Integrator::Splitting { .. })
             && self.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0)
     }
 
     /// Whether a split step relaxes the momentum of every particle by itself.
     #[must_use]
-    pub fn relaxes_particles(&self, model: &Model) -> bool {
-        matches!(model.integrator, Integrator::Splitting { .. })
+    pub fn relaxes_particles(&self) -> bool {
+        matches!(self.integrator, Integrator::Splitting { .. })
             && self.position_bath.as_ref().is_some_and(|bath| !bath.memory)
     }
 
     /// Kicks of a step have baths on coordinates of particles, or a random force on them.
-    pub(crate) fn acts_on_particles(&self, model: &Model) -> bool {
-        (self.position_bath.is_some() && !self.relaxes_particles(model)) || self.coloured_noise.is_some()
+    pub(crate) fn acts_on_particles(&self) -> bool {
+        (self.position_bath.is_some() && !self.relaxes_particles()) || self.coloured_noise.is_some()
     }
 
     /// Whether particles are oscillators in baths with memory: a report adds the covariances of bath, momentum and displacement, which theory
@@ -119,21 +121,25 @@ impl Particles {
 
     /// Whether a split step relaxes the velocities along bonds.
     #[must_use]
-    pub fn relaxes_bonds(&self, model: &Model) -> bool {
-        matches!(model.integrator, Integrator::Splitting { .. })
+    pub fn relaxes_bonds(&self) -> bool {
+        matches!(self.integrator, Integrator::Splitting { .. })
             && self.bonds.as_ref().is_some_and(|bonds| bonds.have_friction() && !bonds.have_memory())
     }
 
     /// Whether a split step relaxes the velocities of pairs in two stages.
     #[must_use]
-    pub fn relaxes_in_two_stages(&self, model: &Model) -> bool {
-        let asked = Integrator::Splitting { relaxation: Some(PairRelaxation::TwoStages) };
-        self.relaxes_pairs(model) && model.integrator == asked
+    pub fn relaxes_in_two_stages(&self) -> bool {
+        self.relaxes_pairs() && self.integrator == Integrator::Splitting { relaxation: Some(PairRelaxation::TwoStages) }
     }
 
     /// What acts on the particles of a scene; harmonic chains add their species.
-    pub(super) fn new(scene: &Scene, species: &mut Vec<Species>) -> Self {
-        let mut particles = Self { walls: PlaneWalls::of(scene), shear: ShearedBox::of(scene), ..Self::default() };
+    pub(super) fn new(scene: &Scene, integrator: &Integrator, species: &mut Vec<Species>) -> Self {
+        let mut particles = Self {
+            integrator: integrator.clone(),
+            walls: PlaneWalls::of(scene),
+            shear: ShearedBox::of(scene),
+            ..Self::default()
+        };
         for term in terms::acting(scene) {
             term.add(scene, species, &mut particles);
         }
@@ -196,13 +202,13 @@ impl Particles {
     /// There is more than pairs without memory: bonds, angles, tethers, baths on particles, memory, or a line on
     /// which particles are.
     pub(crate) fn have_more_than_pairs(&self, model: &Model) -> bool {
-        self.are_sprung() || self.acts_on_particles(model) || self.has_memory() || model.units.dimension == 1
+        self.are_sprung() || self.acts_on_particles() || self.has_memory() || model.units.dimension == 1
     }
 
     /// Steps list pairs: those that persist because they remember, those on a line, and those of steps as short as
     /// a coloured noise needs, for which a list lasts long (its scene is 7 % faster so on lavapipe, 2026-11-27).
     pub(crate) fn list_pairs(&self, model: &Model) -> bool {
-        let short = self.coloured_noise.is_some() && !self.have_local_densities() && !self.splits(model);
+        let short = self.coloured_noise.is_some() && !self.have_local_densities() && !self.splits();
         self.pair_force
             .as_ref()
             .is_some_and(|force| force.acts() && (force.remembers() || model.units.dimension == 1 || short))

@@ -31,14 +31,14 @@ fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
     let bath = particles.position_bath.as_ref()?;
     let is_linear = particles.terms().iter().all(|term| term.is_linear());
     // Friction that sees a predicted velocity leaves another temperature.
-    let predicts = matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
+    let predicts = matches!(model.particles().integrator, Integrator::GrootWarren { lambda } if lambda != 0.5);
     // A bath that never forgets has no noise either.
     let couples = bath.steps.iter().all(|step| step.coupling > 0.0 && (!bath.memory || step.persistence.abs() < 1.0));
     if !is_linear || predicts || !couples || bath.temperature <= 0.0 || model.mobile_particles() == 0 {
         return None;
     }
     let coordinates = coordinates(model, particles)?;
-    let splits = particles.relaxes_particles(model);
+    let splits = particles.relaxes_particles();
     let (kt, square) = (bath.temperature, model.time_step.powi(2));
     let (mut count, mut curvature, mut gradient) = (0.0, 0.0, [0.0; 2]);
     // Sums over all coordinates, of the motion and of the scheme.

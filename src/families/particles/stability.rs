@@ -38,7 +38,7 @@ const ROUNDS: usize = 40;
 /// The strain of a white bath for each B: friction that sees a velocity predicted by λ is stable for 2λB + W < 4, and
 /// for λ below a quarter for (1 - 2λ)B < 4.
 fn strain_of_bath(model: &Model) -> f64 {
-    match model.integrator {
+    match model.particles().integrator {
         Integrator::GrootWarren { lambda } => (2.0 * lambda).max(1.0 - 2.0 * lambda),
         _ => 1.0,
     }
@@ -47,7 +47,7 @@ fn strain_of_bath(model: &Model) -> f64 {
 /// The part of the bath's temperature that friction of particles and bonds leaves out or adds at the most, where it
 /// sees velocities predicted by λ: ⟨v²⟩ = (kT/m) 2/(2 + (2λ - 1)(γdt/m + W)), in which γdt/m is B/2.
 fn cold_by_prediction(strains: &[Strain], model: &Model) -> f64 {
-    let Integrator::GrootWarren { lambda } = model.integrator else { return 0.0 };
+    let Integrator::GrootWarren { lambda } = model.particles().integrator else { return 0.0 };
     let part = |strain: &Strain| {
         let rate = 0.5 * strain.bath / strain_of_bath(model) + strain.sum - strain.bath;
         1.0 - 2.0 / (2.0 + (2.0 * lambda - 1.0) * rate)
@@ -106,7 +106,7 @@ pub(crate) fn check(scene: &Checked, problems: &mut Problems) {
     let spring = worst.sum - worst.bath;
     if worst.bath > 0.0 && spring < LIMIT {
         let share = (LIMIT - spring) / worst.bath;
-        let (key, value) = bath_strength(&scene.interactions[worst.place]);
+        let (key, value) = bath_strength(&scene.interactions()[worst.place]);
         if value > 0.0 {
             let most = two_digits(share * value);
             accepted = format!("{accepted}; or a {key} of at most {most} in interactions[{}]", worst.place);
@@ -122,11 +122,11 @@ pub(crate) fn check_friction(scene: &Checked, problems: &mut Problems) {
     let Some(force) = model.particles().pair_force.as_ref() else { return };
     let (rate, index) = model.largest_friction_rate(force);
     let particles = model.particles();
-    let staged = particles.relaxes_in_two_stages(model);
-    let most = if particles.splits(model) { MOST_RELAXATION } else { LIMIT };
+    let staged = particles.relaxes_in_two_stages();
+    let most = if particles.splits() { MOST_RELAXATION } else { LIMIT };
     let step = scene.time.step;
     // A pair alone relaxes exactly in one stage only.
-    let sparse = particles.splits(model) && !staged && model.most_neighbours(force) < NEIGHBOURS;
+    let sparse = particles.splits() && !staged && model.most_neighbours(force) < NEIGHBOURS;
     if rate * step < most || sparse {
         return;
     }
@@ -291,7 +291,7 @@ fn possible(model: &Model, network: Option<&Network>) -> Option<Strain> {
 }
 
 fn place_of(scene: &Scene, wanted: impl Fn(&Interaction) -> bool) -> usize {
-    scene.interactions.iter().position(wanted).unwrap_or(0)
+    scene.interactions().iter().position(wanted).unwrap_or(0)
 }
 
 fn inverse_mass(model: &Model, species: usize) -> f64 {
@@ -305,10 +305,10 @@ fn of_particles(scene: &Checked) -> Vec<Strain> {
     let particles = model.particles();
     let of_baths = |interaction: &Interaction| matches!(interaction, Interaction::Langevin(_));
     let of_springs = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_));
-    let place = scene.interactions.iter().position(of_baths).unwrap_or_else(|| place_of(scene, of_springs));
+    let place = scene.interactions().iter().position(of_baths).unwrap_or_else(|| place_of(scene, of_springs));
     let spring = particles.tethers.map_or(0.0, |tethers| tethers.stiffness);
     // A bath that relaxes exactly puts no strain on the step.
-    let bath = particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles(model));
+    let bath = particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles());
     let species = model.species.iter().enumerate().filter(|(_, species)| species.count > 0);
     let strain = |(index, species): (usize, &Species)| {
         let bath = bath.map_or(0.0, |bath| bath.steps[index].coupling) * strain_of_bath(model);
@@ -324,7 +324,8 @@ fn of_particles(scene: &Checked) -> Vec<Strain> {
 fn of_pairs_on_average(scene: &Checked) -> Vec<Strain> {
     let model = scene.model();
     let (mut strains, step) = (Vec::new(), model.time_step);
-    let Some(force) = model.particles().pair_force.as_ref().filter(|_| model.integrator == Integrator::CotterReich {})
+    let Some(force) =
+        model.particles().pair_force.as_ref().filter(|_| model.particles().integrator == Integrator::CotterReich {})
     else {
         return strains;
     };
@@ -348,18 +349,18 @@ fn stiffnesses(model: &Model, kind: &BondKind) -> [f64; 2] {
         None => 0.0,
     };
     // A bath that relaxes exactly puts no strain on the step.
-    let bath = kind.bath.filter(|_| !model.particles().relaxes_bonds(model));
+    let bath = kind.bath.filter(|_| !model.particles().relaxes_bonds());
     [spring, bath.map_or(0.0, |bath| bath.coupling * strain_of_bath(model))]
 }
 
 /// The interaction that each kind of bonds comes from.
 fn places(scene: &Scene, bonds: &Bonds) -> Vec<usize> {
     let of_chains = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
-    if let Some(place) = scene.interactions.iter().position(of_chains) {
+    if let Some(place) = scene.interactions().iter().position(of_chains) {
         return vec![place; bonds.kinds.len()];
     }
-    let is_bonds = |index: &usize| matches!(scene.interactions[*index], Interaction::Bonds(_));
-    (0..scene.interactions.len()).filter(is_bonds).collect()
+    let is_bonds = |index: &usize| matches!(scene.interactions()[*index], Interaction::Bonds(_));
+    (0..scene.interactions().len()).filter(is_bonds).collect()
 }
 
 /// The species of all particles.

@@ -14,7 +14,7 @@ pub(super) fn sums(model: &Model) -> Sums {
         .with_if(true, &[Sum::KineticEnergy, Sum::Virial])
         .with(Sum::Momentum, 3)
         .with_if(true, &configuration)
-        .with_if(particles.relaxes_in_two_stages(model), &[Sum::FirstStageVirial])
+        .with_if(particles.relaxes_in_two_stages(), &[Sum::FirstStageVirial])
         .with_if(model.has_memory(), &[Sum::BathEnergy, Sum::BathSquare, Sum::BathCount])
         .with_if(
             particles.oscillates_in_memory(),

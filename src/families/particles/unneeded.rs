@@ -7,7 +7,7 @@ use crate::families::{Checked, Particles};
 pub(super) fn unneeded(particles: &Particles, scene: &Checked) -> Vec<String> {
     let model = scene.model();
     let Some(force) = particles.pair_force.as_ref().filter(|force| force.has_friction()) else { return Vec::new() };
-    let staged = particles.relaxes_in_two_stages(model);
+    let staged = particles.relaxes_in_two_stages();
     let relaxed = model.largest_friction_rate(force).0 * scene.time.step;
     if relaxed > model.friction_limit() || model.advisable_relaxation() == PairRelaxation::TwoStages {
         return Vec::new();

@@ -1,7 +1,7 @@
 //! What is allowed of particles but deserves a second look.
 
 use super::stability;
-use super::terms::{self, SceneTerm, Springs};
+use super::terms::{self, Springs};
 use crate::document::{Interaction, PairRelaxation, Placement, Scene, Warning, brief};
 use crate::families::warnings::{warn, warn_of_momentum};
 use crate::families::{Checked, FREQUENCY_LIMIT, MOST_RELAXATION, Model, PairForce, Particles, Species};
@@ -20,10 +20,8 @@ pub(super) fn warnings(particles: &Particles, scene: &Checked) -> Vec<Warning> {
         warn_of_lengths(&scene.space.lengths, force, &mut warnings);
         warn_of_layers(scene, force, &mut warnings);
     }
-    for (index, interaction) in scene.interactions.iter().enumerate() {
-        if let Some(term) = terms::of(interaction) {
-            term.warn(model, &format!("interactions[{index}]"), &mut warnings);
-        }
+    for (index, interaction) in scene.interactions().iter().enumerate() {
+        terms::of(interaction).warn(model, &format!("interactions[{index}]"), &mut warnings);
     }
     warn_of_places(scene, &mut warnings);
     if particles.have_more_than_pairs(model) {
@@ -53,8 +51,8 @@ const FINE_PLACES: f64 = 1e-3;
 fn warn_of_springs(scene: &Scene, warnings: &mut Vec<Warning>) {
     let half = 0.5 * scene.space.shortest_length();
     let resolution = scene.space.lengths.iter().copied().fold(0.0, f64::max) / 4_294_967_296.0;
-    for (index, interaction) in scene.interactions.iter().enumerate() {
-        let Some(Springs { stiffness, length }) = terms::of(interaction).and_then(SceneTerm::springs) else {
+    for (index, interaction) in scene.interactions().iter().enumerate() {
+        let Some(Springs { stiffness, length }) = terms::of(interaction).springs() else {
             continue;
         };
         let temperature = interaction.bath_temperature(scene.temperature);
@@ -159,7 +157,7 @@ fn warn_of_long_molecules(scene: &Scene, warnings: &mut Vec<Warning>) {
 /// Chains that no bond holds together are nothing but a way to place particles.
 fn warn_of_loose_chains(scene: &Scene, warnings: &mut Vec<Warning>) {
     let bonded = |species: &String| {
-        scene.interactions.iter().any(|interaction| match interaction {
+        scene.interactions().iter().any(|interaction| match interaction {
             Interaction::Bonds(bonds) => {
                 !bonds.pairs.is_empty() || bonds.species.as_ref().is_none_or(|names| names.contains(species))
             }
@@ -190,7 +188,7 @@ fn warn_of_friction(scene: &Checked, force: &PairForce, warnings: &mut Vec<Warni
                 if relaxed < MOST_RELAXATION { ", which `integrator.relaxation=two-stages` does not" } else { "" }
             ),
         ),
-        None if model.particles().relaxes_in_two_stages(model) => (
+        None if model.particles().relaxes_in_two_stages() => (
             relaxed > limit,
             format!("viscosity and diffusion are reliable up to {limit}, a step of {:.2e}", limit / rate),
         ),

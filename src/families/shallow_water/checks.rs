@@ -2,9 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::document::{
-    Integrator, Placement, Problems, Scene, ShallowWaterInteraction, SmoothingSolver, Snapshot, Velocities, brief,
-};
+use crate::document::{Placement, Problems, Scene, ShallowWaterInteraction, SmoothingSolver, Velocities, brief};
 use crate::families::shallow_water::surface::Surface;
 use crate::families::{LARGEST_DEPTH, chebyshev_iterations};
 
@@ -20,40 +18,38 @@ const MOST_TERMS: f64 = 5e6;
 /// Points on each axis that are always tried.
 const FEWEST_TRIALS: u32 = 16;
 
-/// Checks a scene whose interaction at `path` is shallow water.
-pub(crate) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, problems: &mut Problems) {
+/// The interaction, which is the only one.
+const PATH: &str = "interactions[0]";
+
+/// Checks a scene of shallow water.
+pub(crate) fn check(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut Problems) {
     let lengths = &scene.space.lengths;
     if lengths.len() != 2 {
         let found = format!("{} edge{}", lengths.len(), if lengths.len() == 1 { "" } else { "s" });
         problems.refuse("space.box", found, "two edges: shallow water is two-dimensional");
     }
-    if !matches!(scene.integrator, Integrator::Gyro {} | Integrator::Rotate {}) {
-        let found = format!("`{}`", scene.integrator.name());
-        problems.refuse("integrator.type", found, "`gyro` or `rotate`, the integrators of shallow water");
-    }
-    check_mesh(water, path, problems);
+    check_mesh(water, problems);
     check_groups(scene, water, problems);
-    check_output(scene, problems);
     let smoothing = &water.smoothing;
     let widest = lengths.iter().fold(0.0, |widest: f64, length| widest.max(*length));
     if widest > 0.0 && smoothing.length > LARGEST_SMOOTHING * widest {
         let accepted =
             format!("at most {LARGEST_SMOOTHING:e} edges of the box, beyond which the depth is flat to the last bit");
-        problems.refuse(format!("{path}.smoothing.length"), brief(smoothing.length), accepted);
+        problems.refuse(format!("{PATH}.smoothing.length"), brief(smoothing.length), accepted);
         return;
     }
     // Out of range it is a mistake already, and out of reach too.
     let is_box = lengths.len() == 2 && lengths.iter().all(|length| *length > 0.0);
     if is_box && smoothing.length >= 0.0 && (1..=2).contains(&smoothing.power) {
-        check_iterations(water, path, [lengths[0], lengths[1]], problems);
-        check_depth(water, path, [lengths[0], lengths[1]], problems);
+        check_iterations(water, [lengths[0], lengths[1]], problems);
+        check_depth(water, [lengths[0], lengths[1]], problems);
         check_balance(scene, water, [lengths[0], lengths[1]], problems);
     }
 }
 
-fn check_mesh(water: &ShallowWaterInteraction, path: &str, problems: &mut Problems) {
+fn check_mesh(water: &ShallowWaterInteraction, problems: &mut Problems) {
     for (axis, nodes) in water.mesh.iter().enumerate() {
-        let path = format!("{path}.mesh[{axis}]");
+        let path = format!("{PATH}.mesh[{axis}]");
         let least = water.spline_order + 1;
         if *nodes < least {
             let accepted = format!("at least {least} nodes, the width of a spline of order {}", water.spline_order);
@@ -68,11 +64,11 @@ fn check_mesh(water: &ShallowWaterInteraction, path: &str, problems: &mut Proble
     }
     if water.bath.is_some() && water.smoothing.length == 0.0 {
         let accepted = "a `smoothing.length` above 0, from which the bath takes its scales; or no bath";
-        problems.refuse(format!("{path}.bath"), "a bath, and a smoothing of length 0", accepted);
+        problems.refuse(format!("{PATH}.bath"), "a bath, and a smoothing of length 0", accepted);
     }
 }
 
-fn check_iterations(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], problems: &mut Problems) {
+fn check_iterations(water: &ShallowWaterInteraction, lengths: [f64; 2], problems: &mut Problems) {
     let SmoothingSolver::Chebyshev { tolerance } = water.smoothing.solver else { return };
     // Out of range it is a mistake already.
     if tolerance <= 0.0 {
@@ -85,7 +81,7 @@ fn check_iterations(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 
         let accepted = format!(
             "a length and a tolerance that take at most {MOST_ITERATIONS}, or the solver `fft`, which takes any length"
         );
-        problems.refuse(format!("{path}.smoothing.length"), found, accepted);
+        problems.refuse(format!("{PATH}.smoothing.length"), found, accepted);
     }
 }
 
@@ -97,14 +93,6 @@ fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut P
         if group.mass != 1.0 {
             let accepted = "no `mass` in shallow water: it follows from the depth";
             problems.refuse(format!("{path}.mass"), group.mass, accepted);
-        }
-        if group.fixed {
-            let accepted = "particles that move: in shallow water all of them carry the depth along";
-            problems.refuse(format!("{path}.fixed"), "true", accepted);
-        }
-        if group.chain.is_some() {
-            let accepted = "no chains in shallow water: its particles have no forces between them";
-            problems.refuse(format!("{path}.chain"), "a chain", accepted);
         }
         if let Some(first) = first_tracer.filter(|first| *first < index && !group.tracer) {
             let found = format!("water after the tracers of particles[{first}]");
@@ -126,30 +114,8 @@ fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut P
     }
 }
 
-fn check_output(scene: &Scene, problems: &mut Problems) {
-    let output = &scene.output;
-    if output.snapshot != Snapshot::default() {
-        let accepted = "no `output.snapshot` in shallow water: `output.fields` draws the water, `output.plot` says how";
-        problems.refuse("output.snapshot", "settings of pictures of particles", accepted);
-    }
-    let asked = [
-        ("radial_distribution", output.radial_distribution.is_some()),
-        ("structure_factor", output.structure_factor.is_some()),
-        ("clusters", output.clusters.is_some()),
-        ("diffusion", output.diffusion.is_some()),
-        ("viscosity", output.viscosity.is_some()),
-        ("autocorrelations", !output.autocorrelations.is_empty()),
-        ("histograms", !output.histograms.is_empty()),
-        ("profiles", output.profiles.is_some()),
-        ("stress", output.stress.is_some()),
-    ];
-    for (name, _) in asked.iter().filter(|(_, asked)| *asked) {
-        problems.refuse(format!("output.{name}"), "in a scene of shallow water", "scenes with pair forces only");
-    }
-}
-
 /// The water must have a positive depth everywhere, because masses cannot be negative.
-fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], problems: &mut Problems) {
+fn check_depth(water: &ShallowWaterInteraction, lengths: [f64; 2], problems: &mut Problems) {
     let surface = Surface::new(&water.surface, lengths);
     if surface.is_flat() {
         return;
@@ -170,7 +136,7 @@ fn check_depth(water: &ShallowWaterInteraction, path: &str, lengths: [f64; 2], p
             "a depth above 0 and up to {LARGEST_DEPTH} times the mean everywhere: lower or wider features, or a shorter \
              `smoothing.length`"
         );
-        problems.refuse(format!("{path}.surface"), found, accepted);
+        problems.refuse(format!("{PATH}.surface"), found, accepted);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::WaterLayout;
 use super::plan::smoothing::iterations;
-use crate::document::{BathRate, BathScheme, Interaction, LaplacianSymbol, MeshBath, Scene, SmoothingSolver};
+use crate::document::{BathRate, BathScheme, LaplacianSymbol, MeshBath, Scene, SmoothingSolver};
 use crate::families::ShallowWater;
 use crate::numbers::{grouped, six_digits};
 use crate::plan::Plan;
@@ -47,11 +47,7 @@ pub(super) fn mesh(water: &ShallowWater, scene: &Scene, plan: &Plan, nodes: &str
         ("storage", storage),
         ("smoothing", smoothing),
     ];
-    let bath = scene.interactions.iter().find_map(|interaction| match interaction {
-        Interaction::ShallowWater(asked) => asked.bath.as_ref(),
-        _ => None,
-    });
-    match bath {
+    match scene.system.shallow_water().and_then(|asked| asked.bath.as_ref()) {
         Some(MeshBath::White {}) => rows.push(("bath", "white".to_owned())),
         Some(MeshBath::Memory { epsilon, scheme, rate }) => {
             let scheme = match scheme {
@@ -64,7 +60,7 @@ pub(super) fn mesh(water: &ShallowWater, scene: &Scene, plan: &Plan, nodes: &str
         }
         None => {}
     }
-    let share = water.stability(&scene.integrator, lengths, scene.time.step);
+    let share = water.stability(lengths, scene.time.step);
     let clean = water.clean_share();
     rows.push((
         "stability",

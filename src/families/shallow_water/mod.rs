@@ -25,7 +25,7 @@ use super::{
     BathStep, Beyond, Checked, Column, ExactMean, KeptQuantity, KeptSum, Limit, MaterialLoops, Model, Observables,
     Physics, PictureKind, ShallowWater, Species, column, conservation, speeds,
 };
-use crate::document::{FieldQuantity, Integrator, ParticleGroup, Scene, SmoothingSolver, Warning, brief};
+use crate::document::{FieldQuantity, ParticleGroup, Scene, SmoothingSolver, Warning, WaterIntegrator, brief};
 use crate::numbers::{grouped, with_error};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
 use crate::quantity::Quantity;
@@ -45,7 +45,7 @@ impl Physics for ShallowWater {
 
     /// Half round the box, by a path that bends.
     fn reach(&self, model: &Model) -> f64 {
-        let [ahead, aside] = self.path(&model.integrator, model.time_step);
+        let [ahead, aside] = self.path(model.time_step);
         0.5 * model.units.shortest_length() * model.time_step / (ahead.abs() + aside.abs())
     }
 
@@ -60,7 +60,7 @@ impl Physics for ShallowWater {
 
     fn longest_step(&self, model: &Model) -> f64 {
         let [x, y, _] = model.units.lengths;
-        self.advisable_step(&model.integrator, [x, y], model.time_step)
+        self.advisable_step([x, y], model.time_step)
     }
 
     fn has_potential(&self) -> bool {
@@ -118,7 +118,7 @@ impl Physics for ShallowWater {
 
     fn limits(&self, scene: &Checked) -> Vec<Limit> {
         let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
-        let share = self.stability(&scene.integrator, lengths, scene.time.step);
+        let share = self.stability(lengths, scene.time.step);
         vec![
             Limit { law: "p = 1, water spread evenly", share, beyond: Beyond::Unstable },
             Limit { law: "p at random places", share: share / self.clean_share(), beyond: Beyond::Unstable },
@@ -230,9 +230,9 @@ impl Physics for ShallowWater {
         conservation::mass(state, KeptQuantity::MeshMass, &observables::sums(), self.mass_unit).into_iter().collect()
     }
 
-    fn kept_to_rounding(&self, model: &Model) -> Option<&'static str> {
+    fn kept_to_rounding(&self, _: &Model) -> Option<&'static str> {
         let loops = self.closed_loops().next().is_some();
-        (loops && model.integrator == (Integrator::Gyro {})).then_some("the circulation of material loops")
+        (loops && self.integrator == (WaterIntegrator::Gyro {})).then_some("the circulation of material loops")
     }
 
     fn fate_of_energy(&self, _: &Model) -> String {

@@ -2,7 +2,8 @@
 
 use super::layout::LARGEST_MASS;
 use crate::document::{
-    BathRate, Integrator, MeshBath, Placement, Scene, ShallowWaterInteraction, Smoothing, SurfaceFeature, Velocities,
+    BathRate, MeshBath, Placement, Scene, ShallowWaterInteraction, Smoothing, SurfaceFeature, Velocities,
+    WaterIntegrator,
 };
 use crate::families::BathStep;
 use crate::families::shallow_water::surface::Surface;
@@ -16,6 +17,8 @@ use std::ops::Range;
 /// so that the mean depth is 1. The node (k, l) is at (k Δx, l Δy) and has the index k + l·nₓ.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShallowWater {
+    /// Integrator.
+    pub integrator: WaterIntegrator,
     /// Mesh nodes on each axis.
     pub mesh: [u32; 2],
     /// Order of the B-splines, 1 to 3.
@@ -60,7 +63,7 @@ pub(crate) const LARGEST_DEPTH: f64 = 4.0;
 const MARGIN: f64 = 0.93;
 
 impl ShallowWater {
-    pub(crate) fn new(interaction: &ShallowWaterInteraction, scene: &Scene) -> Self {
+    pub(crate) fn new(interaction: &ShallowWaterInteraction, integrator: WaterIntegrator, scene: &Scene) -> Self {
         let count = |tracer: bool| {
             let groups = scene.particles.iter().filter(move |group| group.tracer == tracer);
             groups.map(|group| group.resolved_count(&scene.space))
@@ -74,6 +77,7 @@ impl ShallowWater {
         let heaviest = LARGEST_DEPTH * nodes / carriers.max(1) as f64;
         let mass_unit = (CROWDING / MASS_RANGE).max(heaviest / LARGEST_MASS).log2().ceil().exp2();
         Self {
+            integrator,
             mesh: interaction.mesh,
             spline_order: interaction.spline_order,
             wave_speed: interaction.wave_speed,
@@ -142,9 +146,9 @@ impl ShallowWater {
 
     /// How far a particle of unit velocity goes in a step, ahead and to the side: the path of a drift that turns with the rotation
     /// bends by the whole angle, one that the rotation is apart from is straight.
-    pub(super) fn path(&self, integrator: &Integrator, time_step: f64) -> [f64; 2] {
+    pub(super) fn path(&self, time_step: f64) -> [f64; 2] {
         let angle = self.rotation * time_step;
-        if self.rotation == 0.0 || *integrator != (Integrator::Gyro {}) {
+        if self.rotation == 0.0 || self.integrator != (WaterIntegrator::Gyro {}) {
             [time_step, 0.0]
         } else {
             [angle.sin() / self.rotation, (1.0 - angle.cos()) / self.rotation]
@@ -156,7 +160,7 @@ impl ShallowWater {
     ///
     /// Kicks by the smoothed depth and by the bath are oscillators of one mode of the mesh each, with (W + B)/4 < 1 as
     /// the limit. Their stiffness is the largest eigenvalue of ∫∇ψ·∇ψ over the smoothing, and over the coupling of the
-    /// bath. With rotation the drift of [`Integrator::Gyro`] turns a particle by θ = f₀ dt, which leaves less room: the limit
+    /// bath. With rotation the drift of [`WaterIntegrator::Gyro`] turns a particle by θ = f₀ dt, which leaves less room: the limit
     /// is then (W + B)/4 < (θ/2) cot(θ/2) for θ < π, from the trace 1 + 2 cos θ - (W + B) sin(θ)/θ of one step. From half a
     /// turn on p is infinite.
     ///
@@ -166,15 +170,15 @@ impl ShallowWater {
     /// let model = scene::load("shallow-water", &[])?.model().clone();
     /// let water = model.shallow_water().ok_or("no shallow water")?;
     /// let [x, y, _] = model.units.lengths;
-    /// let share = water.stability(&model.integrator, [x, y], model.time_step);
+    /// let share = water.stability([x, y], model.time_step);
     /// assert!(share > 0.0 && share < 1.0);
     /// // Kicks grow with the square of the step.
-    /// assert!((water.stability(&model.integrator, [x, y], 2.0 * model.time_step) / share - 4.0).abs() < 0.1);
+    /// assert!((water.stability([x, y], 2.0 * model.time_step) / share - 4.0).abs() < 0.1);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     #[must_use]
-    pub fn stability(&self, integrator: &Integrator, lengths: [f64; 2], time_step: f64) -> f64 {
-        self.kicks(lengths, time_step) / self.room(integrator, time_step)
+    pub fn stability(&self, lengths: [f64; 2], time_step: f64) -> f64 {
+        self.kicks(lengths, time_step) / self.room(time_step)
     }
 
     /// The share p up to which steps are stable wherever chance and flow put the particles.
@@ -204,9 +208,9 @@ impl ShallowWater {
     }
 
     /// The part of (W + B)/4 that is left to a stable step by the drift before it.
-    fn room(&self, integrator: &Integrator, time_step: f64) -> f64 {
+    fn room(&self, time_step: f64) -> f64 {
         let half_turn = 0.5 * (self.rotation * time_step).abs();
-        if *integrator != (Integrator::Gyro {}) || half_turn < 1e-6 {
+        if self.integrator != (WaterIntegrator::Gyro {}) || half_turn < 1e-6 {
             return 1.0;
         }
         // Steps of more than half a turn find room here and there, which is not counted on.
@@ -236,14 +240,13 @@ impl ShallowWater {
 
     /// A time step that takes no more than a clean share of the limit of stability, from one that takes more.
     #[must_use]
-    pub fn advisable_step(&self, integrator: &Integrator, lengths: [f64; 2], time_step: f64) -> f64 {
+    pub fn advisable_step(&self, lengths: [f64; 2], time_step: f64) -> f64 {
         let kicks = self.kicks(lengths, time_step);
         // Without memory or with little, the coupling of the bath itself depends on the step: kicks are between dt and dt².
         let order = if self.bath.is_some() { 1 } else { 2 };
         let clean = |share: f64| {
             let step = share * time_step;
-            (self.rotation * step).abs() < PI
-                && kicks * share.powi(order) <= self.clean_share() * self.room(integrator, step)
+            (self.rotation * step).abs() < PI && kicks * share.powi(order) <= self.clean_share() * self.room(step)
         };
         let mut share = 1.0;
         while !clean(share) && share > f64::MIN_POSITIVE {
@@ -304,6 +307,7 @@ mod tests {
             assert!((mass - 1.0).abs() < 1e-15 && stiffness == 0.0);
         }
         let water = ShallowWater {
+            integrator: WaterIntegrator::default(),
             mesh: [64, 64],
             spline_order: 3,
             wave_speed: 1.0,
@@ -317,7 +321,7 @@ mod tests {
             tracers: Vec::new(),
         };
         // 4p/dt² in units of c₀²/Δx², without smoothing.
-        let stiffness = 4.0 * water.stability(&Integrator::Gyro {}, [64.0, 64.0], 1.0);
+        let stiffness = 4.0 * water.stability([64.0, 64.0], 1.0);
         assert!((stiffness - 1.1).abs() < 0.05, "{stiffness}");
     }
 }

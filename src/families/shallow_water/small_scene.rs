@@ -1,6 +1,6 @@
 //! A scene with little water, which uses what a scene does.
 
-use crate::document::{Interaction, ParticleGroup, Placement, Scene, Velocities};
+use crate::document::{ParticleGroup, Placement, Scene, Velocities};
 
 /// Cells along an axis, and particles in a cell.
 const CELLS: u32 = 16;
@@ -10,12 +10,10 @@ const CROWD: u64 = 16;
 pub(super) fn of(scene: &Scene) -> Scene {
     let mut small = scene.clone();
     let mut nodes = 0;
-    for interaction in &mut small.interactions {
-        if let Interaction::ShallowWater(water) = interaction {
-            water.mesh = water.mesh.map(|cells| cells.min(CELLS));
-            water.surface.clear();
-            nodes = u64::from(water.mesh[0]) * u64::from(water.mesh[1]);
-        }
+    if let Some(water) = small.system.shallow_water_mut() {
+        water.mesh = water.mesh.map(|cells| cells.min(CELLS));
+        water.surface.clear();
+        nodes = u64::from(water.mesh[0]) * u64::from(water.mesh[1]);
     }
     let water = scene.particles.iter().find(|group| !group.tracer);
     small.particles = water.into_iter().map(|group| scattered(group, CROWD * nodes)).collect();

@@ -1,6 +1,6 @@
 //! What is allowed of shallow water but deserves a second look.
 
-use crate::document::{Interaction, ParticleGroup, Placement, Scene, Velocities, Warning, brief};
+use crate::document::{ParticleGroup, Placement, Scene, Velocities, Warning, brief};
 use crate::families::warnings::warn;
 use crate::families::{Checked, Model, ShallowWater};
 use std::f64::consts::PI;
@@ -27,10 +27,10 @@ const SMOOTH_CELLS: f64 = 2.0;
 fn warn_of_waves(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Warning>) {
     let step = scene.time.step;
     let lengths = [scene.space.lengths[0], scene.space.lengths[1]];
-    let share = water.stability(&scene.integrator, lengths, step);
+    let share = water.stability(lengths, step);
     let clean = water.clean_share();
     if share > clean {
-        let advisable = water.advisable_step(&scene.integrator, lengths, step);
+        let advisable = water.advisable_step(lengths, step);
         // Steps of more than half a turn find room here and there.
         let certain = share.is_finite() && share >= 1.0;
         let verdict = if certain { "the run will become unstable" } else { "the run may become unstable" };
@@ -71,8 +71,7 @@ fn warn_of_mesh_noise(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Wa
         if cells < 0.75 { "one or two" } else { "some ten" },
         SMOOTH_CELLS * cell
     );
-    let place = scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::ShallowWater(_)));
-    warn(warnings, format!("interactions[{}].smoothing.length", place.unwrap_or(0)), message);
+    warn(warnings, "interactions[0].smoothing.length", message);
 }
 
 /// A loop whose points are further apart than nodes is no curve to the flow.

@@ -1,6 +1,6 @@
 //! What `check` says of Voronoi cells.
 
-use crate::document::{Integrator, VoronoiForm};
+use crate::document::{CellIntegrator, VoronoiForm};
 use crate::families::{Model, NETWORK_VISCOSITY, Voronoi};
 use crate::numbers::six_digits;
 
@@ -30,7 +30,7 @@ pub(super) fn fluid(cells: &Voronoi, model: &Model) -> Vec<(&'static str, String
             six_digits(network)
         );
         rows.push(("viscosity", text));
-        if matches!(model.integrator, Integrator::Splitting { .. }) {
+        if cells.integrator == (CellIntegrator::Splitting {}) {
             let solver = cells.solver;
             let text = format!(
                 "conjugate gradients, at most {} iterations, tolerance {}",

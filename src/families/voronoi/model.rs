@@ -2,12 +2,14 @@
 //!
 //! Flekkøy, Coveney and De Fabritiis, doi:10.1103/PhysRevE.62.2140.
 
-use crate::document::{FrictionSolver, InitialMasses, Integrator, Scene, VoronoiForm, VoronoiInteraction};
-use crate::families::{Model, Species};
+use crate::document::{CellIntegrator, FrictionSolver, InitialMasses, Scene, VoronoiForm, VoronoiInteraction};
+use crate::families::Species;
 
 /// Voronoi DPD.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Voronoi {
+    /// Integrator.
+    pub integrator: CellIntegrator,
     /// How forces and mass exchange follow from the tessellation.
     pub form: VoronoiForm,
     /// Viscosity η of the law of friction.
@@ -31,12 +33,18 @@ pub struct Voronoi {
 impl Voronoi {
     /// Voronoi DPD of a scene with such species.
     #[must_use]
-    pub(crate) fn new(interaction: &VoronoiInteraction, scene: &Scene, species: &[Species]) -> Self {
+    pub(crate) fn new(
+        interaction: &VoronoiInteraction,
+        integrator: CellIntegrator,
+        scene: &Scene,
+        species: &[Species],
+    ) -> Self {
         let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
         // Range for a hundred times the heaviest cell and its energy, in steps small against f32's.
         let unit = |scale: f64| if scale > 0.0 { (scale.log2().ceil() - 24.0).exp2() } else { 2_f64.powi(-24) };
         let energy = interaction.hottest(scene.temperature) * (1.0 + heaviest / interaction.molecular_mass);
         Self {
+            integrator,
             form: interaction.form,
             viscosity: interaction.friction_viscosity(),
             molecular_mass: interaction.molecular_mass,
@@ -64,8 +72,8 @@ impl Voronoi {
 
     /// Whether the velocities after friction are solved for.
     #[must_use]
-    pub(crate) fn solves(&self, model: &Model) -> bool {
-        self.viscosity > 0.0 && model.integrator != Integrator::Euler {}
+    pub(crate) fn solves(&self) -> bool {
+        self.viscosity > 0.0 && self.integrator != CellIntegrator::Euler {}
     }
 
     /// Whether cells keep account of their internal energy; else all are at the temperature of the scene.

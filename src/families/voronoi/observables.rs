@@ -1,6 +1,6 @@
 //! From the integer sums of a report to observables of Voronoi cells.
 
-use crate::document::Integrator;
+use crate::document::CellIntegrator;
 use crate::families::column::column;
 use crate::families::{CellObservables, Column, Model, Observables, Voronoi, column};
 use crate::plan::{Plan, Sums};
@@ -12,7 +12,7 @@ const RESIDUAL: f64 = 1.0 / (1_u64 << 40) as f64;
 /// What a report of cells sums.
 pub(super) fn sums(cells: &Voronoi, model: &Model) -> Sums {
     let energies = cells.keeps_energy();
-    let (solves, limited) = (cells.solves(model), cells.has_limits(model.temperature));
+    let (solves, limited) = (cells.solves(), cells.has_limits(model.temperature));
     Sums::default()
         .with(Sum::KineticEnergy, 1)
         .with(Sum::Momentum, 2)
@@ -91,7 +91,7 @@ pub(super) fn columns(cells: &Voronoi, model: &Model) -> Vec<Column> {
     if cells.has_limits(model.temperature) {
         columns.push(column(column::LIMITED_EXCHANGES, |row, _| of_cells(row, |cells| cells.limited_exchanges as f64)));
     }
-    if cells.viscosity > 0.0 && matches!(model.integrator, Integrator::Splitting { .. }) {
+    if cells.viscosity > 0.0 && cells.integrator == (CellIntegrator::Splitting {}) {
         columns.push(column("solver_iterations", |row, _| of_cells(row, |cells| cells.iterations as f64)));
         columns.push(column("solver_residual", |row, _| of_cells(row, |cells| cells.residual)));
     }

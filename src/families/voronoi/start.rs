@@ -1,8 +1,7 @@
 //! How Voronoi cells start: masses, momenta and energies, once their places are known.
 
 use super::checks::LIGHTEST;
-use crate::document::voronoi;
-use crate::document::{Generator, InitialMasses, Interaction, Problems, Scene, Velocities};
+use crate::document::{Generator, InitialMasses, Problems, Scene, Velocities};
 use crate::families::start::bring_to_rest;
 use crate::families::{Checked, Voronoi};
 use crate::noise::{self, stream};
@@ -68,7 +67,8 @@ pub(crate) fn fill(state: &mut State, scene: &Checked, cells: &Voronoi) {
 /// Temperature kT of every cell at the start: that of the last region around it, or of the scene.
 fn temperatures(state: &State, scene: &Checked) -> Vec<f64> {
     let model = scene.model();
-    let regions = voronoi(scene).and_then(|voronoi| voronoi.energy.as_ref()).map(|energy| &energy.initial_temperatures);
+    let regions =
+        scene.system.voronoi().and_then(|voronoi| voronoi.energy.as_ref()).map(|energy| &energy.initial_temperatures);
     let temperature = |position: &[u32; 3]| {
         let around = regions.into_iter().flatten().rfind(|region| {
             let centre = model.units.fraction([region.center[0], region.center[1], 0.0]);
@@ -111,7 +111,9 @@ fn masses(state: &State, scene: &Checked, cells: &Voronoi) -> Vec<f64> {
 
 /// Masses that follow from the volumes of cells have to be such as the integers can hold.
 pub(super) fn check_masses(scene: &Scene, cells: &Voronoi, masses: &[u32], problems: &mut Problems) {
-    let Some(voronoi) = voronoi(scene).filter(|voronoi| voronoi.initial_masses != InitialMasses::Equal) else { return };
+    let Some(voronoi) = scene.system.voronoi().filter(|voronoi| voronoi.initial_masses != InitialMasses::Equal) else {
+        return;
+    };
     let [low, high] = [LIGHTEST * 2_f64.powi(24), f64::from(u32::MAX)];
     // What is beyond the range of integers is at its end.
     let fits = |mass: u32| f64::from(mass) >= low && mass < u32::MAX;
@@ -126,8 +128,7 @@ pub(super) fn check_masses(scene: &Scene, cells: &Voronoi, masses: &[u32], probl
         low * cells.mass_unit,
         high * cells.mass_unit
     );
-    let path = scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::Voronoi(_)));
-    problems.refuse(format!("interactions[{}].initial_masses", path.unwrap_or(0)), found, accepted);
+    problems.refuse("interactions[0].initial_masses", found, accepted);
 }
 
 /// Refuses cells with energy that start in one place: what passes between them has no bound, however short the step.

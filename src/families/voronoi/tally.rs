@@ -20,8 +20,8 @@ impl Tally for Voronoi {
         3
     }
 
-    fn array(&self, model: &Model) -> Option<Array> {
-        self.solves(model).then_some(SOLVER)
+    fn array(&self, _: &Model) -> Option<Array> {
+        self.solves().then_some(SOLVER)
     }
 
     fn after(&self, upload: &[f64], counted: &Counted) -> Vec<f64> {

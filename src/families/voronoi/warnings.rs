@@ -1,15 +1,15 @@
 //! What is allowed of Voronoi cells but deserves a second look.
 
 use super::time_scales::{FRICTION_LIMIT, RARELY, SOUND_LIMIT, lightest};
-use crate::document::{InitialMasses, Integrator, Interaction, VoronoiForm, VoronoiInteraction, Warning};
-use crate::document::{shear_waves, voronoi};
+use crate::document::shear_waves;
+use crate::document::{CellIntegrator, InitialMasses, VoronoiForm, VoronoiInteraction, Warning};
 use crate::families::warnings::{warn, warn_of_momentum};
 use crate::families::{Beyond, Checked, Limit, Voronoi, speeds};
 
 /// All warnings about a scene.
 pub(super) fn warnings(cells: &Voronoi, scene: &Checked) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    if let Some(voronoi) = voronoi(scene) {
+    if let Some(voronoi) = scene.system.voronoi() {
         warn_of_cells(scene, cells, voronoi.form, &mut warnings);
         warn_of_fluid(scene, voronoi, cells, &mut warnings);
     }
@@ -44,8 +44,8 @@ const MOST_MOLECULES: f64 = 20.0;
 pub(super) fn limits(cells: &Voronoi, scene: &Checked) -> Vec<Limit> {
     let (sound, size) = sound_and_size(scene, cells);
     let friction = cells.viscosity * scene.time.step / lightest(scene.model());
-    let (law, friction) = if scene.integrator == (Integrator::Euler {}) {
-        let form = voronoi(scene).map(|voronoi| voronoi.form).unwrap_or_default();
+    let (law, friction) = if cells.integrator == (CellIntegrator::Euler {}) {
+        let form = scene.system.voronoi().map(|voronoi| voronoi.form).unwrap_or_default();
         ("2 % of heat of Euler's scheme", euler_excess(form) * friction / HOT)
     } else {
         ("friction dt η/M = 1/20", friction / FRICTION_LIMIT)
@@ -70,7 +70,7 @@ fn sound_and_size(scene: &Checked, cells: &Voronoi) -> (f64, f64) {
 
 /// The random heat through a face in one step, as a part of the energy of a cell, where heat is conducted.
 fn random_heat(scene: &Checked, cells: &Voronoi) -> Option<f64> {
-    let voronoi = voronoi(scene)?;
+    let voronoi = scene.system.voronoi()?;
     // Hot cells have fewer molecules at the same pressure.
     let thinned = match voronoi.initial_masses {
         InitialMasses::UniformPressure => voronoi.hottest(scene.temperature) / scene.temperature,
@@ -94,7 +94,7 @@ fn warn_of_cells(scene: &Checked, cells: &Voronoi, form: VoronoiForm, warnings: 
         warn(warnings, "time.step", message);
     }
     let friction = cells.viscosity * step / lightest;
-    let euler = scene.integrator == (Integrator::Euler {});
+    let euler = cells.integrator == (CellIntegrator::Euler {});
     let excess = euler_excess(form);
     if euler && scene.temperature > 0.0 && excess * friction > HOT {
         let message = format!(
@@ -118,8 +118,7 @@ fn warn_of_cells(scene: &Checked, cells: &Voronoi, form: VoronoiForm, warnings: 
 /// Warns of a fluid of Voronoi cells that the model does not describe well.
 fn warn_of_fluid(scene: &Checked, voronoi: &VoronoiInteraction, cells: &Voronoi, warnings: &mut Vec<Warning>) {
     let model = scene.model();
-    let place = scene.interactions.iter().position(|interaction| matches!(interaction, Interaction::Voronoi(_)));
-    let path = format!("interactions[{}]", place.unwrap_or(0));
+    let path = "interactions[0]";
     let present = || model.species.iter().filter(|species| species.count > 0);
     let mass: f64 = present().map(|species| species.mass * species.count as f64).sum();
     let fewest = present().map(|species| species.mass).fold(f64::INFINITY, f64::min) / cells.molecular_mass;

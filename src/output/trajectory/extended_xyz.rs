@@ -7,6 +7,7 @@
 //! - `pos`, `velo`: position and velocity (of these names in OVITO and QUIP).
 //! - `masses`, `momenta`: as ASE has them, whose velocities are momenta over masses.
 //! - `map_shift`: how often the particle has gone round the box (OVITO's periodic image).
+//! - `id`: where a trajectory has some species only, the number of the particle in the scene, from 0.
 //!
 //! Where boundaries shear, the second or the third vector of `Lattice` leans along x as far as they are displaced, and there is no `map_shift`.
 //!
@@ -89,9 +90,10 @@ fn write_frame(text: &mut Vec<u8>, description: &Description, state: &Reported) 
     writeln!(
         text,
         "Lattice=\"{x} 0 0 {second} {y} 0 {third} 0 {z}\" \
-         Properties=species:S:1:pos:R:3:velo:R:3:masses:R:1:momenta:R:3{}{} pbc=\"{periodic}\" Step={} \
+         Properties=species:S:1:pos:R:3:velo:R:3:masses:R:1:momenta:R:3{}{}{} pbc=\"{periodic}\" Step={} \
          Time={time} {}={}{frozen}",
         if description.shear.is_none() { ":map_shift:I:3" } else { "" },
+        if description.numbers.is_some() { ":id:I:1" } else { "" },
         if named { ":species_name:S:1" } else { "" },
         state.step,
         description.run.key(),
@@ -115,6 +117,9 @@ fn write_frame(text: &mut Vec<u8>, description: &Description, state: &Reported) 
         if description.shear.is_none() {
             let [i, j, k] = state.image(particle);
             write!(text, " {i} {j} {k}")?;
+        }
+        if let Some(number) = description.numbers.as_ref().and_then(|numbers| numbers.get(particle)) {
+            write!(text, " {number}")?;
         }
         if named {
             write!(text, " {}", names[species])?;

@@ -49,6 +49,8 @@ const APPLICATION: &str = concat!("mesoscope ", env!("CARGO_PKG_VERSION"));
 const PROGRAM: &str = "mesoscope ";
 /// The id of the run.
 const RUN: &str = "log/run_id";
+/// Numbers of the particles in the scene, where a trajectory has some species only.
+const NUMBERS: &str = "log/particles/id";
 const SCHEMA: &str = "hoomd";
 const SCHEMA_VERSION: (u16, u16) = (1, 4);
 
@@ -229,6 +231,9 @@ fn write_constants(frame: &mut Frame, description: &Description, state: &Reporte
     if let Some(frozen) = description.frozen_particles(state) {
         frame.scalars(FROZEN_IN_GSD, [frozen as u32])?;
     }
+    if let Some(numbers) = &description.numbers {
+        frame.scalars(NUMBERS, numbers.iter().copied())?;
+    }
     frame.scalars(RUN, description.run.to_string().into_bytes())?;
     write_links(frame, "bond", &description.bonds)?;
     write_links(frame, "angle", &description.angles)
@@ -324,8 +329,8 @@ impl Walk {
 }
 
 /// Arrays of whole numbers, one a row.
-const INTEGERS: [&str; 7] =
-    ["particles/N", "particles/typeid", FROZEN_IN_GSD, "bonds/N", "bonds/typeid", "angles/N", "angles/typeid"];
+const INTEGERS: [&str; 8] =
+    ["particles/N", "particles/typeid", NUMBERS, FROZEN_IN_GSD, "bonds/N", "bonds/typeid", "angles/N", "angles/typeid"];
 
 /// Whether a trajectory of ours has an array of this name and kind.
 fn is_ours(name: &str, chunk: Chunk) -> bool {
@@ -416,6 +421,7 @@ mod tests {
             shear: None,
             bonds: Vec::new(),
             angles: Vec::new(),
+            numbers: None,
         };
         assert_eq!(centred(&description, [1 << 31; 3]), ([0.0; 3], [0; 3]));
         assert_eq!(centred(&description, [u32::MAX; 3]), ([-5.0, -0.15, -3.5], [1; 3]));

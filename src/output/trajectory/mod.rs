@@ -34,6 +34,8 @@ use std::path::Path;
 #[derive(Debug)]
 pub struct TrajectoryWriter {
     description: Description,
+    /// The species that are written, if not all are.
+    shown: Option<Vec<bool>>,
     file: Box<dyn Frames>,
 }
 
@@ -108,6 +110,8 @@ struct Description {
     bonds: Vec<([u32; 2], u32)>,
     /// The same of angles.
     angles: Vec<([u32; 3], u32)>,
+    /// Numbers in the scene of the particles of a frame, where it does not have all of them.
+    numbers: Option<Vec<u32>>,
 }
 
 impl Description {
@@ -124,7 +128,19 @@ impl Description {
             shear: particles.shear.map(|shear| (shear, model.clock(0))),
             bonds: particles.bonds.iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind)).collect(),
             angles: particles.angles.iter().flat_map(Angles::iter).map(|angle| (angle.ends, angle.kind)).collect(),
+            numbers: None,
         }
+    }
+
+    /// Leaves the particles of these numbers, of so many, and the bonds and angles between them.
+    fn select(&mut self, numbers: Vec<u32>, count: usize) {
+        let mut places = vec![None; count];
+        for (place, number) in (0..).zip(&numbers) {
+            places[*number as usize] = Some(place);
+        }
+        self.bonds = selected(&self.bonds, &places);
+        self.angles = selected(&self.angles, &places);
+        self.numbers = Some(numbers);
     }
 
     fn mass(&self, state: &Reported, particle: usize) -> f64 {
@@ -181,7 +197,7 @@ impl TrajectoryWriter {
     /// # Errors
     /// [`OutputError::Io`] when the file cannot be created.
     pub fn create(path: &Path, format: TrajectoryFormat, model: &Model, run: Id) -> Result<Self, OutputError> {
-        Ok(Self { description: Description::new(model, run), file: (format_of(format).create)(path)? })
+        Ok(Self { description: Description::new(model, run), shown: None, file: (format_of(format).create)(path)? })
     }
 
     /// Continues the trajectory of an earlier run after what [`extent`](Self::extent) said was written of it; later frames
@@ -202,7 +218,14 @@ impl TrajectoryWriter {
         let format = format_of(format);
         own_file::check_to_continue(path).map_err(OutputError::io("continue", path))?;
         run.check(path, (format.id_of)(path), files::CHECKPOINT)?;
-        Ok(Self { description: Description::new(model, run), file: (format.resume)(path, written)? })
+        Ok(Self { description: Description::new(model, run), shown: None, file: (format.resume)(path, written)? })
+    }
+
+    /// The same trajectory with the particles of these species only; an empty list stands for all.
+    #[must_use]
+    pub fn of_species(self, names: &[String]) -> Self {
+        let shown = self.description.species.iter().map(|species| names.contains(&species.name)).collect();
+        Self { shown: (!names.is_empty()).then_some(shown), ..self }
     }
 
     /// What has been written of the trajectory: all frames until the last [`flush`](Self::flush).
@@ -225,7 +248,18 @@ impl TrajectoryWriter {
     /// [`OutputError::State`] when the state does not fit the model; [`OutputError::Io`] when a full buffer cannot be
     /// written.
     pub fn append(&mut self, state: &Reported) -> Result<(), OutputError> {
-        self.file.append(&self.description, state)
+        // The file refuses arrays that differ in length.
+        let is_whole = state.species.len() == state.len() && state.momenta.len() == state.len();
+        let Some(shown) = self.shown.as_ref().filter(|_| is_whole) else {
+            return self.file.append(&self.description, state);
+        };
+        if self.description.numbers.is_none() {
+            let is_shown = |species: &u32| shown.get(*species as usize).copied().unwrap_or_default();
+            let numbers = (0..).zip(&state.species).filter(|(_, species)| is_shown(species)).map(|(number, _)| number);
+            self.description.select(numbers.collect(), state.len());
+        }
+        let part = state.of_particles(self.description.numbers.as_deref().unwrap_or_default());
+        self.file.append(&self.description, &part)
     }
 
     /// Hands all frames to the disk: call it at the end of a batch, and before a checkpoint that counts on them.
@@ -236,6 +270,13 @@ impl TrajectoryWriter {
     pub fn flush(&mut self) -> Result<(), OutputError> {
         self.file.flush()
     }
+}
+
+/// The links whose particles all have a place, between these places.
+fn selected<const LENGTH: usize>(links: &[([u32; LENGTH], u32)], places: &[Option<u32>]) -> Vec<([u32; LENGTH], u32)> {
+    let place = |number: u32| places.get(number as usize).copied().flatten();
+    let placed = links.iter().filter(|(ends, _)| ends.iter().all(|end| place(*end).is_some()));
+    placed.map(|(ends, kind)| (ends.map(|end| place(end).unwrap_or_default()), *kind)).collect()
 }
 
 /// The id of the run that wrote a trajectory of this name; none for another name, or where it cannot be read.
@@ -267,6 +308,39 @@ mod tests {
             let found = description.velocity(&state, cell);
             assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-5), "{cell}: {found:?}");
         }
+    }
+
+    #[test]
+    fn a_trajectory_of_a_species_has_its_particles_its_bonds_and_their_numbers() {
+        let scene = scene::load("surfactants", &["output={}".to_owned()]).unwrap();
+        let state: Reported = initial_state(&scene).into();
+        let names: Vec<&str> = scene.model().species.iter().map(|species| species.name.as_str()).collect();
+        let kept = names.iter().position(|name| *name == "tail").unwrap() as u32;
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("trajectory.xyz");
+        let writer =
+            TrajectoryWriter::create(&path, TrajectoryFormat::ExtendedXyz, scene.model(), Id::of_run(&scene)).unwrap();
+        let mut writer = writer.of_species(&["tail".to_owned()]);
+        writer.append(&state).unwrap();
+        writer.flush().unwrap();
+        let numbers = writer.description.numbers.clone().unwrap();
+        let expected: Vec<u32> =
+            (0..state.len() as u32).filter(|number| state.species[*number as usize] == kept).collect();
+        assert_eq!(numbers, expected);
+        let all = Description::new(scene.model(), Id::of_run(&scene));
+        let within = all.bonds.iter().filter(|(ends, _)| ends.iter().all(|end| numbers.contains(end)));
+        let within: Vec<([u32; 2], u32)> = within.copied().collect();
+        assert!(!within.is_empty() && within.len() < all.bonds.len(), "{} of {}", within.len(), all.bonds.len());
+        let back = writer.description.bonds.iter().map(|(ends, kind)| (ends.map(|end| numbers[end as usize]), *kind));
+        assert_eq!(back.collect::<Vec<_>>(), within);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let ids = text.lines().skip(2).map(|line| {
+            let words: Vec<&str> = line.split(' ').collect();
+            (words[words.len() - 2].parse::<u32>().unwrap(), words[words.len() - 1].to_owned())
+        });
+        let (ids, species): (Vec<u32>, Vec<String>) = ids.unzip();
+        assert_eq!(ids, numbers);
+        assert!(species.iter().all(|name| name == "tail"));
     }
 
     #[test]

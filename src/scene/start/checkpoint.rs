@@ -39,7 +39,7 @@ impl Run {
 
     /// The integrator of it, whose rule of relaxation a scene takes that names none.
     pub fn integrator(&self) -> &Integrator {
-        &self.scene.model().integrator
+        &self.scene.model().particles().integrator
     }
 
     /// Whether a scene has the seed, forces, baths and time step of it, so that it goes on with it: a model of the scene was made with

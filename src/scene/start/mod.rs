@@ -142,10 +142,8 @@ const MOLECULES: &str = "molecules";
 
 /// What a scene with a file or with molecules has to be, whatever those say.
 fn check_scene(scene: &Scene, problems: &mut Problems) {
-    let unsuited = |interaction: &Interaction| {
-        !interaction.is_of_particles() || matches!(interaction, Interaction::HarmonicChain(_))
-    };
-    if let Some(index) = scene.interactions.iter().position(unsuited) {
+    let makes_particles = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
+    if let Some(index) = scene.interactions().iter().position(makes_particles) {
         let (path, what) = match &scene.state {
             Some(_) => ("state", "a file"),
             None => (MOLECULES, MOLECULES),
@@ -312,9 +310,12 @@ impl<'a> Reader<'a> {
             start.origin = Some(Origin::Earlier(run.earlier()));
             scene.kept = KeptStart::of(Arc::new(start.clone()));
             // The rule that is chosen where a scene names none follows from how dense the start is, which is no longer that of the run.
-            let own = scene.integrator.clone();
-            if own == (Integrator::Splitting { relaxation: None }) && run.integrator().name() == own.name() {
-                scene.integrator = run.integrator().clone();
+            let own = scene.system.clone();
+            if let Some(integrator) = scene.system.particle_integrator_mut()
+                && *integrator == (Integrator::Splitting { relaxation: None })
+                && matches!(run.integrator(), Integrator::Splitting { .. })
+            {
+                integrator.clone_from(run.integrator());
             }
             // A model needs a scene that makes sense.
             let goes_on = semantics::check(scene).is_empty() && run.goes_on_with(scene.seed, &Model::new(scene));
@@ -322,7 +323,7 @@ impl<'a> Reader<'a> {
             if goes_on {
                 return start;
             }
-            scene.integrator = own;
+            scene.system = own;
         }
         start.origin = Some(Origin::Anew);
         if moves_on {
@@ -596,7 +597,7 @@ impl<'a> Reader<'a> {
     fn check_types(&mut self, scene: &Scene) {
         let bonds: Vec<&str> = self.file.bonds.iter().map(|links| links.name.as_str()).collect();
         let angles: Vec<&str> = self.file.angles.iter().map(|links| links.name.as_str()).collect();
-        for (index, interaction) in scene.interactions.iter().enumerate() {
+        for (index, interaction) in scene.interactions().iter().enumerate() {
             let (types, known, noun) = match interaction {
                 Interaction::Bonds(asked) => (&asked.types, &bonds, "bonds"),
                 Interaction::Angles(asked) => (&asked.types, &angles, "angles"),
@@ -657,7 +658,7 @@ impl<'a> Reader<'a> {
 
     /// Says what is in the file, and nowhere in the scene.
     fn note_what_is_not_used(&mut self, scene: &Scene, dimension: usize, mut unused: Vec<String>) {
-        let any = |asks: &dyn Fn(&Interaction) -> bool| scene.interactions.iter().any(asks);
+        let any = |asks: &dyn Fn(&Interaction) -> bool| scene.interactions().iter().any(asks);
         let bonds = unasked(&self.file.bonds, |kind| {
             any(&|one| matches!(one, Interaction::Bonds(bonds) if bonds.links(scene).include(kind, scene)))
         });

@@ -96,7 +96,9 @@ fn bare(scene: &Scene, counts: &[u64]) -> Scene {
         (group.chain, group.file_type) = (None, None);
         group.placement = Placement::Random;
     }
-    bare.interactions.retain(|one| !matches!(one, Interaction::Bonds(_) | Interaction::Angles(_)));
+    if let Some(interactions) = bare.system.interactions_mut() {
+        interactions.retain(|one| !matches!(one, Interaction::Bonds(_) | Interaction::Angles(_)));
+    }
     bare.output = scene.output.energies_alone();
     if bare.space.lengths.is_empty() {
         // A thin gas, which needs no more than a fluid.

@@ -37,10 +37,14 @@ const ADAPTERS: [Hardware; 2] =
 fn plan_of(text: &Value, hardware: Hardware, listed: bool) -> Option<Plan> {
     let scene = scene::parse("test", &text.to_string(), &[]).ok()?;
     if text["integrator"]["relaxation"].is_null()
-        && matches!(scene.integrator, Integrator::Splitting { relaxation: Some(_) })
+        && matches!(scene.system.particle_integrator(), Some(Integrator::Splitting { relaxation: Some(_) }))
     {
         let one_stage = Integrator::Splitting { relaxation: Some(PairRelaxation::MeanField) };
-        return Some(plan_as_it_is(&edited(&scene, |scene| scene.integrator = one_stage), hardware, listed));
+        return Some(plan_as_it_is(
+            &edited(&scene, |scene| *scene.system.particle_integrator_mut().unwrap() = one_stage),
+            hardware,
+            listed,
+        ));
     }
     Some(plan_as_it_is(&scene, hardware, listed))
 }

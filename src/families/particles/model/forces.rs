@@ -27,7 +27,7 @@ pub(crate) fn momentum(scene: &Scene, species: &[Species], pair_force: Option<&P
             0.5 * scene.time.step * many_body.strain(in_box.max(around))
         }))
     });
-    scene.interactions.iter().filter_map(terms::of).map(|term| term.momentum(&particles)).fold(of_pairs, f64::max)
+    scene.interactions().iter().map(terms::of).map(|term| term.momentum(&particles)).fold(of_pairs, f64::max)
 }
 
 /// A mass; none of what is held.

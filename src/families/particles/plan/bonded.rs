@@ -96,7 +96,7 @@ pub(super) fn kicks(dimension: usize) -> Choices {
 /// Rounds in which a step relaxes the velocities along bonds, each of which depends on the one before.
 pub(super) fn rounds(model: &Model) -> u32 {
     let particles = model.particles();
-    let bonds = particles.bonds.as_ref().filter(|_| particles.relaxes_bonds(model));
+    let bonds = particles.bonds.as_ref().filter(|_| particles.relaxes_bonds());
     bonds.map_or(0, |bonds| bonds.rounds().len() as u32)
 }
 

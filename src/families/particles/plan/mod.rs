@@ -17,7 +17,7 @@ use crate::shaders::{Array, pairs};
 
 /// Whether particles carry predicted momenta, which friction sees in the place of their own.
 fn predicted(model: &Model) -> bool {
-    matches!(model.integrator, Integrator::GrootWarren { lambda } if lambda != 0.5)
+    matches!(model.particles().integrator, Integrator::GrootWarren { lambda } if lambda != 0.5)
 }
 
 /// Buffers that may be held in textures.

@@ -32,7 +32,7 @@ pub(super) fn end(
     }
     // Friction sees none of the impulses on held particles.
     held::exclude(model, state, &mut turned);
-    state.predicted = match model.integrator {
+    state.predicted = match model.particles().integrator {
         Integrator::GrootWarren { lambda } if lambda != 0.5 => {
             let turn = |(kick, turned): (&[i64; 3], &[i64; 3])| std::array::from_fn(|axis| kick[axis] * turned[axis]);
             let opening: Vec<[i64; 3]> = opening.iter().zip(&turned).map(turn).collect();

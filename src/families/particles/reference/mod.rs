@@ -161,7 +161,7 @@ impl Reference {
     /// A reference run from a state whose species are indices into those of the model.
     #[must_use]
     pub fn new(model: Model, state: State) -> Self {
-        let two = model.particles().relaxes_in_two_stages(&model);
+        let two = model.particles().relaxes_in_two_stages();
         Self::with_relaxation(model, state, if two { Relaxation::TwoStages } else { Relaxation::MeanField })
     }
 
@@ -288,7 +288,7 @@ impl Reference {
 
     /// Whether steps are split: they drift in two equal halves, between which a report may fall.
     fn splits(&self) -> bool {
-        self.model.particles().splits(&self.model)
+        self.model.particles().splits()
     }
 
     /// Everything at the report point of the current step.

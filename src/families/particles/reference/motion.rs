@@ -34,7 +34,7 @@ impl Motion {
         Self {
             drifts: drifts.iter().map(|d| std::array::from_fn(|axis| d[axis] as f64 * length(axis))).collect(),
             ways: (!model.particles().walls.is_empty()).then(|| (0..state.len()).map(way).collect()),
-            velocities: matches!(model.integrator, Integrator::GrootWarren { .. })
+            velocities: matches!(model.particles().integrator, Integrator::GrootWarren { .. })
                 .then(|| seen.iter().zip(masses).map(velocity).collect()),
             jump: model.particles().shear.as_ref().map_or(0.0, |shear| shear.velocity),
             time_step: model.time_step,

@@ -60,7 +60,7 @@ pub(super) fn relax(reference: &Reference, found: &[Pair], momenta: &mut [[i64; 
     let (model, state) = (&reference.model, &reference.state);
     langevin::reference::relax(model, state, &reference.masses, momenta);
     bonds::reference::relax(model, state, &reference.masses, momenta, virials);
-    if model.particles().relaxes_pairs(model) {
+    if model.particles().relaxes_pairs() {
         // Friction sees held particles with the velocity that they keep, whatever a wall is to absorb.
         let mut seen = momenta.to_vec();
         held::hold(model, state, &mut seen);

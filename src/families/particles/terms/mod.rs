@@ -157,9 +157,9 @@ pub(crate) trait ReferenceTerm {
     fn observe(&self, _: &mut Configuration<'_>) {}
 }
 
-/// An interaction as a term; none of another family.
-pub(crate) fn of(interaction: &Interaction) -> Option<&dyn SceneTerm> {
-    Some(match interaction {
+/// An interaction as a term.
+pub(crate) fn of(interaction: &Interaction) -> &dyn SceneTerm {
+    match interaction {
         Interaction::Dpd(dpd) => dpd,
         Interaction::Langevin(langevin) => langevin,
         Interaction::ColouredNoise(noise) => noise,
@@ -168,17 +168,16 @@ pub(crate) fn of(interaction: &Interaction) -> Option<&dyn SceneTerm> {
         Interaction::Bonds(bonds) => bonds,
         Interaction::Angles(angles) => angles,
         Interaction::HarmonicChain(chain) => chain,
-        Interaction::ShallowWater(_) | Interaction::Voronoi(_) => return None,
-    })
+    }
 }
 
 /// All terms of a scene that act.
 pub(crate) fn acting(scene: &Scene) -> impl Iterator<Item = &dyn SceneTerm> {
-    scene.interactions.iter().filter_map(of).filter(|term| term.acts())
+    scene.interactions().iter().map(of).filter(|term| term.acts())
 }
 
 /// The largest of [`SceneTerm::random_momenta`] of a scene.
 pub(crate) fn random_momenta(scene: &Scene) -> [f64; 2] {
-    let all = scene.interactions.iter().filter_map(of).map(|term| term.random_momenta(scene.time.step));
+    let all = scene.interactions().iter().map(of).map(|term| term.random_momenta(scene.time.step));
     all.fold([0.0; 2], |most: [f64; 2], own| [most[0].max(own[0]), most[1].max(own[1])])
 }

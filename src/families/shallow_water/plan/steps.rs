@@ -8,7 +8,7 @@ use super::smoothing::{self, smoothing};
 use super::{
     Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal, WATER, generator,
 };
-use crate::document::Integrator;
+use crate::document::WaterIntegrator;
 use crate::families::shallow_water::{Bins, WaterLayout, observables};
 use crate::families::{Model, ShallowWater};
 use crate::noise;
@@ -180,7 +180,7 @@ impl Builder<'_> {
         let kick = |axis: usize| -0.5 * step * water.wave_speed.powi(2) / (spacing[axis] * units.momentum);
         let fraction = |axis: usize| units.momentum * 4_294_967_296.0 / units.lengths[axis];
         let angle = water.rotation * step;
-        let [chord, sagitta] = water.path(&self.model.integrator, step);
+        let [chord, sagitta] = water.path(step);
         // Velocities have one bit to spare for a kick; no step may go half round the box.
         let way = (chord.abs() + sagitta.abs()) * fraction(0).max(fraction(1));
         let velocity_limit = (2_f64.powi(31) / way).min(2_f64.powi(30)).floor();
@@ -244,7 +244,7 @@ impl Builder<'_> {
     }
 
     fn gyrates(&self) -> bool {
-        self.model.integrator != Integrator::Rotate {}
+        self.water.integrator != WaterIntegrator::Rotate {}
     }
 
     /// What is chosen for every kernel.

@@ -112,9 +112,11 @@ fn transposed(values: &[Complex<f64>], length: usize) -> Vec<Complex<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::document::WaterIntegrator;
 
     fn water(mesh: [u32; 2], power: u32, solver: SmoothingSolver) -> ShallowWater {
         ShallowWater {
+            integrator: WaterIntegrator::default(),
             mesh,
             spline_order: 3,
             wave_speed: 1.0,

@@ -3,7 +3,7 @@
 //! The rotation is `dV/dt = f₀ (V_y, -V_x)`, to the right of the motion where f₀ is positive.
 
 use super::depth::mesh_splines;
-use crate::document::Integrator;
+use crate::document::WaterIntegrator;
 use crate::families::reference::whole_fractions;
 use crate::families::{Model, ShallowWater};
 
@@ -44,7 +44,7 @@ pub(super) struct Motion {
 impl Motion {
     pub(super) fn new(model: &Model, water: &ShallowWater) -> Self {
         Self {
-            gyrates: model.integrator != Integrator::Rotate {},
+            gyrates: water.integrator != WaterIntegrator::Rotate {},
             angle: water.rotation * model.time_step,
             scale: model.time_step * model.units.momentum,
             lengths: [0, 1].map(|axis| model.units.lengths[axis]),

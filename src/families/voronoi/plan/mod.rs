@@ -13,7 +13,7 @@ mod tessellation;
 
 pub(super) use friction::SOLVER;
 
-use crate::document::{Integrator, VoronoiForm};
+use crate::document::{CellIntegrator, VoronoiForm};
 use crate::families::particles::plan::quanta;
 use crate::families::voronoi::CellLayout;
 use crate::families::{Model, Voronoi};
@@ -130,7 +130,7 @@ impl Builder<'_> {
     }
 
     fn is_explicit(&self) -> bool {
-        self.model.integrator == Integrator::Euler {}
+        self.cells.integrator == CellIntegrator::Euler {}
     }
 
     /// Workgroups with a lane for each of some things.

@@ -9,7 +9,7 @@ use crate::shaders::{Array, Choices, Constant, Entry, voronoi};
 impl Builder<'_> {
     /// Whether the velocities after friction are solved for.
     fn solves(&self) -> bool {
-        self.cells.solves(self.model)
+        self.cells.solves()
     }
 
     /// The kernel that adds up what the cells are like.

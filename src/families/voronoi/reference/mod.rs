@@ -33,7 +33,7 @@ mod heat;
 mod observables;
 mod pressure;
 
-use crate::document::Integrator;
+use crate::document::CellIntegrator;
 use crate::families::Observables;
 use crate::families::reference::{Unstable, drift, whole_fractions};
 use crate::families::{Model, Voronoi};
@@ -106,7 +106,7 @@ impl VoronoiReference {
     /// was.
     pub fn step(&mut self) -> Result<(), Unstable> {
         let mut ahead = self.clone();
-        if self.model.integrator == (Integrator::Euler {}) {
+        if self.cells.integrator == (CellIntegrator::Euler {}) {
             ahead.euler()?;
         } else {
             ahead.split()?;

@@ -36,7 +36,7 @@ impl Builder<'_> {
 
     /// Whether impulses wait in an array for the passes over particles.
     pub(super) fn gathers(&self) -> bool {
-        let left = self.splits() && self.model.particles().acts_on_particles(self.model);
+        let left = self.splits() && self.model.particles().acts_on_particles();
         self.is_bonded()
             || self.model.particles().tethers.is_some()
             || self.order == Order::WithList

@@ -5,18 +5,20 @@ mod list;
 mod part;
 mod reported;
 mod scheme;
+mod sorted;
 
 pub(crate) use gathered::GatheringKernels;
 pub(crate) use scheme::stages;
+use sorted::Sorted;
 
 use super::bonded::Scales;
-use super::prefix_sum::{PrefixSum, needs_levels};
+use super::prefix_sum::PrefixSum;
 use super::quanta::quanta;
 use super::serial_memory::TURNS;
 use super::species::Species;
 use super::{
-    Grid, Hardware, Kernel, Measured, Need, Options, PARTICLE, PhysicsPlan, Plan, Quanta, Texture, Traversal,
-    generator, predicted, texture_candidates,
+    Grid, Hardware, Kernel, Measured, Need, Options, PARTICLE, PhysicsPlan, Plan, Quanta, Traversal, generator,
+    predicted, texture_candidates,
 };
 use crate::document::Integrator;
 use crate::families::particles::space::shear::plan as shear;
@@ -29,10 +31,6 @@ use crate::families::{Model, PairForce};
 use crate::noise;
 use crate::plan::{Cells, Layout, switch};
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, couplings, grid, pairs, space};
-
-/// Cells up to which a step ends with the prefix sum for the next one, where lanes are taken one after the other. With 1 000 cells
-/// (3 000 particles) this saves a tenth of a step; with 3 000 it saves nothing any more.
-const SCAN_AT_END_CELLS: u64 = 1 << 11;
 
 /// How particles are ordered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +48,7 @@ impl Order {
         let particles = model.particles();
         let pairs = particles.pair_force.as_ref().is_some_and(PairForce::acts);
         // Pairs without memory may be listed too, where a step visits them once.
-        let may_be_listed = particles.shear.is_none() && !particles.have_local_densities() && !particles.splits(model);
+        let may_be_listed = particles.shear.is_none() && !particles.have_local_densities() && !particles.splits();
         if particles.list_pairs(model) || (options.listed && pairs && may_be_listed) {
             Self::WithList
         } else if pairs || options.part.is_some() {
@@ -91,24 +89,15 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
         traversal,
         options,
         species: Species::of(model),
-        texels: false,
-        scans_at_end: traversal == Traversal::Clusters
-            && options.suits_serial_memory(hardware)
-            && grid.count() <= SCAN_AT_END_CELLS
-            && !needs_levels(grid.count(), options)
-            && options.part.is_none(),
+        sorted: Sorted::default(),
         scan: Vec::new(),
         passed_on: Vec::new(),
         inner: None,
         passed_on_early: Vec::new(),
         plan: empty_plan(model, &grid, order, options),
     };
-    // What ends a step that visits pairs once is no traversal.
-    builder.scans_at_end &= !builder.visits_once();
     builder.plan_part();
-    builder.texels = order == Order::EveryStep
-        && options.suits_serial_memory(hardware)
-        && Texture::holds(builder.slots + builder.frame_capacity(), 4);
+    builder.sorted = Sorted::new(&builder, hardware);
     builder.constants();
     builder.ordering();
     builder.integration();
@@ -173,10 +162,8 @@ pub(crate) struct Builder<'a> {
     pub traversal: Traversal,
     pub options: Options,
     pub species: Species,
-    /// Whether sorted particles are texels.
-    pub texels: bool,
-    /// Whether a step ends with the prefix sum over cells for the next one.
-    scans_at_end: bool,
+    /// Where sorted particles lie.
+    sorted: Sorted,
     /// The kernels of that sum on their own.
     scan: Vec<usize>,
     /// The kernels of one of several ranks that exchange particles where others follow them.
@@ -227,15 +214,18 @@ impl<'a> Builder<'a> {
         if self.model.has_memory() {
             constants.push((Constant::BathSquare, langevin::plan::inverse(self.plan.quanta.bath_squared)));
         }
-        let (sees, lambda) =
-            if let Integrator::GrootWarren { lambda } = self.model.integrator { (1.0, lambda) } else { (0.0, 0.5) };
+        let (sees, lambda) = if let Integrator::GrootWarren { lambda } = self.model.particles().integrator {
+            (1.0, lambda)
+        } else {
+            (0.0, 0.5)
+        };
         constants.extend([(Constant::FrictionSees, sees), (Constant::Prediction, 2.0 * lambda - 1.0)]);
         constants.extend([
             switch(Constant::BathsRemember, self.model.has_memory()),
             switch(Constant::Gathers, self.gathers()),
             (Constant::CouplingsConserve, self.conservative_gathered()),
         ]);
-        constants.push(switch(Constant::OwnActs, self.model.particles().acts_on_particles(self.model)));
+        constants.push(switch(Constant::OwnActs, self.model.particles().acts_on_particles()));
         constants.push(generator(self.model.generator));
         constants.extend(law::constants(self.model, self.force));
         constants.extend(self.species.constants());
@@ -308,9 +298,7 @@ impl<'a> Builder<'a> {
     pub fn choices(&self) -> Choices {
         self.space()
             .and(&self.species.choices())
-            .with_if(self.texels, arrays::Sorted::Apart)
-            .with_if(self.texels, grid::Sorted::Apart)
-            .with_if(self.keeps_probes(), grid::Probes::Kept)
+            .and(&self.sorted.choices())
             .with_if(self.is_bonded() && self.order == Order::EveryStep, couplings::Slots::Kept)
             .and(&walls::choices(self.model))
             .and(&shear::choices(self.model))
@@ -363,23 +351,11 @@ impl<'a> Builder<'a> {
         self.plan.prepare.push(bin);
         self.plan.sort = self.sorting(&self.choices());
         self.exchange(bin);
-        if self.scans_at_end {
+        if self.sorted.scans_at_end {
             // Every step is begun by the one before, but for the first.
             let scatter = self.plan.sort.split_off(self.plan.sort.len() - 1);
             self.scan = std::mem::replace(&mut self.plan.sort, scatter);
             self.plan.prepare.extend(&self.scan);
-        }
-    }
-
-    /// What ends a step.
-    fn end_of_step(&self) -> Choices {
-        if self.scans_at_end {
-            Choices::new()
-                .with(grid::EndOfStep::LastWorkgroup)
-                .with(grid::ScanWidth::Narrow)
-                .with(grid::ScanLanes::Eight)
-        } else {
-            Choices::new()
         }
     }
 
@@ -388,16 +364,14 @@ impl<'a> Builder<'a> {
         let sum = PrefixSum { choices, rows: self.grid.rows(), cells: self.grid.count() };
         let mut kernels: Vec<usize> =
             sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)).collect();
-        // The first pass of a split step keeps its hits in the buffer of the particles.
-        let whole = self.texels && !self.splits();
-        let copied = self.choices().with(if whole { grid::Copied::Particles } else { grid::Copied::Fours });
+        let copied = self.choices().with(self.sorted.copied(self.splits()));
         kernels.push(self.kernel("scatter", Entry::ScatterParticles, copied, self.slots.max(self.grid.count())));
         kernels
     }
 
     /// Whether steps are split: friction needs a second pass over the pairs.
     pub fn splits(&self) -> bool {
-        self.model.particles().splits(self.model)
+        self.model.particles().splits()
     }
 
     /// Buffers of the kernel that ends a step beyond those of all: impulses that were gathered, what walls absorb, and
@@ -411,13 +385,6 @@ impl<'a> Builder<'a> {
         there.into_iter().map(u32::from).sum()
     }
 
-    /// Whether the prefilter of pairs reads a word of each sorted particle and not its position: not from textures, and beside two
-    /// more it would be one buffer too many, nor beside one where several ranks tell what is stored.
-    fn keeps_probes(&self) -> bool {
-        let beside = self.more_buffers() + u32::from(self.options.part.is_some());
-        self.traversal != Traversal::Alone && !self.texels && beside < 2 && !self.is_sheared()
-    }
-
     /// Whether boundaries shear.
     pub fn is_sheared(&self) -> bool {
         self.model.particles().shear.is_some()
@@ -425,7 +392,7 @@ impl<'a> Builder<'a> {
 
     /// Whether steps relax the momentum of every particle by itself.
     pub fn relaxes_particles(&self) -> bool {
-        self.model.particles().relaxes_particles(self.model)
+        self.model.particles().relaxes_particles()
     }
 
     /// Whether a split step visits its pairs once: without friction there is nothing to do in a second visit but to
@@ -435,22 +402,20 @@ impl<'a> Builder<'a> {
     }
 
     pub fn relaxes_pairs(&self) -> bool {
-        self.model.particles().relaxes_pairs(self.model)
+        self.model.particles().relaxes_pairs()
     }
 
     /// Whether friction has two stages.
     pub fn relaxes_in_two_stages(&self) -> bool {
-        self.model.particles().relaxes_in_two_stages(self.model)
+        self.model.particles().relaxes_in_two_stages()
     }
 
     /// From where pairs are looked for.
     fn prefilter_source(&self) -> Choices {
         Choices::new().with(if self.is_sheared() {
             pairs::PrefilterSource::Sheared
-        } else if self.keeps_probes() {
-            pairs::PrefilterSource::Words
         } else {
-            pairs::PrefilterSource::Positions
+            self.sorted.prefilter_source()
         })
     }
 
@@ -559,28 +524,12 @@ impl<'a> Builder<'a> {
         let (rows, cells) = (self.grid.rows(), self.grid.count());
         let width = u64::from(self.grid.cells[0]) + if self.grid.framed() { 2 } else { 0 };
         let count = self.slots + self.frame_capacity();
-        if self.texels {
-            self.plan.add_texture(Array::SortedPositions, count);
-            self.plan.add_texture(Array::SortedMomenta, count);
-            if self.relaxes_in_two_stages() {
-                self.plan.add_texture(Array::StagedMomenta, count);
-            }
-        } else {
-            self.plan.add_buffer(Array::Sorted, PARTICLE * count);
-            if self.relaxes_in_two_stages() {
-                self.plan.add_buffer(Array::Staged, PARTICLE * count);
-            }
-            if self.keeps_probes() {
-                self.plan.add_buffer(Array::Probes, 4 * count);
-            }
-        }
+        let stages = self.relaxes_in_two_stages();
+        self.sorted.add_arrays(&mut self.plan, count, stages);
         self.plan.add_buffer(Array::Cells, 4 * (rows * width + 1 + rows));
         self.plan.add_buffer(Array::Counts, 4 * cells);
         self.plan.add_buffer(Array::Ranks, 4 * self.slots);
         self.plan.add_row_sums(rows, cells, self.options);
-        if self.scans_at_end {
-            self.plan.add_buffer(Array::WorkgroupsDone, 4);
-        }
     }
 
     /// The coefficients of pairs and species: constants, or a table.

@@ -6,7 +6,7 @@ use crate::families::particles::space::walls::plan as walls;
 use crate::families::particles::sums::sums;
 use crate::families::particles::terms::body_forces::plan as external;
 use crate::plan::{Need, Traversal};
-use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, pairs};
+use crate::shaders::{Array, Choices, Constant, Entry, core, pairs};
 
 /// Friction and noise of the two stages of a relaxation: shaders/pairs/friction.wgsl.
 ///
@@ -54,7 +54,7 @@ impl Builder<'_> {
 
     /// One pass a step. Returns the number of rows of sums that the report leaves.
     fn leapfrog_step(&mut self) -> u32 {
-        let pass = self.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model));
+        let pass = self.sorted.end_of_step().with(pairs::Pass::Leapfrog).and(&walls::booking(self.model));
         let names = ["leapfrog", "leapfrog_edges", "leapfrog_inner"];
         let last = self.last_pass(names, self.traversal, Masks::Unkept, &pass);
         let report = self.observation("report", 0, Choices::new().with(pairs::Pass::ObserveLeapfrog));
@@ -90,7 +90,7 @@ impl Builder<'_> {
             self.plan.kernels[find].renamed.push((Array::KeptMasks, Array::Particles));
         }
         let last = if once { Traversal::Alone } else { self.traversal };
-        let to_the_end = self.end_of_step().with(pairs::Pass::Relax).and(&walls::booking(self.model));
+        let to_the_end = self.sorted.end_of_step().with(pairs::Pass::Relax).and(&walls::booking(self.model));
         let relax = self.last_pass(["relax", "relax_edges", "relax_inner"], last, Masks::Kept, &to_the_end);
         for &kernel in &relax {
             self.plan.kernels[kernel].constants.push((Constant::Halves, 2.0));
@@ -109,7 +109,7 @@ impl Builder<'_> {
             self.plan.kernels[configuration].constants.push(shear::moment(1));
         }
         // Baths see whole drifts.
-        let seen = if self.model.particles().acts_on_particles(self.model) { 2.0 } else { 1.0 };
+        let seen = if self.model.particles().acts_on_particles() { 2.0 } else { 1.0 };
         for (kernel, halves) in [(find, seen), (motion, 1.0), (configuration, 1.0)] {
             self.plan.kernels[kernel].constants.push((Constant::Halves, halves));
         }
@@ -156,12 +156,12 @@ impl Builder<'_> {
 
     /// Whether baths and random forces on single particles are part of the forces of a split step's report.
     pub fn reports_own_forces(&self) -> bool {
-        self.splits() && self.model.particles().acts_on_particles(self.model) && self.measured.needs(Need::Forces)
+        self.splits() && self.model.particles().acts_on_particles() && self.measured.needs(Need::Forces)
     }
 
     /// Whether the forces of a split step's report are begun before pairs are.
     fn leaves_forces(&self) -> bool {
-        self.relaxes_particles() || self.model.particles().relaxes_bonds(self.model) || self.reports_own_forces()
+        self.relaxes_particles() || self.model.particles().relaxes_bonds() || self.reports_own_forces()
     }
 
     /// Says whether a kernel of a report adds its forces to those that an earlier one has left.
@@ -174,11 +174,7 @@ impl Builder<'_> {
     /// Makes the first of two stages of friction, which leaves momenta for these kernels, those of the second; and its
     /// report.
     fn first_stage(&mut self, second: &[usize]) -> [usize; 2] {
-        let pass = self
-            .booking_of_layers()
-            .with(pairs::Pass::RelaxFirst)
-            .with_if(self.texels, pairs::Staged::Apart)
-            .with_if(self.texels, arrays::StagedMomenta::Texture);
+        let pass = self.booking_of_layers().with(pairs::Pass::RelaxFirst).and(&self.sorted.staged_choices());
         let first = self.traversal("relax_first", self.traversal, Masks::Kept, &pass);
         let seen = Choices::new().with(pairs::Pass::ObserveFirstStage);
         let report = self.observation("report_first_stage", 0, seen);

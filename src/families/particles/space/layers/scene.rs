@@ -1,7 +1,7 @@
 //! Checks of layers of frozen particles behind walls.
 
 use crate::document::{Interaction, ParticleGroup, Placement, Problems, Scene, Velocities};
-use crate::families::particles::terms::{self, SceneTerm};
+use crate::families::particles::terms;
 
 /// Whether a group makes up a layer behind the walls across an axis.
 pub(crate) fn is_behind(group: &ParticleGroup, axis: usize) -> bool {
@@ -65,8 +65,8 @@ fn check_group(scene: &Scene, group: &ParticleGroup, path: &str, problems: &mut 
 
 /// Frozen particles take part in pairs, and in nothing else.
 fn check_interactions(scene: &Scene, problems: &mut Problems) {
-    for (index, interaction) in scene.interactions.iter().enumerate() {
-        if !terms::of(interaction).is_some_and(SceneTerm::acts) {
+    for (index, interaction) in scene.interactions().iter().enumerate() {
+        if !terms::of(interaction).acts() {
             continue;
         }
         let path = format!("interactions[{index}]");

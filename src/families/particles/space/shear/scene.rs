@@ -29,7 +29,7 @@ pub(crate) fn check(scene: &Scene, problems: &mut Problems) {
     } else {
         check_edge(scene, shear.gradient, problems);
     }
-    for (index, interaction) in scene.interactions.iter().enumerate() {
+    for (index, interaction) in scene.interactions().iter().enumerate() {
         if let Interaction::BodyForce(force) = interaction
             && force.axis == Some(shear.flow)
         {

@@ -67,7 +67,7 @@ fn check_forces(scene: &Scene, problems: &mut Problems) {
         let axis = force.axis.filter(|_| force.profile != ForceProfile::Uniform)? as usize;
         scene.space.walls.of_axes()[axis].map(|_| axis)
     };
-    for (index, interaction) in scene.interactions.iter().enumerate() {
+    for (index, interaction) in scene.interactions().iter().enumerate() {
         let Interaction::BodyForce(force) = interaction else { continue };
         if let Some(axis) = varies(force) {
             let found = format!("\"{}\", across which there are walls", AXES[axis]);

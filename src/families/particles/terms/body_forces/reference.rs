@@ -55,7 +55,7 @@ fn work(model: &Model, forces: &BodyForces, state: &State, masses: &[f64], impul
     if model.clock(state.step) == 0 {
         return 0.0;
     }
-    let parts = if model.particles().splits(model) { 2 } else { 1 };
+    let parts = if model.particles().splits() { 2 } else { 1 };
     let drifts = end_of_step::drifts(model, masses, &state.momenta, parts);
     let mut work = 0.0;
     for (particle, drift) in drifts.iter().enumerate() {

@@ -81,7 +81,7 @@ impl SceneTerm for BodyForceInteraction {
 /// Several add up, but vary in the same way.
 pub(crate) fn check_together(scene: &Scene, problems: &mut Problems) {
     let mut first: Option<(usize, &BodyForceInteraction)> = None;
-    for (index, interaction) in scene.interactions.iter().enumerate() {
+    for (index, interaction) in scene.interactions().iter().enumerate() {
         let Interaction::BodyForce(force) = interaction else { continue };
         let Some((earlier, known)) = first else {
             first = Some((index, force));
@@ -101,7 +101,7 @@ pub(crate) fn check_together(scene: &Scene, problems: &mut Problems) {
 pub(super) fn check_impulses(scene: &Checked, forces: &BodyForces, problems: &mut Problems) {
     let model = scene.model();
     let place = |interaction: &Interaction| matches!(interaction, Interaction::BodyForce(_));
-    let path = format!("interactions[{}].force", scene.interactions.iter().position(place).unwrap_or(0));
+    let path = format!("interactions[{}].force", scene.interactions().iter().position(place).unwrap_or(0));
     let most = LARGEST * model.units.momentum / (0.5 * model.time_step);
     let least = model.units.momentum / (0.5 * model.time_step) / FixedImpulse::FRACTIONS * 256.0;
     for (species, force) in model.species.iter().zip(&forces.forces) {

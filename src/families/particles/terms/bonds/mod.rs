@@ -58,7 +58,7 @@ impl Term for Bonds {
 
     fn check_capacity(&self, scene: &Checked, problems: &mut Problems) {
         let model = scene.model();
-        if model.particles().relaxes_bonds(model) {
+        if model.particles().relaxes_bonds() {
             scene::check_rounds(self, problems);
         }
     }

@@ -22,7 +22,7 @@ impl PlannedTerm for Bonds {
             exclusions::add_table(self, &mut builder.plan);
             builder.couple(&exclusions::bonded(self), rows, kernels);
         }
-        if self.have_friction() && !builder.model.particles().relaxes_bonds(builder.model) {
+        if self.have_friction() && !builder.model.particles().relaxes_bonds() {
             builder.scales().add_bath_impulse(&mut builder.plan);
         }
     }
@@ -31,7 +31,7 @@ impl PlannedTerm for Bonds {
 fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
     let (species, kinds) = (scales.model.species.len(), bonds.kinds.len());
     let key = noise::seed_key(scales.model.seed, stream::BOND);
-    let relaxes = scales.model.particles().relaxes_bonds(scales.model);
+    let relaxes = scales.model.particles().relaxes_bonds();
     let conservative = Choices::new();
     let forces = if relaxes { conservative.clone() } else { choices(scales.model, bonds) };
     let report = |part, scales| {
@@ -80,7 +80,7 @@ fn add_table(scales: &Scales<'_>, bonds: &Bonds, plan: &mut Plan) {
     for kind in &bonds.kinds {
         head.extend(coefficients(scales, kind).map(f32::to_bits));
     }
-    let relaxes = scales.model.particles().relaxes_bonds(scales.model);
+    let relaxes = scales.model.particles().relaxes_bonds();
     plan.add_long_table(Array::Bonds, BondTable { head, bonds: bonds.clone(), relaxes });
 }
 
@@ -91,7 +91,7 @@ fn coefficients(scales: &Scales<'_>, kind: &BondKind) -> [f32; 8] {
         Some(BondPotential::Fene { stiffness, extent, length }) => (stiffness, length, 1.0 / extent),
     };
     let remembers = kind.bath.is_some_and(|bath| bath.remembers());
-    let relaxes = scales.model.particles().relaxes_bonds(scales.model);
+    let relaxes = scales.model.particles().relaxes_bonds();
     let bath = kind.bath.map_or([1.0, 0.0, 0.0, 0.0], |bath| {
         if relaxes {
             // γdt/m, λₑ = 2γ/dt, and √(m kT) in units of momentum.

@@ -30,7 +30,7 @@ impl ReferenceTerm for Bonds {
             };
             let mut friction = 0.0;
             // Where steps are split, velocities along bonds relax in O.
-            if let Some(step) = kind.bath.as_ref().filter(|_| !model.particles().relaxes_bonds(model)) {
+            if let Some(step) = kind.bath.as_ref().filter(|_| !model.particles().relaxes_bonds()) {
                 let gaussian = noise::gaussian(noise::words(model.generator, key, [index as u32, 0]));
                 let change = if step.remembers() {
                     motion.change_of_distance(&pair)
@@ -62,7 +62,7 @@ impl ReferenceTerm for Bonds {
 /// mass μ is an Ornstein-Uhlenbeck process, u' = c u + √(kT(1 - c²)/μ) ξ with c = exp(-γdt/μ), and the ends get ±μ(u' -
 /// u).
 pub(crate) fn relax(model: &Model, state: &State, masses: &[f64], momenta: &mut [[i64; 3]], virials: &mut Virials) {
-    let Some(bonds) = model.particles().bonds.as_ref().filter(|_| model.particles().relaxes_bonds(model)) else {
+    let Some(bonds) = model.particles().bonds.as_ref().filter(|_| model.particles().relaxes_bonds()) else {
         return;
     };
     let images = Images::of_step(model, state.step);

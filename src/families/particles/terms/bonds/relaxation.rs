@@ -10,7 +10,7 @@ impl Builder<'_> {
     /// forces to what baths on particles have left, where an analysis needs them.
     pub(crate) fn relax_bonds(&mut self) -> Vec<usize> {
         let particles = self.model.particles();
-        let Some(bonds) = particles.bonds.as_ref().filter(|_| particles.relaxes_bonds(self.model)) else {
+        let Some(bonds) = particles.bonds.as_ref().filter(|_| particles.relaxes_bonds()) else {
             return Vec::new();
         };
         let mut kernels = Vec::new();

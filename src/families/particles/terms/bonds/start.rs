@@ -30,8 +30,8 @@ pub(crate) fn check_extents(scene: &Checked, state: &State, problems: &mut Probl
     if (0..bonds.kinds.len()).all(|kind| finite(kind as u32).is_none()) {
         return;
     }
-    let places: Vec<usize> = (0..scene.interactions.len())
-        .filter(|index| matches!(scene.interactions[*index], Interaction::Bonds(_)))
+    let places: Vec<usize> = (0..scene.interactions().len())
+        .filter(|index| matches!(scene.interactions()[*index], Interaction::Bonds(_)))
         .collect();
     let mut reported = HashSet::new();
     for bond in bonds.iter() {

@@ -101,7 +101,7 @@ const END: usize = 2;
 impl ChainTrios {
     /// Those of a scene, if it is of harmonic chains.
     pub(crate) fn from_scene(scene: &Scene) -> Option<Self> {
-        scene.interactions.iter().find_map(|interaction| match interaction {
+        scene.interactions().iter().find_map(|interaction| match interaction {
             Interaction::HarmonicChain(chain) => Some(Self::new(chain, scene)),
             _ => None,
         })

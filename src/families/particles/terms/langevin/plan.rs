@@ -13,7 +13,7 @@ use crate::shaders::{Choices, Constant, pairs};
 /// The baths on coordinates, if steps do not relax momenta by themselves.
 fn bath(model: &Model) -> Option<&PositionBath> {
     let particles = model.particles();
-    particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles(model))
+    particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles())
 }
 
 /// True if there are baths on coordinates.
@@ -56,7 +56,7 @@ impl PlannedTerm for PositionBath {
     fn add_constants(&self, scales: &Scales<'_>, plan: &mut Plan) {
         let model = scales.model;
         plan.constants.push(switch(Constant::SeesFlow, self.peculiar));
-        if model.particles().relaxes_particles(model) {
+        if model.particles().relaxes_particles() {
             return;
         }
         scales.add_bath_impulse(plan);

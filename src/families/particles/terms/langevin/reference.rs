@@ -12,7 +12,7 @@ use crate::state::State;
 impl ReferenceTerm for PositionBath {
     fn kick(&self, moment: &Moment<'_>, kicks: &mut Kicks) {
         // In split steps baths without memory relax momenta.
-        if moment.model.particles().relaxes_particles(moment.model) {
+        if moment.model.particles().relaxes_particles() {
             return;
         }
         let (model, state, motion) = (moment.model, moment.state, &moment.motion);

@@ -12,12 +12,12 @@ pub(crate) fn is_noisy(force: &PairForce) -> bool {
 
 /// The constants that say which repulsion, weight, friction and noise pairs have: compilers leave out the others.
 pub(crate) fn constants(model: &Model, force: &PairForce) -> [(Constant, f64); 7] {
-    let friction = match model.integrator {
+    let friction = match model.particles().integrator {
         _ if force.largest_friction() == 0.0 => 0.0,
         Integrator::GrootWarren { .. } => 1.0,
         Integrator::CotterReich {} => 2.0,
-        _ if !model.particles().relaxes_in_two_stages(model) => 3.0,
-        _ => 4.0,
+        Integrator::Splitting { .. } if !model.particles().relaxes_in_two_stages() => 3.0,
+        Integrator::Splitting { .. } => 4.0,
     };
     let distribution = match model.distribution {
         _ if !is_noisy(force) => 0.0,

@@ -36,7 +36,7 @@ pub(super) fn kick(force: &PairForce, moment: &Moment<'_>, kicks: &mut Kicks) {
     let key = noise::step_key(model.seed, stream::PAIR, model.clock(state.step));
     let densities = Densities::of(model, state.len(), &moment.found);
     let excluded = excluded_pairs(model);
-    let relaxes = model.particles().relaxes_pairs(model);
+    let relaxes = model.particles().relaxes_pairs();
     for pair in &moment.found {
         let forces = Forces::between(model, &state.species, pair);
         let is_excluded = excluded.binary_search(&[pair.first as u32, pair.second as u32]).is_ok();

@@ -160,9 +160,4 @@ impl Builder<'_> {
     fn stress_of_pairs(&mut self, name: &'static str, pass: pairs::Pass) -> usize {
         self.traversal(name, self.traversal, Masks::Unkept, &Choices::new().with(pass))
     }
-
-    /// Where the second of two stages of friction finds the momenta that the first has left.
-    pub(crate) fn staged(&self) -> (Array, Array) {
-        if self.texels { (Array::SortedMomenta, Array::StagedMomenta) } else { (Array::Sorted, Array::Staged) }
-    }
 }

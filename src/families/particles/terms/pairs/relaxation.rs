@@ -68,7 +68,7 @@ impl Model {
     /// What a step of a scene whose pairs relax does by a rule; none where they do not.
     pub(crate) fn relaxation_errors(&self, rule: PairRelaxation) -> Option<RelaxationErrors> {
         let particles = self.particles();
-        let force = particles.pair_force.as_ref().filter(|_| particles.relaxes_pairs(self))?;
+        let force = particles.pair_force.as_ref().filter(|_| particles.relaxes_pairs())?;
         let (rate, index) = self.largest_friction_rate(force);
         let relaxed = rate * self.time_step;
         let oscillation = self.largest_repulsion_frequency(force).0 * self.time_step;
@@ -93,7 +93,7 @@ impl Model {
 
     /// What a step does by the rule of the scene; none where pairs do not relax.
     pub(crate) fn relaxation(&self) -> Option<RelaxationErrors> {
-        let staged = self.particles().relaxes_in_two_stages(self);
+        let staged = self.particles().relaxes_in_two_stages();
         self.relaxation_errors(if staged { PairRelaxation::TwoStages } else { PairRelaxation::MeanField })
     }
 

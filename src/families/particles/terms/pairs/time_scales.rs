@@ -38,7 +38,7 @@ impl Model {
 
     /// The part of a velocity that friction may relax in one step.
     pub(crate) fn friction_limit(&self) -> f64 {
-        if self.particles().relaxes_in_two_stages(self) { STAGED_FRICTION_LIMIT } else { FRICTION_LIMIT }
+        if self.particles().relaxes_in_two_stages() { STAGED_FRICTION_LIMIT } else { FRICTION_LIMIT }
     }
 
     /// The largest frequency of particles in a fluid, and the species that has it.

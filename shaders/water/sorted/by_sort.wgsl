@@ -1,2 +1,0 @@
-// Off: the sort has begun the step.
-fn begin_unsorted_step() {}
