@@ -91,8 +91,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.write {
         check_place(path, run.request())?;
     }
-    study.note(run.request().notices());
-    let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
+    let base = run.request().base();
+    study.note(base.notices());
+    let (title, directory) = (base.title.clone(), printable::path(run.directory()));
     let outcome = study.execute(run, &title, |runs| format!("{runs} runs"), TradeoffRun::execute)?;
     if !study.how.quiet {
         print(&results(&outcome, &directory))?;

@@ -5,12 +5,9 @@ use super::fields::DISTANCE;
 use super::reference::Source;
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
 use super::target::{Target, Verdict};
-use crate::numbers::{short, with_error};
+use crate::numbers::{counted, short, with_error};
 use crate::study::table::{list, markdown};
 use crate::study::{Setting, by_key, each_once, in_hours};
-
-/// Errors that the page names the cheapest choice for.
-const ROUND_ERRORS: [f64; 3] = [0.05, 0.01, 0.001];
 
 /// The remedy where more samples tell.
 const DECIDED: &str = "A smaller --error or a larger --budget decides it.";
@@ -54,6 +51,12 @@ pub fn error_in_words(error: &Deviation) -> String {
     let text = with_error(scale * error.error, error.uncertainty.map(|found| scale * found));
     let mark = if error.from_few_samples { format!(" {FEW_SAMPLES}") } else { String::new() };
     format!("{text}{unit}{mark}")
+}
+
+/// Errors with what they are of.
+pub(crate) fn errors_in_words(errors: &[Deviation]) -> String {
+    let words = |error: &Deviation| format!("{} {}", error.measure.replace('_', " "), error_in_words(error));
+    errors.iter().map(words).collect::<Vec<_>>().join(", ")
 }
 
 /// What marks an error from few samples.
@@ -256,15 +259,10 @@ fn basis_of_errors(summary: &TradeoffSummary) -> String {
     let parts = "Errors with standard errors, in per cent of the reference of the measure, or of what a drift, a distance or a share is a part of.";
     let mut sentences = vec![parts.to_owned()];
     sentences.extend(summary.legend().map(|legend| legend + "."));
-    let distances = summary.choices.iter().filter_map(|choice| choice.float64_distance);
-    sentences.extend(distances.reduce(f64::max).map(|largest| {
-        let largest = with_error(largest, None);
-        format!("One step of the device is off from float64 by {largest} of what the step changes, at most.")
-    }));
     let stretches = summary.choices.iter().filter_map(|choice| choice.float64_stretch);
-    let farthest = stretches.filter(|stretch| stretch.steps > 1).max_by(|a, b| a.distance.total_cmp(&b.distance));
-    sentences.extend(farthest.map(|stretch| {
-        format!("After {} steps it is {} of what they change.", stretch.steps, with_error(stretch.distance, None))
+    sentences.extend(stretches.max_by(|a, b| a.distance.total_cmp(&b.distance)).map(|farthest| {
+        let (steps, distance) = (counted(farthest.steps, "step"), with_error(farthest.distance, None));
+        format!("After {steps} the device is off from float64 by {distance} of what has changed, at most.")
     }));
     sentences.join(" ")
 }
@@ -329,13 +327,6 @@ fn section(summary: &TradeoffSummary, measure: &str) -> Vec<String> {
         return paragraphs;
     }
     paragraphs.extend(front.into_iter().chain(of_schemes));
-    let cheapest = |bound: f64| {
-        let is_within = |error: &Deviation| error.relative && error.within(bound) == Verdict::Meets;
-        let (choice, _) = known.iter().find(|(_, error)| is_within(error))?;
-        Some(format!("The cheapest within {} %: {}.", short(100.0 * bound), choice.label))
-    };
-    let cheapest: Vec<String> = ROUND_ERRORS.into_iter().filter_map(cheapest).collect();
-    paragraphs.extend((!cheapest.is_empty()).then(|| cheapest.join("\n")));
     paragraphs
 }
 
