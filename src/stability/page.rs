@@ -127,7 +127,7 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
     let mut paragraphs = vec![
         format!("# {}: how far it may go", request.base.title),
         format!("`{}` is varied. {meaning}{}", summary.key, begun.unwrap_or_default()),
-        markdown(header.to_vec(), "---", summary.in_words().into_iter().map(Vec::from)),
+        markdown([header].into_iter().chain(summary.in_words()).map(Vec::from), "---"),
     ];
     paragraphs.extend((!findings.is_empty()).then(|| findings.join("\n")));
     paragraphs.join("\n\n") + "\n"

@@ -100,6 +100,23 @@ impl TradeoffSummary {
         physical.into_iter().chain(spoilt).chain(same_runs).chain(refused).collect()
     }
 
+    /// What every choice costs and how far it is off, a row for each below the names of the columns. `*` marks errors on the Pareto
+    /// front of their measure.
+    #[must_use]
+    pub fn errors_in_words(&self) -> Vec<Vec<String>> {
+        let names = self.measures.iter().map(|measure| measure.replace('_', " "));
+        let header = ["choice", "s a unit of time"].map(str::to_owned).into_iter().chain(names).collect();
+        let or_dash = |text: Option<String>| text.unwrap_or_else(|| "—".to_owned());
+        let marked = |error: &Deviation| format!("{}{}", error_in_words(error), if error.on_front { " *" } else { "" });
+        let row = |choice: &Choice| {
+            let cost = choice.cost.map(|cost| with_error(cost.seconds_per_time, None));
+            let unstable = (choice.state == ChoiceState::Unstable).then(|| "unstable".to_owned());
+            let errors = self.measures.iter().map(|measure| or_dash(choice.error(measure).map(marked)));
+            [choice.label.clone(), or_dash(unstable.or(cost))].into_iter().chain(errors).collect()
+        };
+        [header].into_iter().chain(self.choices.iter().map(row)).collect()
+    }
+
     /// The meaning of the mark of errors from few samples, where there are any.
     #[must_use]
     pub fn legend(&self) -> Option<String> {
@@ -144,7 +161,12 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
         paragraphs.push(format!("## {}", targets.join(", ")));
     }
     paragraphs.extend(verdict(summary, ["**", "    "]));
-    paragraphs.extend([errors(summary), basis_of_errors(summary), "## Costs".to_owned(), costs(summary)]);
+    paragraphs.extend([
+        markdown(summary.errors_in_words(), "--:"),
+        basis_of_errors(summary),
+        "## Costs".to_owned(),
+        costs(summary),
+    ]);
     paragraphs.extend(list("## What is conserved", conserved(summary)));
     paragraphs.extend(summary.measures.iter().flat_map(|measure| section(summary, measure)));
     let unstable = summary.choices.iter().filter(|choice| choice.state == ChoiceState::Unstable);
@@ -240,23 +262,9 @@ fn nearest(summary: &TradeoffSummary) -> Option<(&Choice, &Target, f64)> {
     worst.min_by(|a, b| a.2.total_cmp(&b.2))
 }
 
-/// The errors of all choices in one table.
-fn errors(summary: &TradeoffSummary) -> String {
-    let measures = || summary.measures.iter();
-    let header = ["choice", "s a unit of time"].map(str::to_owned).into_iter();
-    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "—".to_owned());
-    let row = |choice: &Choice| {
-        let cost = or_dash(choice.cost.map(|cost| with_error(cost.seconds_per_time, None)));
-        let errors = measures().map(|measure| or_dash(choice.error(measure).map(error_in_words)));
-        [choice.label.clone(), cost].into_iter().chain(errors).collect()
-    };
-    let header = header.chain(measures().map(|measure| measure.replace('_', " "))).collect();
-    markdown(header, "--:", summary.choices.iter().map(row))
-}
-
 /// The references of errors, and how far the device is from float64.
 fn basis_of_errors(summary: &TradeoffSummary) -> String {
-    let parts = "Errors with standard errors, in per cent of the reference of the measure, or of what a drift, a distance or a share is a part of.";
+    let parts = "Errors with standard errors, in per cent of the reference of the measure, or of what a drift, a distance or a share is a part of; * on the Pareto front of cost and error.";
     let mut sentences = vec![parts.to_owned()];
     sentences.extend(summary.legend().map(|legend| legend + "."));
     let stretches = summary.choices.iter().filter_map(|choice| choice.float64_stretch);
@@ -278,7 +286,8 @@ fn costs(summary: &TradeoffSummary) -> String {
         let bytes = format!("{:.0}", cost.bytes_per_particle);
         Some(vec![choice.label.clone(), median, format!("{fastest} to {slowest}"), speed, bytes])
     };
-    markdown(header.map(str::to_owned).to_vec(), "--:", summary.choices.iter().filter_map(row))
+    let header = header.map(str::to_owned).to_vec();
+    markdown([header].into_iter().chain(summary.choices.iter().filter_map(row)), "--:")
 }
 
 /// What the runs have conserved, and how exactly.

@@ -188,11 +188,11 @@ fn warn_of_friction(scene: &Checked, force: &PairForce, warnings: &mut Vec<Warni
                 if relaxed < MOST_RELAXATION { ", which `integrator.relaxation=two-stages` does not" } else { "" }
             ),
         ),
-        None if model.particles().relaxes_in_two_stages(model) => (
-            relaxed > limit,
-            format!("viscosity and diffusion are reliable up to {limit}, a step of {:.2e}", limit / rate),
-        ),
-        None => (relaxed > limit, format!("temperatures are reliable up to {limit}, a step of {:.2e}", limit / rate)),
+        None => {
+            let staged = model.particles().relaxes_in_two_stages(model);
+            let what = if staged { "viscosity and diffusion" } else { "temperatures" };
+            (relaxed > limit, format!("{what} are reliable up to {limit}, a step of {:.2e}", limit / rate))
+        }
     };
     if exceeds {
         let message = format!(
