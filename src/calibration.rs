@@ -3,8 +3,9 @@
 
 use crate::families::{Checked, ExactMean};
 use crate::numbers::three_digits;
+use crate::printable;
 use crate::scene::{self, Scene};
-use crate::tradeoff::{Choice, ChoiceState, Deviation, Measured, Reference, Source, TradeoffSummary, error_in_words};
+use crate::tradeoff::{Choice, ChoiceState, Deviation, Measured, Reference, TradeoffSummary, errors_in_words};
 use serde_json::Value;
 use std::fmt;
 use std::sync::LazyLock;
@@ -110,19 +111,8 @@ pub fn expected(scene: &Checked) -> Option<Expected> {
 fn by_theory(scene: &Checked) -> Option<Expected> {
     let model = scene.model();
     let deviation = |mean: ExactMean| {
-        let measured = Measured {
-            measure: mean.column.to_owned(),
-            value: mean.discrete?,
-            standard_error: Some(0.0),
-            fluctuates: true,
-            from_few_samples: false,
-        };
-        let exact = Reference {
-            measure: measured.measure.clone(),
-            value: mean.continuous,
-            uncertainty: Some(0.0),
-            source: Source::Predicted("the mean of the exact motion in equilibrium".to_owned()),
-        };
+        let measured = Measured::mean(mean.column.to_owned(), mean.discrete?, Some(0.0), false);
+        let exact = Reference::exact(mean.column, mean.continuous, "the mean of the exact motion in equilibrium");
         Some(Deviation::new(&measured, &exact))
     };
     let columns = model.physics().columns(model);
@@ -262,28 +252,22 @@ fn is_like(one: &Scene, other: &Scene) -> bool {
 
 impl fmt::Display for Expected {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let words =
-            self.errors.iter().map(|error| format!("{} {}", error.measure.replace('_', " "), error_in_words(error)));
-        let words: Vec<String> = words.collect();
-        let (words, step) = (words.join(", "), three_digits(self.time_step));
-        match &self.basis {
+        let (words, step) = (errors_in_words(&self.errors), three_digits(self.time_step));
+        let found = match &self.basis {
             Basis::Theory => return write!(formatter, "{words} off, known exactly for this scheme and step"),
-            Basis::Measured => write!(formatter, "{words} off, as measured with a step of {step}")?,
+            Basis::Measured => format!("{words} off, as measured with a step of {step}"),
             Basis::Interpolated(ends) => {
                 let [low, high] = ends.map(three_digits);
-                write!(formatter, "{words} off, interpolated between steps of {low} and {high} that were measured")?;
+                format!("{words} off, interpolated between steps of {low} and {high} that were measured")
             }
             Basis::OtherStep => {
-                write!(formatter, "not measured at this step; {words} off at a step of {step}, the nearest that was")?;
+                format!("not measured at this step; {words} off at a step of {step}, the nearest that was")
             }
             Basis::OtherChoice(choice) => {
-                write!(
-                    formatter,
-                    "not measured; {words} off with {choice} and a step of {step}, the nearest that was"
-                )?;
+                format!("not measured; {words} off with {choice} and a step of {step}, the nearest that was")
             }
-        }
-        write!(formatter, " ({}, {}, version {})", crate::printable::name(&self.scene), self.date, self.version)
+        };
+        write!(formatter, "{found} ({}, {}, version {})", printable::name(&self.scene), self.date, self.version)
     }
 }
 

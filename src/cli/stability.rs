@@ -58,8 +58,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             .with_bisections(arguments.bisections)
             .with_measures(&arguments.measure, references)?)
     })?;
-    study.note(run.request().notices());
-    let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
+    let base = run.request().base();
+    study.note(base.notices());
+    let (title, directory) = (base.title.clone(), printable::path(run.directory()));
     let in_words = |runs| format!("{runs} runs, then the edges");
     let outcome = study.execute(run, &title, in_words, StabilityRun::execute)?;
     if study.how.quiet { Ok(()) } else { print(&results(&outcome, &directory)) }

@@ -13,52 +13,39 @@ use super::table::aligned;
 /// Columns of the table at the end, where a variant has them.
 const SHOWN: [&str; 4] = ["total_energy", "temperature", "configurational_temperature", "pressure"];
 
-/// Lines for the user; one that concerns several variants is written once.
-#[derive(Default)]
-struct Texts<'a>(Vec<(String, Vec<&'a str>)>);
-
-impl<'a> Texts<'a> {
-    fn add(&mut self, text: String, variant: &'a str) {
-        match self.0.iter_mut().find(|(known, _)| *known == text) {
-            Some((_, names)) => names.push(variant),
-            None => self.0.push((text, vec![variant])),
+/// Writes lines for the user, each about a variant; one about several is written once, with their names unless they are all.
+fn print(texts: &[(String, &str)], variants: usize) {
+    for (place, (text, _)) in texts.iter().enumerate() {
+        let same = |(other, _): &&(String, &str)| other == text;
+        if texts[..place].iter().any(|other| same(&other)) {
+            continue;
         }
-    }
-
-    fn print(self, variants: usize) {
-        for (text, names) in self.0 {
-            let place = if names.len() == variants { String::new() } else { format!(" (`{}`)", names.join("`, `")) };
-            line(&format!("{text}{place}"));
-        }
+        let names: Vec<&str> = texts.iter().filter(same).map(|(_, name)| *name).collect();
+        let names = if names.len() == variants { String::new() } else { format!(" (`{}`)", names.join("`, `")) };
+        line(&format!("{text}{names}"));
     }
 }
 
 /// Warnings about the scenes.
 pub fn warn(variants: &[&Variant]) {
-    let mut texts = Texts::default();
-    for variant in variants {
-        for notice in variant.scene.notices() {
-            texts.add(format!("note: {notice}"), &variant.name);
-        }
-        for warning in families::warnings(&variant.scene) {
-            texts.add(format!("warning: {warning}"), &variant.name);
-        }
-    }
-    texts.print(variants.len());
+    let texts = variants.iter().flat_map(|variant| {
+        let notices = variant.scene.notices().iter().map(|notice| format!("note: {notice}"));
+        let warnings = families::warnings(&variant.scene).into_iter().map(|warning| format!("warning: {warning}"));
+        notices.chain(warnings).map(|text| (text, variant.name.as_str()))
+    });
+    print(&texts.collect::<Vec<_>>(), variants.len());
 }
 
 /// What the runs themselves gave rise to; means that include the way to equilibrium are marked in the table.
 pub fn warn_of_results(variants: &[&Variant], outcome: &SweepOutcome) {
-    let mut texts = Texts::default();
-    for (variant, summary) in variants.iter().zip(&outcome.summary.variants) {
+    let texts = variants.iter().zip(&outcome.summary.variants).flat_map(|(variant, summary)| {
         let of_scene = families::warnings(&variant.scene);
         let before = variant.scene.notices().iter().chain(&of_scene).map(ToString::to_string);
         let known: Vec<String> = before.chain(summary.unequilibrated.as_ref().map(ToString::to_string)).collect();
-        for warning in summary.warnings.iter().filter(|warning| !known.contains(warning)) {
-            texts.add(format!("warning: {warning}"), &variant.name);
-        }
-    }
-    texts.print(variants.len());
+        let new = summary.warnings.iter().filter(move |warning| !known.contains(warning));
+        new.map(|warning| (format!("warning: {warning}"), variant.name.as_str()))
+    });
+    print(&texts.collect::<Vec<_>>(), variants.len());
 }
 
 /// The table at the end and the files written.

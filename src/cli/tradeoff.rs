@@ -3,12 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use mesoscope::numbers::with_error;
 use mesoscope::printable;
 use mesoscope::study::{StudyError, StudyOutcome};
-use mesoscope::tradeoff::{
-    ChoiceState, Length, References, Request, Target, TradeoffRun, TradeoffSummary, error_in_words,
-};
+use mesoscope::tradeoff::{Length, References, Request, Target, TradeoffRun, TradeoffSummary};
 
 use super::table::aligned;
 use super::{ComparisonArguments, Failure, StudyArguments, VariantArguments, heading, print};
@@ -91,8 +88,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.write {
         check_place(path, run.request())?;
     }
-    study.note(run.request().notices());
-    let (title, directory) = (run.request().title().to_owned(), printable::path(run.directory()));
+    let base = run.request().base();
+    study.note(base.notices());
+    let (title, directory) = (base.title.clone(), printable::path(run.directory()));
     let outcome = study.execute(run, &title, |runs| format!("{runs} runs"), TradeoffRun::execute)?;
     if !study.how.quiet {
         print(&results(&outcome, &directory))?;
@@ -161,22 +159,8 @@ fn write(summary: &TradeoffSummary, path: &Path) -> Result<(), Failure> {
 /// The table at the end, what to choose, and the files written.
 fn results(outcome: &StudyOutcome<TradeoffSummary>, directory: &str) -> String {
     let summary = &outcome.summary;
-    let mut header = vec!["CHOICE".to_owned(), "S A UNIT OF TIME".to_owned()];
-    header.extend(summary.measures.iter().map(|measure| measure.replace('_', " ").to_uppercase()));
-    let mut rows = vec![header];
-    for choice in &summary.choices {
-        let mut row = vec![choice.label.clone()];
-        if choice.state == ChoiceState::Unstable {
-            row.push("unstable".to_owned());
-        } else {
-            row.push(choice.cost.map_or_else(String::new, |cost| with_error(cost.seconds_per_time, None)));
-            row.extend(summary.measures.iter().map(|measure| match choice.error(measure) {
-                Some(error) => format!("{}{}", error_in_words(error), if error.on_front { " *" } else { "" }),
-                None => String::new(),
-            }));
-        }
-        rows.push(row);
-    }
+    let mut rows = summary.errors_in_words();
+    rows[..1].iter_mut().flatten().for_each(|name| *name = name.to_uppercase());
     let mut text = aligned(&rows, "  ");
     text.push_str("  errors against the references in tradeoff.md; * on the Pareto front of cost and error\n");
     text.extend(summary.legend().map(|legend| format!("  {legend}\n")));

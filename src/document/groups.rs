@@ -1,7 +1,7 @@
 //! Groups of particles: how many, where they start and how fast.
 
 use super::defaults::{is_default, one, whole};
-use super::{Axis, Space};
+use super::{Axis, Scene, Space};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
@@ -223,6 +223,29 @@ pub(crate) struct NumberedGroup<'a> {
     pub first: u64,
     /// Number of its particles.
     pub count: u64,
+}
+
+impl NumberedGroup<'_> {
+    /// Particles of one of its chains; one where it has none.
+    pub(crate) fn beads(&self) -> u64 {
+        self.group.chain.as_ref().map_or(1, |chain| u64::from(chain.beads.max(1)))
+    }
+
+    /// Number of its chains.
+    pub(crate) fn chains(&self) -> u64 {
+        self.count / self.beads()
+    }
+}
+
+impl Scene {
+    /// Its groups of chains with the numbers of their particles: those of the species that are named, all where none are.
+    pub(crate) fn chained_groups<'a>(
+        &'a self,
+        named: Option<&[String]>,
+    ) -> impl Iterator<Item = (NumberedGroup<'a>, &'a Chain)> {
+        let chained = self.numbered_groups().filter_map(|numbered| Some((numbered, numbered.group.chain.as_ref()?)));
+        chained.filter(move |(numbered, _)| numbered.group.is_among(named))
+    }
 }
 
 impl ParticleGroup {

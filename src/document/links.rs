@@ -1,6 +1,6 @@
 //! Bonds and angles, by the ways in which a scene says which particles they join.
 
-use super::{FileLinks, Scene};
+use super::{Chain, FileLinks, NumberedGroup, Scene};
 use std::sync::Arc;
 
 /// The bonds, of two particles, or angles, of three, that an interaction asks for.
@@ -58,12 +58,10 @@ impl<'a, const LENGTH: usize> Links<'a, LENGTH> {
             LinkSource::Listed(listed) => listed.len() as u64,
             LinkSource::Start(links) => links.iter().map(|links| links.count()).fold(0, u64::saturating_add),
             LinkSource::Chains(species) => {
-                let chains = scene.numbered_groups().filter(|numbered| numbered.group.is_among(species));
-                let links = chains.filter_map(|numbered| {
-                    let chain = numbered.group.chain.as_ref()?;
-                    Some((numbered.count / u64::from(chain.beads.max(1))).saturating_mul(chain.links(LENGTH as u64)))
-                });
-                links.fold(0, u64::saturating_add)
+                let links = |(numbered, chain): (NumberedGroup<'_>, &Chain)| {
+                    numbered.chains().saturating_mul(chain.links(LENGTH as u64))
+                };
+                scene.chained_groups(species).map(links).fold(0, u64::saturating_add)
             }
         }
     }

@@ -43,7 +43,7 @@ impl Instability {
         let quantity = words.unwrap_or_else(|| model.physics().momentum_out_of_range(plan));
         // Where masses lie at the start is no matter of the step.
         let from_the_start = (failure.is(FailureKind::Crowding) || failure.is(FailureKind::Depth)) && failure.step == 0;
-        let suggested_step = (!from_the_start).then(|| round_down(plan.suggested_step));
+        let suggested_step = (!from_the_start).then(|| round_down(plan.suggested_step, 1));
         Self { step: failure.step, quantity, suggested_step }
     }
 }

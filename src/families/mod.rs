@@ -51,7 +51,7 @@ pub use particles::terms::coloured_noise::{ColouredNoise, Jump};
 pub use particles::terms::harmonic_chain::{ChainTrios, HarmonicChain, Likeness, SpringChain, Strand};
 pub use particles::terms::langevin::PositionBath;
 pub(crate) use particles::terms::pairs::surroundings;
-pub(crate) use particles::terms::pairs::{FREQUENCY_LIMIT, MOST_RELAXATION, RelaxationErrors, TOLERANCE};
+pub(crate) use particles::terms::pairs::{FREQUENCY_LIMIT, MOST_RELAXATION, TOLERANCE};
 pub use particles::terms::pairs::{ManyBodyForce, PairForce, SoftRepulsion};
 pub use particles::terms::tethers::Tethers;
 pub use particles::{Particles, combinations};

@@ -102,7 +102,7 @@ pub(super) fn check(scene: &Checked, problems: &mut Problems) {
         "a step that takes them no further than {}, {}: {} or less",
         physics.reach_in_words(),
         brief(reach),
-        brief_step(round_down(longest_step(model)))
+        brief_step(round_down(longest_step(model), 1))
     );
     problems.refuse("time.step", found, accepted);
 }
@@ -112,14 +112,17 @@ pub(super) fn longest_step(model: &Model) -> f64 {
     model.physics().reach(model) / (MARGIN * model.expected_velocity)
 }
 
-/// A step of one digit, in few characters.
+/// A step of few digits, in few characters.
 pub(super) fn brief_step(step: f64) -> String {
     if step == 0.0 || (1e-4..1e6).contains(&step) { step.to_string() } else { format!("{step:e}") }
 }
 
-/// The largest number of one digit not above `value`.
-pub(super) fn round_down(value: f64) -> f64 {
-    let magnitude = 10_f64.powf(value.log10().floor());
+/// The largest number of so many digits not above `value`, which is not negative.
+pub(super) fn round_down(value: f64, digits: usize) -> f64 {
+    if value == 0.0 {
+        return 0.0;
+    }
+    let magnitude = 10_f64.powf(value.log10().floor() + 1.0 - digits as f64);
     let rounded = (value / magnitude).floor() * magnitude;
-    format!("{rounded:.0e}").parse().unwrap_or(rounded)
+    format!("{rounded:.*e}", digits - 1).parse().unwrap_or(rounded)
 }

@@ -32,20 +32,20 @@ pub struct Bound {
 pub(super) fn bounds(request: &Request, row: usize) -> Result<[Vec<Bound>; 2], SceneError> {
     let along = &request.along;
     let of_value = |value: &f64| Ok(limits(request, row, *value)?.unwrap_or_default());
-    let shares: Vec<Vec<families::Limit>> = along.values.iter().map(of_value).collect::<Result<_, SceneError>>()?;
+    let limits_of: Vec<Vec<families::Limit>> = along.values.iter().map(of_value).collect::<Result<_, SceneError>>()?;
     let share = |limits: &[families::Limit], law: &str| {
         limits.iter().find(|limit| limit.law == law).map_or(0.0, |limit| limit.share)
     };
     let [mut within, mut outside] = [Vec::new(), Vec::new()];
-    for law in each_once(shares.iter().flatten().map(|limit| limit.law)) {
-        let beyond = shares.iter().flatten().find(|limit| limit.law == law).map(|limit| limit.beyond);
+    for (law, beyond) in each_once(limits_of.iter().flatten().map(|limit| (limit.law, limit.beyond))) {
         let is_within = |value: f64| Ok(limits(request, row, value)?.map(|limits| share(&limits, law) < 1.0));
-        let crossing = shares.windows(2).position(|pair| (share(&pair[0], law) < 1.0) != (share(&pair[1], law) < 1.0));
+        let shares: Vec<f64> = limits_of.iter().map(|limits| share(limits, law)).collect();
+        let crossing = shares.windows(2).position(|pair| (pair[0] < 1.0) != (pair[1] < 1.0));
         let inside = crossing.map(|place| [along.values[place], along.values[place + 1]]);
         let ends = match inside {
             Some(ends) => Some(ends),
             // What is never strained has no bound.
-            None if shares.iter().all(|limits| share(limits, law) == 0.0) => None,
+            None if shares.iter().all(|share| *share == 0.0) => None,
             None => ends_outside(&along.values, along.spacing, &is_within)?,
         };
         let Some([mut low, mut high]) = ends else { continue };
@@ -55,7 +55,7 @@ pub(super) fn bounds(request: &Request, row: usize) -> Result<[Vec<Bound>; 2], S
             if is_within(middle)?.unwrap_or(true) == at_low { low = middle } else { high = middle }
         }
         let at = along.spacing.middle(low, high);
-        let bound = Bound { law: law.to_owned(), is_of_stability: beyond == Some(Beyond::Unstable), at };
+        let bound = Bound { law: law.to_owned(), is_of_stability: beyond == Beyond::Unstable, at };
         if inside.is_some() { within.push(bound) } else { outside.push(bound) }
     }
     for bounds in [&mut within, &mut outside] {

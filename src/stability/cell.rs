@@ -7,7 +7,7 @@ use crate::gpu::AdapterChoice;
 use crate::measure::equilibration::transient;
 use crate::run::{self, Interrupt, RunError, Stop, Trial};
 use crate::scene::SceneError;
-use crate::tradeoff::{self, Deviation, Measured, References, error_in_words};
+use crate::tradeoff::{self, Deviation, Measured, References, errors_in_words};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -81,11 +81,7 @@ impl fmt::Display for Cell {
         formatter.write_str(&verdict)?;
         let what = match self.verdict {
             _ if nothing_is_known => self.lacks().unwrap_or_default(),
-            Verdict::Right | Verdict::Biased if self.reason.is_none() => {
-                let words =
-                    |error: &Deviation| format!("{} {}", error.measure.replace('_', " "), error_in_words(error));
-                self.errors.iter().map(words).collect::<Vec<_>>().join(", ")
-            }
+            Verdict::Right | Verdict::Biased if self.reason.is_none() => errors_in_words(&self.errors),
             _ => self.reason_in_a_line().unwrap_or_default(),
         };
         if what.is_empty() { Ok(()) } else { write!(formatter, ": {what}") }

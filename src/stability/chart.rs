@@ -29,7 +29,7 @@ pub(super) fn chart(summary: &StabilitySummary, request: &Request) -> Chart {
     let has_errors = summary.rows.iter().flat_map(|row| &row.cells).any(|cell| !cell.errors.is_empty());
     let is_curve = summary.rows.len() == 1 && has_errors;
     let panel = if is_curve { of_a_row(summary) } else { of_rows(summary, request, &percent) };
-    Chart { title: format!("{}: stability", request.title()), subtitle, panels: vec![panel] }
+    Chart { title: format!("{}: stability", request.base.title), subtitle, panels: vec![panel] }
 }
 
 /// Verdicts, edges and bounds of all rows.

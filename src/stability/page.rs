@@ -45,6 +45,13 @@ fn side(row: &Row, bound: &Bound) -> &'static str {
     if row.cells.last().is_some_and(|cell| cell.value < bound.at) { "beyond" } else { "below" }
 }
 
+/// The least and the largest of some numbers, or one where they are alike.
+fn least_to_most(numbers: &[f64]) -> String {
+    let [least, most] =
+        [f64::min, f64::max].map(|of| three_digits(numbers.iter().copied().reduce(of).unwrap_or(f64::NAN)));
+    if least == most { least } else { format!("{least} to {most}") }
+}
+
 /// The laws that bound no row within its range, and where they do.
 pub(super) fn laws_outside(summary: &StabilitySummary) -> Vec<String> {
     let inside = |law: &str| summary.rows.iter().flat_map(|row| &row.bounds).any(|bound| bound.law == law);
@@ -52,10 +59,7 @@ pub(super) fn laws_outside(summary: &StabilitySummary) -> Vec<String> {
     let outside = outside.filter(|(_, bound)| !inside(&bound.law));
     let found = by_key(outside.map(|(row, bound)| ((bound.law.as_str(), side(row, bound)), bound.at)));
     let words = |((law, side), places): ((&str, &str), Vec<f64>)| {
-        let [least, most] =
-            [f64::min, f64::max].map(|of| three_digits(places.iter().copied().reduce(of).unwrap_or(f64::NAN)));
-        let places = if least == most { least } else { format!("{least} to {most}") };
-        format!("law {law} at {places}, {side} the range")
+        format!("law {law} at {}, {side} the range", least_to_most(&places))
     };
     found.into_iter().map(words).collect()
 }
@@ -81,14 +85,9 @@ fn differences(summary: &StabilitySummary) -> Vec<String> {
             }
         }
     }
-    let words = |((law, is_of_stability, kind), mut ratios): ((&str, bool, &str), Vec<f64>)| {
-        ratios.sort_by(f64::total_cmp);
-        let (least, most) = (three_digits(ratios[0]), three_digits(ratios[ratios.len() - 1]));
-        let (place, rows) = if ratios.len() == 1 {
-            (least, "runs".to_owned())
-        } else {
-            (format!("{least} to {most}"), format!("in {} rows runs", ratios.len()))
-        };
+    let words = |((law, is_of_stability, kind), ratios): ((&str, bool, &str), Vec<f64>)| {
+        let rows = if ratios.len() == 1 { "runs".to_owned() } else { format!("in {} rows runs", ratios.len()) };
+        let place = least_to_most(&ratios);
         let says = if is_of_stability && kind == "biased" { ", the edge of stability," } else { "" };
         format!("{rows} become {kind} at {place} times what the law {law}{says} says")
     };
@@ -97,25 +96,16 @@ fn differences(summary: &StabilitySummary) -> Vec<String> {
 
 /// Rows whose runs are the same, digit by digit: what tells these rows apart makes no difference.
 fn same_rows(summary: &StabilitySummary) -> Vec<String> {
-    let is_same = |one: &Row, other: &Row| {
-        let twin = |cell: &Cell| other.cells.iter().find(|found| found.value == cell.value);
-        let mut both = one.cells.iter().filter_map(|cell| Some((cell, twin(cell)?)));
-        let has_numbers = both.clone().any(|(cell, _)| cell.errors.iter().any(|error| error.uncertainty != Some(0.0)));
-        has_numbers && both.all(|(one, other)| one == other)
-    };
-    let mut groups: Vec<Vec<&Row>> = Vec::new();
-    for row in &summary.rows {
-        match groups.iter_mut().find(|group| is_same(group[0], row)) {
-            Some(group) => group.push(row),
-            None => groups.push(vec![row]),
-        }
-    }
-    let in_words = |group: Vec<&Row>| {
-        let labels: Vec<&str> = group.iter().map(|row| row.label.as_str()).collect();
+    let has_numbers =
+        |row: &&Row| row.cells.iter().flat_map(|cell| &cell.errors).any(|error| error.uncertainty != Some(0.0));
+    let rows = summary.rows.iter().filter(has_numbers);
+    let alike = by_key(rows.map(|row| (&row.cells, row.label.as_str())));
+    let several = alike.into_iter().map(|(_, labels)| labels).filter(|labels| labels.len() > 1);
+    let in_words = |labels: Vec<&str>| {
         let labels = labels.join(" and ");
         format!("{labels} are the same runs, digit by digit: what tells these rows apart makes no difference")
     };
-    groups.into_iter().filter(|group| group.len() > 1).map(in_words).collect()
+    several.map(in_words).collect()
 }
 
 /// The page.
@@ -135,9 +125,9 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
     let header = ["row".to_owned(), format!("{right}: {key} up to"), "unstable from".to_owned(), "laws".to_owned()];
     let findings: Vec<String> = summary.findings().iter().map(|finding| format!("- {finding}")).collect();
     let mut paragraphs = vec![
-        format!("# {}: how far it may go", request.title()),
+        format!("# {}: how far it may go", request.base.title),
         format!("`{}` is varied. {meaning}{}", summary.key, begun.unwrap_or_default()),
-        markdown(header.to_vec(), "---", summary.in_words().into_iter().map(Vec::from)),
+        markdown([header].into_iter().chain(summary.in_words()).map(Vec::from), "---"),
     ];
     paragraphs.extend((!findings.is_empty()).then(|| findings.join("\n")));
     paragraphs.join("\n\n") + "\n"
@@ -172,29 +162,29 @@ impl StabilitySummary {
         let cells = || self.rows.iter().flat_map(|row| &row.cells);
         let count = |counts: &dyn Fn(&Cell) -> bool| cells().filter(|cell| counts(cell)).count();
         let (runs, is_compared) = (cells().count(), |cell: &Cell| cell.is_compared(&self.measures));
-        let said = |count: usize, what: &str| (count > 0).then(|| format!("{count} {what}"));
-        let mut lines = differences(self);
-        let lawless = count(&|cell| cell.undefined.is_empty() && cell.verdict == Verdict::Right && !is_compared(cell));
-        let what = "runs count as right though no law says what some of their measures should be, as that of a temperature without friction";
-        lines.extend(said(lawless, what));
-        let few = count(&|cell| !cell.undefined.is_empty());
-        let undefined = listed(cells().flat_map(|cell| &cell.undefined).collect::<BTreeSet<_>>());
-        let what = format!(
-            "of {runs} runs have so few particles that they have no {undefined}, which cannot be compared: of these it is known where runs end, and no more"
-        );
-        lines.extend(said(few, &what));
-        lines.extend(same_rows(self));
+        let lawless = |cell: &Cell| cell.undefined.is_empty() && cell.verdict == Verdict::Right && !is_compared(cell);
         let is_open = |cell: &Cell| is_compared(cell) && cell.unequilibrated.is_empty() && !cell.is_certain;
-        let open = count(&|cell| !self.measures.is_empty() && is_open(cell));
-        let what = format!(
-            "of {runs} verdicts are within two standard errors of the tolerance: longer runs (--set time.steps=N) decide them"
-        );
-        lines.extend(said(open, &what));
-        let moving = count(&|cell| !cell.unequilibrated.is_empty());
-        let what = format!(
-            "of {runs} runs are still on their way to equilibrium, which their errors include: give them time with --set time.equilibration=N"
-        );
-        lines.extend(said(moving, &what));
+        let undefined = listed(cells().flat_map(|cell| &cell.undefined).collect::<BTreeSet<_>>());
+        let counted = [
+            (
+                count(&lawless),
+                "runs count as right though no law says what some of their measures should be, as that of a temperature without friction".to_owned(),
+            ),
+            (
+                count(&|cell| !cell.undefined.is_empty()),
+                format!("of {runs} runs have so few particles that they have no {undefined}, which cannot be compared: of these it is known where runs end, and no more"),
+            ),
+            (
+                count(&|cell| !self.measures.is_empty() && is_open(cell)),
+                format!("of {runs} verdicts are within two standard errors of the tolerance: longer runs (--set time.steps=N) decide them"),
+            ),
+            (
+                count(&|cell| !cell.unequilibrated.is_empty()),
+                format!("of {runs} runs are still on their way to equilibrium, which their errors include: give them time with --set time.equilibration=N"),
+            ),
+        ];
+        let mut lines = [differences(self), same_rows(self)].concat();
+        lines.extend(counted.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")));
         let refused = cells().filter(|cell| cell.verdict == Verdict::Refused);
         let reasons = by_key(refused.filter_map(|cell| Some((cell.reason_in_a_line()?, cell))));
         lines.extend(reasons.into_iter().map(|(reason, cells)| format!("{} refused: {reason}", cells.len())));

@@ -5,9 +5,9 @@ use crate::families::{Checked, StepCheck};
 use crate::output::Id;
 use crate::quantity::{Quantity, Unit};
 use crate::run;
-use crate::scene::{SceneError, StateFiles, Warning, WrittenScene, did_you_mean, nearest};
+use crate::scene::{SceneError, StateFiles, WrittenScene};
 use crate::study::{self, LENGTHS, Setting, ShortKeys, StudyError};
-use crate::tradeoff::{References, Stretch, names_of_table, predicted};
+use crate::tradeoff::{self, References, Stretch, names_of_table, predicted};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -166,14 +166,11 @@ impl Request {
         let columns = run::quantities(self.base.model());
         let known: Vec<&str> = columns.into_iter().chain(names_of_table(&self.base)).collect();
         let mut mistakes = Vec::new();
-        for measure in measures.iter().map(String::as_str).chain(references.measures()) {
-            if !known.contains(&measure) {
-                let near = did_you_mean(nearest(measure, known.iter().copied()).as_deref());
-                let known = known.join(", ");
-                mistakes.push(format!("no run of this scene measures `{measure}`{near}; accepted: {known}"));
-            } else if references.known(measure, &self.base).is_none() {
-                mistakes.push(format!("no law says what `{measure}` should be; add `--reference {measure}=VALUE`"));
-            }
+        let asked = measures.iter().map(|measure| ("--measure", measure.as_str()));
+        for (option, measure) in asked.chain(references.measures().map(|measure| ("--reference", measure))) {
+            let lawless = || format!("no law says what `{measure}` should be; add `--reference {measure}=VALUE`");
+            let is_known = references.known(measure, &self.base).is_some();
+            mistakes.extend(tradeoff::unknown(option, measure, &known).or_else(|| (!is_known).then(lawless)));
         }
         StudyError::refuse(mistakes)?;
         self.arguments.measures = measures.to_vec();
@@ -196,16 +193,10 @@ impl Request {
         all
     }
 
-    /// What was shortened in the scene to suit the number of steps.
+    /// The scene before anything is varied.
     #[must_use]
-    pub fn notices(&self) -> &[Warning] {
-        self.base.notices()
-    }
-
-    /// The title of the scene.
-    #[must_use]
-    pub fn title(&self) -> &str {
-        &self.base.title
+    pub fn base(&self) -> &Checked {
+        &self.base
     }
 
     /// Scenes of the grid.

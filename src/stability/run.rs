@@ -45,7 +45,7 @@ impl StudyRun<StabilitySummary> {
         let mut waiting = self.waiting();
         let gpu = run::adapter_for(&self.request.base, adapter).map_err(|source| match source {
             RunError::Gpu(source) => source.into(),
-            source => StudyError::of_run(self.request.title(), source),
+            source => StudyError::of_run(&self.request.base.title, source),
         })?;
         // Beside those of the grid there may be so many that locate edges, in every row.
         let (bisections, points) = (self.request.arguments.bisections as usize, self.request.along.values.len());

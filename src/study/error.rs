@@ -23,7 +23,7 @@ pub enum StudyError {
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// Variants whose scenes say something that is not accepted.
-    #[error("{}", list(mistakes))]
+    #[error("{}", shortened(mistakes, LISTED, Mistake::to_string, ["\n", "\n"]))]
     Variants {
         /// All mistakes.
         mistakes: Vec<Mistake>,
@@ -180,25 +180,19 @@ fn lacking(path: &Path, kind: &Kind) -> String {
 /// Mistakes beyond this number are counted, not listed.
 const LISTED: usize = 12;
 
-fn list(mistakes: &[Mistake]) -> String {
-    let mut lines: Vec<String> = mistakes.iter().take(LISTED).map(ToString::to_string).collect();
-    if mistakes.len() > LISTED {
-        lines.push(format!("and {} more", mistakes.len() - LISTED));
-    }
-    lines.join("\n")
-}
-
 /// Variants beyond this number are counted, not named.
 const NAMED: usize = 6;
 
+/// Some entries, of which those beyond a number are counted; the words about them come after `and`.
+fn shortened<T>(all: &[T], most: usize, word: impl Fn(&T) -> String, [comma, and]: [&str; 2]) -> String {
+    let words = all.iter().take(most).map(word).collect::<Vec<_>>().join(comma);
+    if all.len() > most { format!("{words}{and}and {} more", all.len() - most) } else { words }
+}
+
 impl std::fmt::Display for Mistake {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let names: Vec<String> = self.variants.iter().take(NAMED).map(|name| format!("`{name}`")).collect();
         let noun = if self.variants.len() == 1 { "variant" } else { "variants" };
-        write!(formatter, "{noun} {}", names.join(", "))?;
-        if self.variants.len() > NAMED {
-            write!(formatter, " and {} more", self.variants.len() - NAMED)?;
-        }
-        write!(formatter, ": {}", self.message)
+        let names = shortened(&self.variants, NAMED, |name| format!("`{name}`"), [", ", " "]);
+        write!(formatter, "{noun} {names}: {}", self.message)
     }
 }

@@ -19,7 +19,6 @@ mod shard;
 mod shard_places;
 pub(crate) mod table;
 mod variation;
-mod version;
 mod written_scene;
 
 pub(crate) use concurrency::at_once;

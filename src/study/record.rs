@@ -4,7 +4,6 @@ use super::error::StudyError;
 use super::kind::Kind;
 use super::lists::each_once;
 use super::shard_places;
-use super::version::Version;
 use crate::output::{Id, OutputError, RunDirectory, own_file, write_atomically};
 use crate::plot::Chart;
 use crate::scene::{PlotStyle, SceneError};
@@ -133,13 +132,19 @@ pub(crate) fn load<R: Record>(directory: &Path) -> Result<R, StudyError> {
 /// [`StudyError::Later`], [`StudyError::Changed`] where it names no version.
 pub(crate) fn check_version<R: Record>(record: &R, directory: &Path) -> Result<(), StudyError> {
     let (kind, path) = (R::KIND, directory.join(R::KIND.summary));
-    let Some(version) = Version::parse(record.version()) else {
+    let Some(is_later) = is_later(record.version(), env!("CARGO_PKG_VERSION")) else {
         return Err(StudyError::Changed { kind, path, reasons: vec!["has a `mesoscope_version` that is no version"] });
     };
-    if Version::parse(env!("CARGO_PKG_VERSION")).is_some_and(|own| version > own) {
+    if is_later {
         return Err(StudyError::Later { kind, path, version: record.version().to_owned() });
     }
     Ok(())
+}
+
+/// Whether a version of the program comes after another, whatever they were built from; none where one is no version.
+fn is_later(one: &str, other: &str) -> Option<bool> {
+    let [one, other] = [one, other].map(|text| semver::Version::parse(text).ok());
+    Some(one?.cmp_precedence(&other?).is_gt())
 }
 
 /// Opens the directory of a study, which belongs to this process from then on: its summary and what it was asked for.
@@ -168,4 +173,35 @@ pub(super) fn reopen<R: Record>(directory: &Path) -> Result<(R, R::Request, RunD
     }
     claimed.check_ids(record.id(), kind.summary, |name| kind.has_file(name))?;
     Ok((record, request, claimed))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn versions_have_an_order() {
+        let order = [
+            "0.9.1",
+            "0.10.0",
+            "0.99.99",
+            "1.0.0-alpha",
+            "1.0.0-alpha.1",
+            "1.0.0-alpha.beta",
+            "1.0.0-beta.2",
+            "1.0.0-beta.11",
+            "1.0.0-rc.1",
+            "1.0.0",
+            "1.0.1-rc.1+build.5",
+        ];
+        for (place, one) in order.iter().enumerate() {
+            for (other_place, other) in order.iter().enumerate() {
+                assert_eq!(is_later(one, other), Some(place > other_place), "{one} {other}");
+            }
+        }
+        assert_eq!(is_later("1.0.0+one", "1.0.0+other"), Some(false));
+        for text in ["latest", "", "1", "1.0", "1.0.0.0", "1.0.x", "+1.0.0", "1.0.0-", "1.0.0-a..b", "-1.0.0"] {
+            assert_eq!(is_later(text, "1.0.0"), None, "{text}");
+        }
+    }
 }

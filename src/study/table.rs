@@ -43,13 +43,16 @@ pub(crate) fn settings_of_keys(settings: &[Setting], keys: &[&str]) -> Vec<(Stri
     keys.iter().map(|key| ((*key).to_owned(), value(key).unwrap_or_default())).collect()
 }
 
-/// A table in Markdown whose first column is aligned to the left, and the others as `rule` says: `---`, or `--:` for numbers.
-pub(crate) fn markdown(header: Vec<String>, rule: &str, rows: impl Iterator<Item = Vec<String>>) -> String {
-    let mut rules = vec![rule; header.len()];
-    rules[..1].fill("---");
-    let rules = format!("|{}|", rules.join("|"));
-    let line = |cells: Vec<String>| format!("| {} |", cells.join(" | "));
-    let lines: Vec<String> = [line(header), rules].into_iter().chain(rows.map(line)).collect();
+/// A table in Markdown below the names of its columns, of which the first is aligned to the left, and the others as `rule` says: `---`, or
+/// `--:` for numbers.
+pub(crate) fn markdown(rows: impl IntoIterator<Item = Vec<String>>, rule: &str) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    for cells in rows {
+        lines.push(format!("| {} |", cells.join(" | ")));
+        if lines.len() == 1 {
+            lines.push(format!("|---{}|", format!("|{rule}").repeat(cells.len() - 1)));
+        }
+    }
     lines.join("\n")
 }
 

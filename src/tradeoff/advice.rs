@@ -5,7 +5,7 @@ use super::fields::DISTANCE;
 use super::reference::Source;
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
 use super::target::{Target, Verdict};
-use crate::numbers::{short, with_error};
+use crate::numbers::{counted, short, with_error};
 use crate::study::table::{list, markdown};
 use crate::study::{Setting, by_key, each_once, in_hours};
 
@@ -56,6 +56,12 @@ pub fn error_in_words(error: &Deviation) -> String {
     format!("{text}{unit}{mark}")
 }
 
+/// Errors with what they are of.
+pub(crate) fn errors_in_words(errors: &[Deviation]) -> String {
+    let words = |error: &Deviation| format!("{} {}", error.measure.replace('_', " "), error_in_words(error));
+    errors.iter().map(words).collect::<Vec<_>>().join(", ")
+}
+
 /// What marks an error from few samples.
 const FEW_SAMPLES: char = '‡';
 
@@ -95,6 +101,23 @@ impl TradeoffSummary {
             Some(format!("{label} is never chosen, for `mesoscope run` refuses its scene: {refusal}."))
         });
         physical.into_iter().chain(spoilt).chain(same_runs).chain(refused).collect()
+    }
+
+    /// What every choice costs and how far it is off, a row for each below the names of the columns. `*` marks errors on the Pareto
+    /// front of their measure.
+    #[must_use]
+    pub fn errors_in_words(&self) -> Vec<Vec<String>> {
+        let names = self.measures.iter().map(|measure| measure.replace('_', " "));
+        let header = ["choice", "s a unit of time"].map(str::to_owned).into_iter().chain(names).collect();
+        let or_dash = |text: Option<String>| text.unwrap_or_else(|| "—".to_owned());
+        let marked = |error: &Deviation| format!("{}{}", error_in_words(error), if error.on_front { " *" } else { "" });
+        let row = |choice: &Choice| {
+            let cost = choice.cost.map(|cost| with_error(cost.seconds_per_time, None));
+            let unstable = (choice.state == ChoiceState::Unstable).then(|| "unstable".to_owned());
+            let errors = self.measures.iter().map(|measure| or_dash(choice.error(measure).map(marked)));
+            [choice.label.clone(), or_dash(unstable.or(cost))].into_iter().chain(errors).collect()
+        };
+        [header].into_iter().chain(self.choices.iter().map(row)).collect()
     }
 
     /// The meaning of the mark of errors from few samples, where there are any.
@@ -141,7 +164,12 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
         paragraphs.push(format!("## {}", targets.join(", ")));
     }
     paragraphs.extend(verdict(summary, ["**", "    "]));
-    paragraphs.extend([errors(summary), basis_of_errors(summary), "## Costs".to_owned(), costs(summary)]);
+    paragraphs.extend([
+        markdown(summary.errors_in_words(), "--:"),
+        basis_of_errors(summary),
+        "## Costs".to_owned(),
+        costs(summary),
+    ]);
     paragraphs.extend(list("## What is conserved", conserved(summary)));
     paragraphs.extend(summary.measures.iter().flat_map(|measure| section(summary, measure)));
     let unstable = summary.choices.iter().filter(|choice| choice.state == ChoiceState::Unstable);
@@ -237,34 +265,15 @@ fn nearest(summary: &TradeoffSummary) -> Option<(&Choice, &Target, f64)> {
     worst.min_by(|a, b| a.2.total_cmp(&b.2))
 }
 
-/// The errors of all choices in one table.
-fn errors(summary: &TradeoffSummary) -> String {
-    let measures = || summary.measures.iter();
-    let header = ["choice", "s a unit of time"].map(str::to_owned).into_iter();
-    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "—".to_owned());
-    let row = |choice: &Choice| {
-        let cost = or_dash(choice.cost.map(|cost| with_error(cost.seconds_per_time, None)));
-        let errors = measures().map(|measure| or_dash(choice.error(measure).map(error_in_words)));
-        [choice.label.clone(), cost].into_iter().chain(errors).collect()
-    };
-    let header = header.chain(measures().map(|measure| measure.replace('_', " "))).collect();
-    markdown(header, "--:", summary.choices.iter().map(row))
-}
-
 /// The references of errors, and how far the device is from float64.
 fn basis_of_errors(summary: &TradeoffSummary) -> String {
-    let parts = "Errors with standard errors, in per cent of the reference of the measure, or of what a drift, a distance or a share is a part of.";
+    let parts = "Errors with standard errors, in per cent of the reference of the measure, or of what a drift, a distance or a share is a part of; * on the Pareto front of cost and error.";
     let mut sentences = vec![parts.to_owned()];
     sentences.extend(summary.legend().map(|legend| legend + "."));
-    let distances = summary.choices.iter().filter_map(|choice| choice.float64_distance);
-    sentences.extend(distances.reduce(f64::max).map(|largest| {
-        let largest = with_error(largest, None);
-        format!("One step of the device is off from float64 by {largest} of what the step changes, at most.")
-    }));
     let stretches = summary.choices.iter().filter_map(|choice| choice.float64_stretch);
-    let farthest = stretches.filter(|stretch| stretch.steps > 1).max_by(|a, b| a.distance.total_cmp(&b.distance));
-    sentences.extend(farthest.map(|stretch| {
-        format!("After {} steps it is {} of what they change.", stretch.steps, with_error(stretch.distance, None))
+    sentences.extend(stretches.max_by(|a, b| a.distance.total_cmp(&b.distance)).map(|farthest| {
+        let (steps, distance) = (counted(farthest.steps, "step"), with_error(farthest.distance, None));
+        format!("After {steps} the device is off from float64 by {distance} of what has changed, at most.")
     }));
     sentences.join(" ")
 }
@@ -280,7 +289,8 @@ fn costs(summary: &TradeoffSummary) -> String {
         let bytes = format!("{:.0}", cost.bytes_per_particle);
         Some(vec![choice.label.clone(), median, format!("{fastest} to {slowest}"), speed, bytes])
     };
-    markdown(header.map(str::to_owned).to_vec(), "--:", summary.choices.iter().filter_map(row))
+    let header = header.map(str::to_owned).to_vec();
+    markdown([header].into_iter().chain(summary.choices.iter().filter_map(row)), "--:")
 }
 
 /// What the runs have conserved, and how exactly.

@@ -41,15 +41,11 @@ impl TradeoffSummary {
             choice.errors = self.references.iter().filter_map(error).collect();
         }
         for measure in &self.measures {
-            let pair = |choice: &Choice| {
-                let error = choice.error(measure).map_or(f64::NAN, Deviation::size);
-                [choice.cost.map_or(f64::NAN, |cost| cost.seconds_per_time), error]
-            };
+            let pair = |choice: &Choice| [choice.seconds(), choice.error(measure).map_or(f64::NAN, Deviation::size)];
             let front = pareto::front(&self.choices.iter().map(pair).collect::<Vec<_>>());
             for (choice, on_front) in self.choices.iter_mut().zip(front) {
-                if let Some(error) = choice.errors.iter_mut().find(|error| error.measure == *measure) {
-                    error.on_front = on_front;
-                }
+                let own = choice.errors.iter_mut().filter(|error| error.measure == *measure);
+                own.for_each(|error| error.on_front = on_front);
             }
         }
         let targets = &arguments.targets;

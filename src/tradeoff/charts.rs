@@ -68,7 +68,7 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
         (false, _) => "",
     };
     let subtitle = format!("{}{bars}", super::advice::reference_in_words(summary, measure));
-    Some(Chart { title: format!("{}: {what}", request.title()), subtitle, panels: vec![panel] })
+    Some(Chart { title: format!("{}: {what}", request.base.title), subtitle, panels: vec![panel] })
 }
 
 fn series(name: &str, points: &[&Point<'_>], groups: &Groups<'_>) -> Series {

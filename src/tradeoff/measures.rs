@@ -4,6 +4,7 @@ use super::fields;
 use crate::families::{Checked, column};
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::run;
+use crate::scene::{did_you_mean, nearest};
 use crate::study::StudyError;
 use crate::sweep::numbers_of;
 use crate::table::Table;
@@ -130,6 +131,15 @@ pub(super) fn names(scene: &Checked) -> Vec<String> {
     let further = names_of_table(scene).into_iter().chain(loops.then_some(CIRCULATION_DRIFT));
     let known = columns.iter().copied().chain(further).map(str::to_owned);
     known.chain(fields::names_from_exact(scene)).collect()
+}
+
+/// What is wrong with a measure that an option names, which is not among those that a scene has; nothing where it is.
+pub(crate) fn unknown(option: &str, measure: &str, known: &[&str]) -> Option<String> {
+    let mistake = || {
+        let (near, known) = (did_you_mean(nearest(measure, known.iter().copied()).as_deref()), known.join(", "));
+        format!("`{option} {measure}`: no run of this scene measures that{near}; accepted: {known}")
+    };
+    (!known.contains(&measure)).then(mistake)
 }
 
 /// Whether a measure without unit says how large an error is, as a part of something: a drift, a distance or a share.

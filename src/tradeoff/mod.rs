@@ -53,12 +53,12 @@ mod table;
 mod target;
 
 pub use advice::error_in_words;
-pub(crate) use advice::legend_of;
+pub(crate) use advice::{errors_in_words, legend_of};
 pub use cost::Cost;
 pub use deviation::Deviation;
 pub use length::Length;
 pub use measures::Measured;
-pub(crate) use measures::{names_of_table, of_table};
+pub(crate) use measures::{names_of_table, of_table, unknown};
 pub(crate) use reference::predicted;
 pub use reference::{Reference, References, Source};
 pub use request::Request;

@@ -20,6 +20,12 @@ pub struct Reference {
 }
 
 impl Reference {
+    /// A value that a law gives exactly.
+    pub(crate) fn exact(measure: &str, value: f64, law: &str) -> Self {
+        let source = Source::Predicted(law.to_owned());
+        Self { measure: measure.to_owned(), value, uncertainty: Some(0.0), source }
+    }
+
     /// Whether it is zero for all that is known of it, so that nothing is a part of it.
     #[must_use]
     pub fn is_zero(&self) -> bool {
@@ -122,8 +128,7 @@ pub(crate) fn predicted(measure: &str, scene: &Checked) -> Option<Reference> {
         }
         _ => (exact_mean(measure, model)?.continuous, "the mean of the exact motion in equilibrium"),
     };
-    let source = Source::Predicted(law.to_owned());
-    Some(Reference { measure: measure.to_owned(), value, uncertainty: Some(0.0), source })
+    Some(Reference::exact(measure, value, law))
 }
 
 /// A component of the total momentum that a scene starts with, if it keeps it.

@@ -6,7 +6,7 @@ use super::target::Target;
 use super::{fields, measures};
 use crate::families::{Checked, StepCheck};
 use crate::run;
-use crate::scene::{AnalysisId, SceneError, StateFiles, Warning, WrittenScene, did_you_mean, nearest};
+use crate::scene::{AnalysisId, SceneError, StateFiles, WrittenScene};
 use crate::study::{self, LENGTHS, Setting, StudyError, Sweep, Variation, each_once, settings};
 use serde::{Deserialize, Serialize};
 
@@ -203,16 +203,10 @@ impl Request {
         !self.arguments.targets.is_empty()
     }
 
-    /// What was shortened in the scene to suit the number of steps.
+    /// The scene before anything is varied.
     #[must_use]
-    pub fn notices(&self) -> &[Warning] {
-        self.base.notices()
-    }
-
-    /// The title of the scene.
-    #[must_use]
-    pub fn title(&self) -> &str {
-        &self.base.title
+    pub fn base(&self) -> &Checked {
+        &self.base
     }
 
     /// What is varied.
@@ -247,13 +241,8 @@ impl Request {
         let curve = has_curve.then(|| format!("{curve}{}", fields::DISTANCE));
         let accepted: Vec<String> =
             measures::names(&self.base).into_iter().chain(found).chain(fields).chain(curve).collect();
-        let mistake = |name| {
-            let near = nearest(name, accepted.iter().map(String::as_str));
-            let (near, accepted) = (did_you_mean(near.as_deref()), accepted.join(", "));
-            format!("`{option} {name}`: no run of this scene measures that{near}; accepted: {accepted}")
-        };
-        let unknown = wanted.filter(|name| !accepted.iter().any(|known| known == name));
-        StudyError::refuse(unknown.map(mistake).collect())
+        let accepted: Vec<&str> = accepted.iter().map(String::as_str).collect();
+        StudyError::refuse(wanted.filter_map(|name| measures::unknown(option, name, &accepted)).collect())
     }
 }
 

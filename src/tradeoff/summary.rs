@@ -316,7 +316,7 @@ impl Record for TradeoffSummary {
     }
 
     fn page(&self, request: &Request) -> Option<(&'static str, String)> {
-        Some((files::PAGE, advice::page(self, request.title())))
+        Some((files::PAGE, advice::page(self, &request.base.title)))
     }
 
     fn charts<'c>(&'c self, request: &'c Request, _: &RunDirectory) -> Result<Charts<'c>, StudyError> {

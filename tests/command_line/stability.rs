@@ -244,7 +244,10 @@ fn mistakes_are_named_before_anything_runs() {
         (&["--vary", "time.step=0.1..1/10000000"], &["accepted: 2 to 200"]),
         (&["--vary", "time.steps=10..1000/3"], &["all runs cover the same simulated time"]),
         (&["--vary", "time.step=0.1..1/3", "--vary", "seed=1,2", "--vary", "temperature=1,2"], &["3 keys are varied"]),
-        (&["--measure", "temprature"], &["no run of this scene measures `temprature`", "did you mean `temperature`?"]),
+        (
+            &["--measure", "temprature"],
+            &["`--measure temprature`: no run of this scene measures that", "did you mean `temperature`?"],
+        ),
         (&["--measure", "momentum_x"], &["--reference momentum_x=VALUE"]),
     ];
     for (further, parts) in wrong {

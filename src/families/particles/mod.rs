@@ -327,10 +327,7 @@ impl Physics for Particles {
         if self.have_more_than_pairs(scene.model()) {
             stability::check(scene, problems);
         }
-        if !self.pair_force.as_ref().is_some_and(PairForce::remembers) {
-            stability::check_friction(scene, problems);
-        }
-        stability::check_repulsion(scene, problems);
+        stability::check_pairs(scene, problems);
     }
 
     fn unshared(&self, scene: &Scene) -> Vec<String> {

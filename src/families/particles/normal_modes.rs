@@ -1,8 +1,8 @@
 //! The normal modes of networks of springs without a length.
 
-use super::model::Neighbours;
+use super::model::{Neighbours, bonded_particles};
 use crate::document::BondPotential;
-use crate::families::{Bond, Bonds};
+use crate::families::{Bond, BondKind, Bonds};
 use nalgebra::DMatrix;
 use std::collections::HashMap;
 
@@ -18,22 +18,16 @@ type Shape = Vec<([usize; 2], u32)>;
 /// Stiffnesses of all modes of so many particles, with how many modes have them; one particle has one mode along each axis. None
 /// where bonds are no springs without a length, have baths of their own, or join too many particles.
 pub(super) fn stiffnesses(bonds: &Bonds, particles: u64) -> Option<Vec<(f64, u64)>> {
-    let springs: Option<Vec<f64>> = bonds
-        .kinds
-        .iter()
-        .map(|kind| match kind.potential {
-            Some(BondPotential::Harmonic { stiffness, length: 0.0 }) if kind.bath.is_none() => Some(stiffness),
-            _ => None,
-        })
-        .collect();
-    let springs = springs?;
+    let spring = |kind: &BondKind| match kind.potential {
+        Some(BondPotential::Harmonic { stiffness, length: 0.0 }) if kind.bath.is_none() => Some(stiffness),
+        _ => None,
+    };
+    let springs: Vec<f64> = bonds.kinds.iter().map(spring).collect::<Option<_>>()?;
     if bonds.count() > MOST_BONDS {
         return None;
     }
     let bonded: Vec<Bond> = bonds.iter().collect();
-    let mut members: Vec<u32> = bonded.iter().flat_map(|bond| bond.ends).collect();
-    members.sort_unstable();
-    members.dedup();
+    let members = bonded_particles(&bonded);
     let place = |end: u32| members.partition_point(|member| *member < end);
     let joins = bonded.iter().map(|bond| bond.ends.map(|end| place(end) as u32));
     let neighbours = Neighbours::new(joins, members.len() as u32);

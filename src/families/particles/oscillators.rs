@@ -69,18 +69,18 @@ fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
         }
     }
     let kinetic = [0.5 * kt * count; 2];
-    let sum = |terms: &[[f64; 2]]| [0, 1].map(|kind| terms.iter().map(|term| term[kind]).sum::<f64>());
+    let sum = |one: [f64; 2], other: [f64; 2]| [one[0] + other[0], one[1] + other[1]];
     let part = |sums: [f64; 2], scale: f64| sums.map(|sum| sum / scale);
     let mut means = vec![
         ("kinetic_energy", kinetic),
         ("potential_energy", potential),
-        ("total_energy", sum(&[kinetic, potential])),
+        ("total_energy", sum(kinetic, potential)),
         ("temperature", [kt; 2]),
         ("configurational_temperature", part(gradient, curvature)),
     ];
     if bath.memory {
         means.push(("bath_energy", energy));
-        means.push(("extended_energy", sum(&[kinetic, potential, energy])));
+        means.push(("extended_energy", sum(sum(kinetic, potential), energy)));
         means.push(("bath_square", part(squares, count)));
     }
     if particles.oscillates_in_memory() {

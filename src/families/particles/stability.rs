@@ -6,11 +6,13 @@
 //! left out here, springs, baths and neighbours that attract, only makes that larger: a part of it at 4 is certainly
 //! unstable, and refused.
 
+use super::model::bonded_particles;
 use crate::document::{Bath, BondPotential, Integrator, Interaction, NumberedSpecies, Problems, Scene, Warning, brief};
 use crate::families::limits::{at_step, largest_step};
+use crate::families::speeds::{brief_step, round_down};
 use crate::families::{
-    Alike, Beyond, Bond, BondKind, Bonds, Checked, FREQUENCY_LIMIT, Limit, MOST_RELAXATION, Model, Particles,
-    RelaxationErrors, Species, TOLERANCE,
+    Alike, Beyond, Bond, BondKind, Bonds, Checked, FREQUENCY_LIMIT, Limit, MOST_RELAXATION, Model, Particles, Species,
+    TOLERANCE,
 };
 
 /// B + W beyond which nothing is stable.
@@ -115,65 +117,46 @@ pub(crate) fn check(scene: &Checked, problems: &mut Problems) {
     problems.refuse("time.step", found, accepted);
 }
 
-/// Refuses a time step in which the friction of pairs that do not relax is certainly unstable: B is 2Γ dt on average, for a mean
-/// friction rate Γ, and half of that is certain.
-pub(crate) fn check_friction(scene: &Checked, problems: &mut Problems) {
+/// Refuses a time step in which the friction of pairs that do not relax is certainly unstable, B being 2Γ dt on average for a mean
+/// friction rate Γ, of which half is certain, or in which repulsion certainly throws neighbours apart.
+pub(crate) fn check_pairs(scene: &Checked, problems: &mut Problems) {
     let model = scene.model();
-    let Some(force) = model.particles().pair_force.as_ref() else { return };
-    let (rate, index) = model.largest_friction_rate(force);
     let particles = model.particles();
-    let staged = particles.relaxes_in_two_stages();
-    let most = if particles.splits() { MOST_RELAXATION } else { LIMIT };
+    let Some(force) = particles.pair_force.as_ref() else { return };
     let step = scene.time.step;
-    // A pair alone relaxes exactly in one stage only.
-    let sparse = particles.splits() && !staged && model.most_neighbours(force) < NEIGHBOURS;
-    if rate * step < most || sparse {
-        return;
-    }
-    let found = format!(
-        "{step}, in which friction relaxes the velocities of `{}` {} times over",
-        model.species[index].name,
-        brief(rate * step)
-    );
-    let accepted = format!(
-        "at most {}, beyond which {}, and {:.2e} for reliable results; or less friction",
-        two_digits(most / rate),
-        if staged { "no step was measured" } else { "no such step is stable" },
-        model.friction_limit() / rate
-    );
-    problems.refuse("time.step", found, accepted);
-}
-
-/// Refuses a time step in which repulsion certainly throws neighbours apart.
-pub(crate) fn check_repulsion(scene: &Checked, problems: &mut Problems) {
-    let model = scene.model();
-    let Some(force) = model.particles().pair_force.as_ref() else { return };
-    let (frequency, index) = model.largest_repulsion_frequency(force);
-    let step = scene.time.step;
-    let most = if force.many_body.is_some() { MOST_MANY_BODY_OSCILLATION } else { MOST_OSCILLATION };
     // Particles of a gas meet now and then.
-    if model.most_neighbours(force) < NEIGHBOURS || frequency * step < most {
-        return;
+    let meets = model.most_neighbours(force) >= NEIGHBOURS;
+    let accepted = |most: f64, beyond: &str, reliable: f64, less: &str| {
+        let most = two_digits(most);
+        format!("at most {most}, beyond which {beyond}, and {reliable:.2e} for reliable results; or less {less}")
+    };
+    let (rate, index) = model.largest_friction_rate(force);
+    let (splits, staged) = (particles.splits(), particles.relaxes_in_two_stages());
+    let most = if splits { MOST_RELAXATION } else { LIMIT };
+    // A pair alone relaxes exactly in one stage only.
+    if !force.remembers() && rate * step >= most && (meets || !splits || staged) {
+        let (name, times) = (&model.species[index].name, brief(rate * step));
+        let found = format!("{step}, in which friction relaxes the velocities of `{name}` {times} times over");
+        let beyond = if staged { "no step was measured" } else { "no such step is stable" };
+        problems.refuse("time.step", found, accepted(most / rate, beyond, model.friction_limit() / rate, "friction"));
     }
-    let found = format!(
-        "{step}, in which crowds of `{}` oscillate by {} radians in their repulsion",
-        model.species[index].name,
-        brief(frequency * step)
-    );
-    let accepted = format!(
-        "at most {}, beyond which no such step is stable, and {:.2e} for reliable results; or less repulsion",
-        two_digits(most / frequency),
-        FREQUENCY_LIMIT / frequency
-    );
-    problems.refuse("time.step", found, accepted);
+    let (frequency, index) = model.largest_repulsion_frequency(force);
+    let most = if force.many_body.is_some() { MOST_MANY_BODY_OSCILLATION } else { MOST_OSCILLATION };
+    if frequency * step >= most && meets {
+        let (name, angle) = (&model.species[index].name, brief(frequency * step));
+        let found = format!("{step}, in which crowds of `{name}` oscillate by {angle} radians in their repulsion");
+        let reliable = FREQUENCY_LIMIT / frequency;
+        problems.refuse(
+            "time.step",
+            found,
+            accepted(most / frequency, "no such step is stable", reliable, "repulsion"),
+        );
+    }
 }
 
 /// Warns of a time step near the edge.
 pub(crate) fn warn(scene: &Checked) -> Option<Warning> {
-    let network = Network::of(scene);
-    let mut strains = certain(scene, network.as_ref());
-    strains.extend(possible(scene.model(), network.as_ref()));
-    let worst = worst(&strains).filter(|strain| strain.sum > CLEAN)?;
+    let worst = worst(&at_times(scene)).filter(|strain| strain.sum > CLEAN)?;
     let verdict = if worst.sum >= LIMIT {
         format!("{LIMIT} is the limit of stability, which is passed at times")
     } else {
@@ -194,9 +177,7 @@ pub(crate) fn warn(scene: &Checked) -> Option<Warning> {
 pub(super) fn limits(particles: &Particles, scene: &Checked) -> Vec<Limit> {
     let model = scene.model();
     let step = scene.time.step;
-    let network = Network::of(scene);
-    let mut strains = certain(scene, network.as_ref());
-    strains.extend(possible(model, network.as_ref()));
+    let strains = at_times(scene);
     let strain = strongest(&strains);
     let pairs = particles.pair_force.as_ref();
     let friction = pairs.map_or(0.0, |force| model.largest_friction_rate(force).0);
@@ -205,47 +186,28 @@ pub(super) fn limits(particles: &Particles, scene: &Checked) -> Vec<Limit> {
         Limit { law: "B + W = 4", share: strain / LIMIT, beyond: Beyond::Unstable },
         Limit { law: "oscillation ω dt = 2", share: 0.5 * frequency * step, beyond: Beyond::Unstable },
     ];
-    let biased = |(law, share): (&'static str, f64)| Limit { law, share, beyond: Beyond::Biased };
+    let biased = |law, share| Limit { law, share, beyond: Beyond::Biased };
     match model.relaxation() {
         Some(errors) => {
             let output = &scene.output;
-            let measures_viscosity = output.viscosity.is_some() || output.stress.is_some();
-            limits.extend(of_relaxation(&errors).into_iter().filter_map(|(quantity, law, share)| {
-                // Transport that a scene does not measure bounds nothing of its results.
-                let is_measured = match quantity {
-                    Quantity::Temperature => true,
-                    Quantity::Viscosity => measures_viscosity,
-                    Quantity::Diffusion => output.diffusion.is_some(),
-                };
-                is_measured.then(|| biased((law, share)))
-            }));
+            let of_viscosity = output.viscosity.is_some() || output.stress.is_some();
+            // Transport that a scene does not measure bounds nothing of its results.
+            let laws = [
+                (true, "1 % of the temperature, by friction in one stage", errors.cold),
+                (of_viscosity, "1 % of the viscosity, by friction that a step weakens", errors.viscosity),
+                (output.diffusion.is_some(), "1 % of diffusion, by friction in two stages", errors.slow),
+                (true, "1 % of the temperature, by repulsion", errors.hot),
+            ];
+            let measured = laws.into_iter().filter(|(is_measured, ..)| *is_measured);
+            limits.extend(measured.map(|(_, law, error)| biased(law, error / TOLERANCE)));
         }
-        None => limits.push(biased(("friction Γ dt = 1/4", friction * step / model.friction_limit()))),
+        None => limits.push(biased("friction Γ dt = 1/4", friction * step / model.friction_limit())),
     }
     let cold = cold_by_prediction(&strains, model).abs();
     if cold > 0.0 {
-        limits.push(biased(("1 % of the temperature, by a prediction", cold / TOLERANCE)));
+        limits.push(biased("1 % of the temperature, by a prediction", cold / TOLERANCE));
     }
     limits
-}
-
-/// The errors of a step in units of what is tolerated, with what they are of and what makes them.
-fn of_relaxation(errors: &RelaxationErrors) -> [(Quantity, &'static str, f64); 4] {
-    [
-        (Quantity::Temperature, "1 % of the temperature, by friction in one stage", errors.cold),
-        (Quantity::Viscosity, "1 % of the viscosity, by friction that a step weakens", errors.viscosity),
-        (Quantity::Diffusion, "1 % of diffusion, by friction in two stages", errors.slow),
-        (Quantity::Temperature, "1 % of the temperature, by repulsion", errors.hot),
-    ]
-    .map(|(quantity, law, error)| (quantity, law, error / TOLERANCE))
-}
-
-/// The quantity that an error of relaxation is one of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Quantity {
-    Temperature,
-    Viscosity,
-    Diffusion,
 }
 
 /// B + W of the worst.
@@ -284,10 +246,13 @@ fn certain(scene: &Checked, network: Option<&Network>) -> Vec<Strain> {
     strains
 }
 
-/// The matrix as it may be: chains that are straight, two particles in one place.
-fn possible(model: &Model, network: Option<&Network>) -> Option<Strain> {
-    let bonds = model.particles().bonds.as_ref()?;
-    network?.strain(model, bonds, &|kind| stiffnesses(model, kind))
+/// The same with the matrix as it may be: chains that are straight, two particles in one place.
+fn at_times(scene: &Checked) -> Vec<Strain> {
+    let (model, network) = (scene.model(), Network::of(scene));
+    let mut strains = certain(scene, network.as_ref());
+    let bonds = model.particles().bonds.as_ref().zip(network);
+    strains.extend(bonds.and_then(|(bonds, network)| network.strain(model, bonds, &|kind| stiffnesses(model, kind))));
+    strains
 }
 
 fn place_of(scene: &Scene, wanted: impl Fn(&Interaction) -> bool) -> usize {
@@ -413,9 +378,7 @@ impl Network {
         let bonds = model.particles().bonds.as_ref()?;
         let members = numbered_species(scene, model);
         let seen: Vec<Bond> = bonds.iter().take(MOST_BONDS).collect();
-        let mut particles: Vec<u32> = seen.iter().flat_map(|bond| bond.ends).collect();
-        particles.sort_unstable();
-        particles.dedup();
+        let particles = bonded_particles(&seen);
         let place_of = |end: u32| particles.partition_point(|particle| *particle < end);
         Some(Self {
             bonds: seen.iter().map(|bond| (bond.ends.map(place_of), bond.kind as usize)).collect(),
@@ -463,12 +426,6 @@ impl Network {
 
 /// The largest number of two digits below `value`: at the edge itself nothing is stable.
 fn two_digits(value: f64) -> String {
-    if !(value.is_finite() && value > 0.0) {
-        return "0".to_owned();
-    }
-    let value = value * (1.0 - 1e-9);
-    let magnitude = 10_f64.powf(value.log10().floor() - 1.0);
-    let rounded = (value / magnitude).floor() * magnitude;
-    let number: f64 = format!("{rounded:.1e}").parse().unwrap_or(rounded);
-    if (1e-3..1e6).contains(&number) { format!("{number}") } else { format!("{number:e}") }
+    let value = if value.is_finite() { value } else { 0.0 };
+    brief_step(round_down(value * (1.0 - 1e-9), 2))
 }

@@ -60,25 +60,26 @@ fn warn_of_springs(scene: &Scene, warnings: &mut Vec<Warning>) {
         if !extension.is_finite() || extension == 0.0 {
             continue;
         }
-        let path = format!("interactions[{index}]");
-        if let Some(length) = length.filter(|length| length + NEARLY_ALL * extension > half) {
-            let message = format!(
-                "heat stretches these springs by √(kT/K) = {} about their length at rest of {}, and beyond {}, half the shortest \
-                 edge of the box, they pull towards the next image: take stiffer springs, a lower temperature or a larger box",
-                brief(extension),
+        let too_long = length.filter(|length| length + NEARLY_ALL * extension > half);
+        let is_lost = resolution > FINE_PLACES * extension;
+        let extension = brief(extension);
+        let message = if let Some(length) = too_long {
+            format!(
+                "heat stretches these springs by √(kT/K) = {extension} about their length at rest of {}, and beyond {}, half the \
+                 shortest edge of the box, they pull towards the next image: take stiffer springs, a lower temperature or a larger box",
                 brief(length),
                 brief(half)
-            );
-            warn(warnings, path, message);
-        } else if resolution > FINE_PLACES * extension {
-            let message = format!(
-                "heat stretches these springs by √(kT/K) = {}, and positions are resolved to {}, a 2³²nd of the longest edge of the \
-                 box: rounding heats them; take a smaller box",
-                brief(extension),
+            )
+        } else if is_lost {
+            format!(
+                "heat stretches these springs by √(kT/K) = {extension}, and positions are resolved to {}, a 2³²nd of the longest edge \
+                 of the box: rounding heats them; take a smaller box",
                 brief(resolution)
-            );
-            warn(warnings, path, message);
-        }
+            )
+        } else {
+            continue;
+        };
+        warn(warnings, format!("interactions[{index}]"), message);
     }
 }
 
@@ -101,16 +102,13 @@ fn warn_of_places(scene: &Scene, warnings: &mut Vec<Warning>) {
     if scene.pair_interactions().next().is_none() {
         return;
     }
-    let lists = scene.particles.iter().enumerate().filter_map(|(index, group)| match &group.placement {
-        Placement::Listed { positions } => Some((index, positions)),
-        _ => None,
+    let listed = scene.particles.iter().enumerate().flat_map(|(index, group)| {
+        let positions = if let Placement::Listed { positions } = &group.placement { &positions[..] } else { &[] };
+        positions.iter().map(move |place| (place, index))
     });
-    let mut places: Vec<(Vec<u64>, usize)> = lists
-        .flat_map(|(index, positions)| {
-            // Zero has two signs.
-            positions.iter().map(move |place| (place.iter().map(|part| (part + 0.0).to_bits()).collect(), index))
-        })
-        .collect();
+    // Zero has two signs.
+    let bits = |place: &[f64]| place.iter().map(|part| (part + 0.0).to_bits()).collect();
+    let mut places: Vec<(Vec<u64>, usize)> = listed.map(|(place, index)| (bits(place), index)).collect();
     if let Some(of_file) = scene.start().and_then(|start| start.places.as_ref()) {
         let mut fractions = of_file.positions.clone();
         fractions.sort_unstable();
@@ -188,11 +186,11 @@ fn warn_of_friction(scene: &Checked, force: &PairForce, warnings: &mut Vec<Warni
                 if relaxed < MOST_RELAXATION { ", which `integrator.relaxation=two-stages` does not" } else { "" }
             ),
         ),
-        None if model.particles().relaxes_in_two_stages() => (
-            relaxed > limit,
-            format!("viscosity and diffusion are reliable up to {limit}, a step of {:.2e}", limit / rate),
-        ),
-        None => (relaxed > limit, format!("temperatures are reliable up to {limit}, a step of {:.2e}", limit / rate)),
+        None => {
+            let staged = model.particles().relaxes_in_two_stages();
+            let what = if staged { "viscosity and diffusion" } else { "temperatures" };
+            (relaxed > limit, format!("{what} are reliable up to {limit}, a step of {:.2e}", limit / rate))
+        }
     };
     if exceeds {
         let message = format!(
@@ -229,10 +227,9 @@ fn warn_of_stiffness(scene: &Checked, force: &PairForce, warnings: &mut Vec<Warn
 fn warn_of_rounding(model: &Model, warnings: &mut Vec<Warning>) {
     let units = |momentum: f64| momentum / model.units.momentum;
     let thermal = |species: &Species| units((species.mass * model.particles().pair_temperature(model)).sqrt());
-    let mobile = model.species.iter().filter(|species| species.count > 0 && !species.fixed);
-    let Some(lightest) = mobile.min_by(|a, b| a.mass.total_cmp(&b.mass)) else { return };
-    let mobile = model.species.iter().filter(|species| species.count > 0 && !species.fixed);
-    let cold = mobile.map(thermal).fold(0.0, f64::max) < FEWEST_UNITS;
+    let mobile = || model.species.iter().filter(|species| species.count > 0 && !species.fixed);
+    let Some(lightest) = mobile().min_by(|a, b| a.mass.total_cmp(&b.mass)) else { return };
+    let cold = mobile().map(thermal).fold(0.0, f64::max) < FEWEST_UNITS;
     let alike = model.species.iter().all(|species| species.mass == lightest.mass);
     let advice = if alike || cold {
         "choose a temperature that is nearer to the energies that forces and velocities make"

@@ -103,10 +103,10 @@ impl<'a> Particles<'a> {
 
     /// Groups of chains of some species, of all where none are named, with their masses.
     fn chains(&self, named: Option<&[String]>) -> impl Iterator<Item = (NumberedGroup<'a>, &'a Chain, f64)> {
-        let asked = move |numbered: &&NumberedGroup<'_>| numbered.count > 0 && numbered.group.is_among(named);
-        self.groups.iter().filter(asked).filter_map(|numbered| {
+        let chained = self.scene.chained_groups(named).filter(|(numbered, _)| numbered.count > 0);
+        chained.filter_map(|(numbered, chain)| {
             let mass = mobile_mass(numbered.group.mass, numbered.group.is_held(), self.heaviest)?;
-            Some((*numbered, numbered.group.chain.as_ref()?, mass))
+            Some((numbered, chain, mass))
         })
     }
 

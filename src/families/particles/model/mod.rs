@@ -5,5 +5,5 @@ mod molecules;
 pub(crate) mod topology;
 
 pub(crate) use molecules::Neighbours;
-pub(crate) use topology::Alike;
+pub(crate) use topology::{Alike, bonded_particles};
 pub use topology::{Angle, Bond, ChainGroup, Link, Walks};

@@ -1,7 +1,7 @@
 //! Which particles follow each other along chains: described, however many they are, and listed only where a run needs them.
 
 use super::molecules::{BondedMolecules, molecules};
-use crate::document::{FileLinks, LinkSource, Links, NumberedGroup, Scene, SpeciesNames};
+use crate::document::{Chain, FileLinks, LinkSource, Links, NumberedGroup, Scene, SpeciesNames};
 use crate::families::particles::index_of;
 use crate::families::{Bonds, Species};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -20,6 +20,14 @@ pub struct Link<const LENGTH: usize> {
 pub type Bond = Link<2>;
 /// An angle.
 pub type Angle = Link<3>;
+
+/// The particles that some bonds join, in order.
+pub(crate) fn bonded_particles(bonds: &[Bond]) -> Vec<u32> {
+    let mut members: Vec<u32> = bonds.iter().flat_map(|bond| bond.ends).collect();
+    members.sort_unstable();
+    members.dedup();
+    members
+}
 
 /// Runs of `LENGTH` particles in a row, in order: bonds and angles.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -64,20 +72,14 @@ impl<const LENGTH: usize> Runs<LENGTH> {
             LinkSource::Listed(listed) => vec![Shape::Listed(listed.to_vec())],
             LinkSource::Start(links) => links.into_iter().map(|links| Shape::File(Arc::clone(links))).collect(),
             LinkSource::Chains(named) => {
-                let chains = scene.numbered_groups().filter(|numbered| numbered.group.is_among(named));
-                let shapes = chains.filter_map(|NumberedGroup { group, first, count }| {
-                    let chain = group.chain.as_ref()?;
-                    let beads = u64::from(chain.beads.max(1));
-                    let species = index_of(species, &group.species).unwrap_or(0);
-                    Some(Shape::Chains {
-                        first,
-                        chains: count / beads,
-                        beads,
-                        starts: chain.links(LENGTH as u64),
-                        species,
-                    })
-                });
-                shapes.collect()
+                let shape = |(numbered, chain): (NumberedGroup<'_>, &Chain)| Shape::Chains {
+                    first: numbered.first,
+                    chains: numbered.chains(),
+                    beads: numbered.beads(),
+                    starts: chain.links(LENGTH as u64),
+                    species: index_of(species, &numbered.group.species).unwrap_or(0),
+                };
+                scene.chained_groups(named).map(shape).collect()
             }
         };
         self.stretches.extend(shapes.into_iter().map(|shape| Stretch { kind, shape }));
@@ -223,19 +225,18 @@ pub enum Walks {
 
 /// All groups of chains, or all kinds of molecules that the bonds of a start make.
 pub(crate) fn chain_groups(scene: &Scene, bonds: &Bonds) -> Vec<ChainGroup> {
-    let chained = scene.numbered_groups().filter_map(|NumberedGroup { group, first, count }| {
-        let chain = group.chain.as_ref()?;
-        let beads = chain.beads.max(1);
-        Some(ChainGroup {
-            name: group.species.clone(),
-            chains: (count / u64::from(beads)) as u32,
+    let group = |(numbered, chain): (NumberedGroup<'_>, &Chain)| {
+        let beads = numbered.beads() as u32;
+        ChainGroup {
+            name: numbered.group.species.clone(),
+            chains: numbered.chains() as u32,
             beads,
             linear: !chain.closed || beads <= 2,
             steps: beads,
-            walks: Walks::Consecutive(first as u32),
-        })
-    });
-    let chained: Vec<ChainGroup> = chained.collect();
+            walks: Walks::Consecutive(numbered.first as u32),
+        }
+    };
+    let chained: Vec<ChainGroup> = scene.chained_groups(None).map(group).collect();
     if chained.is_empty() { molecule_groups(scene, bonds) } else { chained }
 }
 

@@ -1,6 +1,6 @@
 //! Checks of layers of frozen particles behind walls.
 
-use crate::document::{Interaction, ParticleGroup, Placement, Problems, Scene, Velocities};
+use crate::document::{Interaction, NumberedGroup, ParticleGroup, Placement, Problems, Scene, Velocities};
 use crate::families::particles::terms;
 
 /// Whether a group makes up a layer behind the walls across an axis.
@@ -80,16 +80,11 @@ fn check_interactions(scene: &Scene, problems: &mut Problems) {
 
 /// Nothing is bonded to what is frozen.
 fn check_members<const LENGTH: usize>(scene: &Scene, members: &[[u32; LENGTH]], path: &str, problems: &mut Problems) {
-    let mut first = 0_u64;
-    let mut frozen = Vec::new();
-    for group in &scene.particles {
-        let end = first.saturating_add(group.resolved_count(&scene.space));
-        if group.is_frozen() {
-            frozen.push(first..end);
-        }
-        first = end;
-    }
-    let held = |number: &u32| frozen.iter().any(|range| range.contains(&u64::from(*number)));
+    let frozen: Vec<_> = scene.numbered_groups().filter(|numbered| numbered.group.is_frozen()).collect();
+    let is_of = |numbered: &NumberedGroup<'_>, number: u32| {
+        u64::from(number).checked_sub(numbered.first).is_some_and(|place| place < numbered.count)
+    };
+    let held = |number: &u32| frozen.iter().any(|numbered| is_of(numbered, *number));
     let caught = members.iter().enumerate().find_map(|(index, ends)| Some((index, ends.iter().find(|end| held(end))?)));
     if let Some((index, number)) = caught {
         let accepted = "particles between the walls: what is frozen takes part in pairs only";

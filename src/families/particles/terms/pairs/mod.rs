@@ -13,7 +13,7 @@ pub(crate) mod surroundings;
 mod time_scales;
 
 pub use many_body::ManyBodyForce;
-pub(crate) use relaxation::{MOST_RELAXATION, RelaxationErrors, TOLERANCE};
+pub(crate) use relaxation::{MOST_RELAXATION, TOLERANCE};
 pub(crate) use scene::check_together;
 pub(crate) use time_scales::FREQUENCY_LIMIT;
 
