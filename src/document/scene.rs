@@ -2,7 +2,7 @@
 
 use super::defaults::whole;
 use super::{
-    DpdInteraction, EarlierRun, FileStart, Generator, Integrator, Interaction, KeptStart, Molecule, NumberedGroup,
+    DpdInteraction, EarlierRun, FileStart, Generator, Integrator, Interaction, KeptStart, MeshFields, Molecule, NumberedGroup,
     Origin, Output, ParticleGroup, Shear, StateFile, StateVelocities, Walls,
 };
 use crate::noise::seed_from_state;
@@ -108,6 +108,11 @@ impl Scene {
     #[must_use]
     pub fn start(&self) -> Option<&Arc<FileStart>> {
         self.kept.get().filter(|_| self.has_start())
+    }
+
+    /// The fields on nodes that its particles carry at the start, where a file has them.
+    pub(crate) fn fields_of_start(&self) -> Option<&MeshFields> {
+        self.start()?.places.as_ref()?.fields.as_deref()
     }
 
     /// Whether a file or molecules say which particles there are, and where they start.

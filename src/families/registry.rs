@@ -70,6 +70,14 @@ pub(crate) fn check_interactions(scene: &Scene, species: &SpeciesNames<'_>, prob
     check_absence(scene, problems);
 }
 
+/// Nodes along x and y of the mesh on which a scene has fields, if it has.
+pub(crate) fn mesh_of(scene: &Scene) -> Option<[u32; 2]> {
+    scene.interactions.iter().find_map(|interaction| match interaction {
+        Interaction::ShallowWater(water) => Some(water.mesh),
+        _ => None,
+    })
+}
+
 fn is_water(interaction: &Interaction) -> bool {
     matches!(interaction, Interaction::ShallowWater(_))
 }
@@ -121,6 +129,7 @@ fn check_absence(scene: &Scene, problems: &mut Problems) {
     let of_chains = "no `chain`, or a scene with the interaction `harmonic-chain`";
     for (key, is_astray, lacking, accepted) in [
         ("fields", output.fields.is_some() && dry, "a mesh", of_water),
+        ("spectra", output.spectra.is_some() && dry, "a mesh", of_water),
         ("neighbours", output.neighbours.is_some() && without_cells, "Voronoi cells", of_cells),
         ("shear_wave", output.shear_wave.is_some() && without_cells, "Voronoi cells", of_cells),
         ("chain", output.chain.is_some() && without_chains, "harmonic chains", of_chains),

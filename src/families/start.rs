@@ -3,7 +3,7 @@
 use super::particles::chains;
 use super::particles::space::layers;
 use crate::document::{FileStart, Generator, ParticleGroup, Placement, StateVelocities, Velocities};
-use crate::families::{Checked, Model};
+use crate::families::{Checked, Model, mesh_of};
 use crate::noise::{self, stream};
 use crate::numbers::grouped;
 use crate::state::{State, crossings};
@@ -34,7 +34,8 @@ pub fn initial_state(scene: &Checked) -> State {
     if let Some(state) = scene.start().and_then(|start| start.places.as_ref()?.state.clone()) {
         return count_turns(state, scene);
     }
-    if let Some(velocities) = scene.start_velocities() {
+    let has_fields = scene.fields_of_start().is_some();
+    if let Some(velocities) = scene.start_velocities().filter(|_| !has_fields) {
         if let Some(start) = scene.start() {
             state = from_file(start, velocities, model);
         }
@@ -55,7 +56,8 @@ pub fn initial_state(scene: &Checked) -> State {
         let count = group.resolved_count(&scene.space) as usize;
         add_group(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
         lattice += usize::from(group.placement.is_lattice());
-        if group.velocities == Velocities::Thermal && !group.is_held() {
+        let draws = scene.start_velocities().is_none_or(|velocities| velocities == StateVelocities::Thermal);
+        if draws && group.velocities == Velocities::Thermal && !group.is_held() {
             thermal.extend(first..first + count);
         }
     }
@@ -89,7 +91,8 @@ pub fn start_in_words(scene: &Checked) -> Option<String> {
     }
     let remembers = model.has_memory() || model.particles().coloured_noise.is_some();
     let forgets = if remembers { "; what baths remember is drawn anew" } else { "" };
-    Some(format!("particles of `{file}`, with noise of its own{forgets}; `step` and `time` are counted from 0"))
+    let what = if mesh_of(scene).is_some() { "fields" } else { "particles" };
+    Some(format!("{what} of `{file}`, with noise of its own{forgets}; `step` and `time` are counted from 0"))
 }
 
 /// Completes a state whose particles have places and momenta; `thermal` are those whose momenta were drawn.

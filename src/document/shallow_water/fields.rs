@@ -9,6 +9,9 @@ use serde::{Deserialize, Serialize};
 pub struct Fields {
     /// Steps between two numbered pictures and arrays; zero writes them only at the end.
     pub every: u64,
+    /// The format of the arrays.
+    #[serde(skip_serializing_if = "FieldFormat::is_default")]
+    pub format: FieldFormat,
     /// Which fields.
     #[schemars(length(max = 16))]
     pub quantities: Vec<FieldQuantity>,
@@ -19,7 +22,24 @@ pub struct Fields {
 impl Default for Fields {
     fn default() -> Self {
         let quantities = vec![FieldQuantity::Depth, FieldQuantity::PotentialVorticity];
-        Self { every: 0, quantities, ranges: FieldRanges::default() }
+        Self { every: 0, format: FieldFormat::default(), quantities, ranges: FieldRanges::default() }
+    }
+}
+
+/// The format of arrays of fields.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FieldFormat {
+    /// A `.npy` file of `NumPy` of every field and time (default); the first index is that of x.
+    #[default]
+    Npy,
+    /// A NetCDF file of all fields of a time, with their coordinates and the names of the CF conventions: `fields.nc`, and numbered ones.
+    Netcdf,
+}
+
+impl FieldFormat {
+    fn is_default(&self) -> bool {
+        *self == Self::default()
     }
 }
 

@@ -67,8 +67,9 @@ impl ShallowWater {
         };
         let carriers: u64 = count(false).sum();
         let mut waters = scene.particles.iter().filter(|group| !group.tracer);
-        let starts_still =
-            interaction.surface.is_empty() && waters.all(|group| matches!(group.velocities, Velocities::Thermal));
+        let starts_still = scene.state.is_none()
+            && interaction.surface.is_empty()
+            && waters.all(|group| matches!(group.velocities, Velocities::Thermal));
         let tracers = scene.particles.iter().filter(|group| group.tracer).zip(count(true));
         let nodes = f64::from(interaction.mesh[0]) * f64::from(interaction.mesh[1]);
         let heaviest = LARGEST_DEPTH * nodes / carriers.max(1) as f64;

@@ -2,6 +2,7 @@
 //! says.
 
 mod checkpoint;
+mod fields;
 mod molecules;
 mod places;
 mod weight;
@@ -39,6 +40,9 @@ pub(super) fn read(
     let mut problems = Problems::default();
     if !scene.has_start() {
         return Ok(problems);
+    }
+    if let (Some(state), Some(mesh)) = (scene.state.clone(), families::mesh_of(scene)) {
+        return fields::read(scene, &state, mesh, &files.path(name, &state.file), files);
     }
     check_scene(scene, &mut problems);
     if !problems.is_empty() {

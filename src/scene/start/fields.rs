@@ -1,0 +1,219 @@
+//! A start from fields on the nodes of a mesh: depth and velocities of `.npz` and NetCDF files.
+
+use super::{FileStart, KeptStart, Origin, Problems, Scene, SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities, shared};
+use crate::document::{FilePlaces, MeshFields, OutsidePositions, ParticleGroup, Velocities, brief};
+use crate::numbers::counted;
+use crate::state_file::arrays::{Array, ArrayFile};
+use crate::state_file::{Mistake, quoted};
+use std::path::Path;
+use std::sync::Arc;
+
+/// The names of a field in a file: the one that runs write, and the letter of equations.
+const DEPTH: [&str; 2] = ["depth", "h"];
+const VELOCITY: [[&str; 2]; 2] = [["velocity_x", "u"], ["velocity_y", "v"]];
+
+/// How far the mean depth of a file may be from 1, the mean of all scenes.
+const MEAN: f64 = 1e-4;
+
+/// Reads the fields of a scene on a mesh of so many nodes, and completes the scene by the checksum.
+///
+/// # Errors
+/// [`SceneError::StateChanged`] if the file is not what it was.
+pub(super) fn read(scene: &mut Scene, state: &StateFile, mesh: [u32; 2], path: &Path, files: &StateFiles) -> Result<Problems, SceneError> {
+    let mut problems = Problems::default();
+    check_scene(scene, state, &mut problems);
+    let mesh = mesh.map(|nodes| nodes as usize);
+    let fields = match fields(path, state, mesh) {
+        Ok(fields) => fields,
+        Err(mistakes) if files.known(state).is_some() => {
+            let reason = mistakes.first().map(|mistake| mistake.found.clone()).unwrap_or_default();
+            return Err(SceneError::StateChanged { path: path.to_path_buf(), reason });
+        }
+        Err(mistakes) => {
+            super::refuse(state, mistakes, &mut problems);
+            return Ok(problems);
+        }
+    };
+    let checksum = checksum(&fields);
+    files.check(path, state, &checksum)?;
+    if let Some(stated) = state.checksum.as_ref().filter(|stated| **stated != checksum) {
+        let accepted = format!("{checksum}, that of what was read, or no `checksum`");
+        problems.refuse("state.checksum", format!("\"{stated}\""), accepted);
+    }
+    if !problems.is_empty() {
+        return Ok(problems);
+    }
+    if let Some(state) = &mut scene.state {
+        state.checksum = Some(checksum);
+    }
+    let names = SpeciesNames::of(scene);
+    let fastest = fields.velocity.iter().flatten().flatten().fold(0.0, |most: f64, part| most.max(part.abs()));
+    let places = FilePlaces { fields: Some(Arc::new(fields)), ..FilePlaces::default() };
+    let start = FileStart {
+        copies: [1; 3],
+        // The groups of the scene say how many particles there are.
+        species: Vec::new(),
+        fastest: vec![fastest; names.count()],
+        bonds: Vec::new(),
+        angles: Vec::new(),
+        surroundings: None,
+        origin: Some(Origin::Anew),
+        places: Some(places),
+    };
+    scene.kept = KeptStart::of(shared(start));
+    Ok(problems)
+}
+
+/// What a scene of water with a file has to be, whatever the file says.
+fn check_scene(scene: &Scene, state: &StateFile, problems: &mut Problems) {
+    let keys = [
+        ("replicate", !state.replicate.is_empty()),
+        ("atom_style", state.atom_style.is_some()),
+        ("outside", state.outside != OutsidePositions::Refuse),
+    ];
+    for (key, _) in keys.iter().filter(|(_, given)| *given) {
+        let accepted = format!("no `{key}`: fields have a value on every node");
+        problems.refuse(format!("state.{key}"), "in a scene that starts from fields", accepted);
+    }
+    for (index, group) in scene.particles.iter().enumerate() {
+        let ParticleGroup { velocities, file_type, .. } = group;
+        if *velocities != Velocities::Thermal {
+            let accepted = "no `velocities`: `state.velocities` is `file`, `thermal` or `rest` for all particles";
+            problems.refuse(format!("particles[{index}].velocities"), "beside a `state`", accepted);
+        }
+        if file_type.is_some() {
+            let accepted = "no `type`: fields have no particles";
+            problems.refuse(format!("particles[{index}].type"), "in a scene that starts from fields", accepted);
+        }
+    }
+}
+
+/// The fields of a file, of which all mistakes are found.
+fn fields(path: &Path, state: &StateFile, mesh: [usize; 2]) -> Result<MeshFields, Vec<Mistake>> {
+    let file = ArrayFile::open(path).map_err(|mistake| vec![mistake])?;
+    let mut mistakes = Vec::new();
+    let names = file.names();
+    let mut field = |known: [&str; 2]| {
+        let read = match known.iter().find(|name| names.contains(name)) {
+            Some(name) => file.read(name).and_then(|array| on_nodes(array, name, state.frame, mesh)),
+            None => {
+                let found = match &names[..] {
+                    [] => "the file has no arrays".to_owned(),
+                    _ => format!("its arrays are {}", quoted(names.iter().copied())),
+                };
+                let [name, letter] = known;
+                Err(Mistake::new("", found, format!("an array `{name}` or `{letter}` among them")))
+            }
+        };
+        read.map_err(|mistake| mistakes.push(mistake)).ok()
+    };
+    let depth = field(DEPTH);
+    let velocity = match state.velocities {
+        StateVelocities::File => VELOCITY.map(&mut field),
+        StateVelocities::Thermal | StateVelocities::Rest => [const { None }; 2],
+    };
+    if let Some(depth) = &depth {
+        mistakes.extend(wrong_depth(depth, mesh[0]));
+    }
+    match depth {
+        Some(depth) if mistakes.is_empty() => {
+            let [along_x, along_y] = velocity;
+            Ok(MeshFields { depth, velocity: along_x.zip(along_y).map(|(x, y)| [x, y]) })
+        }
+        _ => Err(mistakes),
+    }
+}
+
+/// The place of a node in words.
+fn node(index: usize, columns: usize) -> String {
+    format!("node ({}, {})", index % columns, index / columns)
+}
+
+/// The values of a frame, those of neighbours along x next to each other.
+fn on_nodes(array: Array, name: &str, frame: i64, mesh: [usize; 2]) -> Result<Vec<f64>, Mistake> {
+    let place = format!("array `{name}`");
+    let [columns, rows] = mesh;
+    let Array { shape, dimensions, values } = array;
+    let Some((frames, nodes)) = shape.len().checked_sub(2).filter(|before| *before <= 1).map(|at| shape.split_at(at)) else {
+        let accepted = format!("two dimensions of {columns} and {rows} nodes, or three with that of time before them");
+        return Err(Mistake::new(place, format!("found {}", counted(shape.len() as u64, "dimension")), accepted));
+    };
+    let x_first = match dimensions.get(dimensions.len().saturating_sub(2)..) {
+        // Without names the order is that of the arrays of runs.
+        None | Some([]) => true,
+        Some(named) => match named.iter().map(|name| axis(name)).collect::<Vec<_>>()[..] {
+            [Some(0), Some(1)] => true,
+            [Some(1), Some(0)] => false,
+            _ => {
+                let accepted = "dimensions whose names begin with y and x (or lat and lon, j and i), which tell the axes apart";
+                return Err(Mistake::new(place, format!("its dimensions are {}", quoted(named.iter().map(String::as_str))), accepted));
+            }
+        },
+    };
+    let expected = if x_first { [columns, rows] } else { [rows, columns] };
+    if nodes != expected {
+        let [first, second] = expected;
+        let order = if x_first { "along x and y" } else { "along y and x" };
+        let accepted = format!("{first} × {second} nodes {order}, those of the mesh of the scene");
+        return Err(Mistake::new(place, format!("found {} × {} nodes", nodes[0], nodes[1]), accepted));
+    }
+    let frames = frames.first().copied().unwrap_or(1);
+    let chosen = if frame < 0 { frame + frames as i64 } else { frame };
+    let Some(chosen) = usize::try_from(chosen).ok().filter(|chosen| *chosen < frames) else {
+        let accepted = if frames == 0 {
+            "a file with a frame".to_owned()
+        } else {
+            format!("0 to {}, or -1 to -{frames} from the end: the array has {}", frames - 1, counted(frames as u64, "frame"))
+        };
+        return Err(Mistake::new(place, format!("found frame {frame}"), accepted));
+    };
+    let values = &values[chosen * columns * rows..][..columns * rows];
+    let at = |index: usize| if x_first { index % columns * rows + index / columns } else { index };
+    let values: Vec<f64> = (0..values.len()).map(|index| values[at(index)]).collect();
+    let mut strange = values.iter().enumerate().filter(|(_, value)| !value.is_finite());
+    if let Some((index, value)) = strange.next() {
+        let more = match strange.count() {
+            0 => String::new(),
+            others => format!(", and on {others} others"),
+        };
+        let found = format!("found {value} on {}{more}", node(index, columns));
+        return Err(Mistake::new(place, found, "a finite number on every node"));
+    }
+    Ok(values)
+}
+
+/// The axis that a dimension runs along, by its name.
+fn axis(name: &str) -> Option<usize> {
+    let name = name.to_lowercase();
+    match name.chars().next()? {
+        'x' | 'i' => Some(0),
+        'y' | 'j' => Some(1),
+        'l' if name.starts_with("lon") => Some(0),
+        'l' if name.starts_with("lat") => Some(1),
+        _ => None,
+    }
+}
+
+/// What keeps a finite depth from being one of water.
+fn wrong_depth(depth: &[f64], columns: usize) -> Vec<Mistake> {
+    let place = "the depth";
+    let mean = depth.iter().sum::<f64>() / depth.len().max(1) as f64;
+    let mut mistakes = Vec::new();
+    let least = depth.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1));
+    if let Some((index, least)) = least.filter(|(_, least)| **least <= 0.0) {
+        let found = format!("found {} on {}, the lowest", brief(*least), node(index, columns));
+        mistakes.push(Mistake::new(place, found, "a depth above 0 on every node"));
+    } else if (mean - 1.0).abs() > MEAN {
+        let accepted = format!("a mean of 1, to {MEAN}: divide the depth by {mean} if that is how deep the water is, and velocities by the unit that follows");
+        mistakes.push(Mistake::new(place, format!("found a mean of {}", brief(mean)), accepted));
+    }
+    mistakes
+}
+
+fn checksum(fields: &MeshFields) -> String {
+    let mut sum = crc32fast::Hasher::new();
+    for values in std::iter::once(&fields.depth).chain(fields.velocity.iter().flatten()) {
+        sum.update(bytemuck::cast_slice(values));
+    }
+    format!("{:08x}", sum.finalize())
+}
