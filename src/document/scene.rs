@@ -2,8 +2,8 @@
 
 use super::defaults::whole;
 use super::{
-    DpdInteraction, EarlierRun, FileStart, Generator, Integrator, Interaction, KeptStart, MeshFields, Molecule, NumberedGroup,
-    Origin, Output, ParticleGroup, Shear, StateFile, StateVelocities, Walls,
+    DpdInteraction, EarlierRun, FileStart, Generator, Integrator, Interaction, KeptStart, MeshFields, Molecule,
+    NumberedGroup, Origin, Output, ParticleGroup, Shear, StateFile, StateVelocities, Walls,
 };
 use crate::noise::seed_from_state;
 use schemars::JsonSchema;

@@ -35,7 +35,8 @@ pub fn initial_state(scene: &Checked) -> State {
         return count_turns(state, scene);
     }
     let has_fields = scene.fields_of_start().is_some();
-    if let Some(velocities) = scene.start_velocities().filter(|_| !has_fields) {
+    let of_run = scene.start().and_then(|start| start.places.as_ref()).filter(|places| !places.masses.is_empty());
+    if let Some(velocities) = scene.start_velocities().filter(|_| !has_fields && of_run.is_none()) {
         if let Some(start) = scene.start() {
             state = from_file(start, velocities, model);
         }
@@ -59,6 +60,13 @@ pub fn initial_state(scene: &Checked) -> State {
         let draws = scene.start_velocities().is_none_or(|velocities| velocities == StateVelocities::Thermal);
         if draws && group.velocities == Velocities::Thermal && !group.is_held() {
             thermal.extend(first..first + count);
+        }
+    }
+    if let Some(places) = of_run {
+        state.positions.clone_from(&places.positions);
+        state.masses.clone_from(&places.masses);
+        for (momentum, velocity) in state.momenta.iter_mut().zip(&places.velocities) {
+            *momentum = velocity.map(|part| to_units(part, model));
         }
     }
     complete(state, scene, &thermal)
@@ -91,7 +99,7 @@ pub fn start_in_words(scene: &Checked) -> Option<String> {
     }
     let remembers = model.has_memory() || model.particles().coloured_noise.is_some();
     let forgets = if remembers { "; what baths remember is drawn anew" } else { "" };
-    let what = if mesh_of(scene).is_some() { "fields" } else { "particles" };
+    let what = if mesh_of(scene).is_some() { "water" } else { "particles" };
     Some(format!("{what} of `{file}`, with noise of its own{forgets}; `step` and `time` are counted from 0"))
 }
 

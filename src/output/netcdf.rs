@@ -91,8 +91,7 @@ impl NetcdfFile {
         // Where variables begin follows from the length of the header, which does not depend on it.
         let length = self.header(0).len();
         writer.write_all(&self.header(length as u64))?;
-        let (of_records, others): (Vec<_>, Vec<_>) =
-            self.variables.iter().partition(|variable| has_records(variable));
+        let (of_records, others): (Vec<_>, Vec<_>) = self.variables.iter().partition(|variable| has_records(variable));
         for variable in others {
             write_values(writer, &variable.values)?;
         }
@@ -112,11 +111,13 @@ impl NetcdfFile {
 
     fn check(&self) -> io::Result<()> {
         for variable in &self.variables {
-            let lengths = variable.dimensions.iter().map(|place| self.dimensions.get(*place).map(|(_, length)| *length));
+            let lengths =
+                variable.dimensions.iter().map(|place| self.dimensions.get(*place).map(|(_, length)| *length));
             let held = lengths.collect::<Option<Vec<usize>>>().map(|lengths| lengths.iter().product());
             let orderly = variable.dimensions.iter().skip(1).all(|place| *place != 0);
             if held != Some(variable.values.len()) || !orderly {
-                let message = format!("{} values of `{}` do not fill its dimensions", variable.values.len(), variable.name);
+                let message =
+                    format!("{} values of `{}` do not fill its dimensions", variable.values.len(), variable.name);
                 return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
             }
         }
@@ -142,7 +143,8 @@ impl NetcdfFile {
         let mut next = begin;
         let mut begins = vec![0; self.variables.len()];
         for records in [false, true] {
-            for (place, variable) in self.variables.iter().enumerate().filter(|(_, known)| has_records(known) == records)
+            for (place, variable) in
+                self.variables.iter().enumerate().filter(|(_, known)| has_records(known) == records)
             {
                 begins[place] = next;
                 next += bytes(variable);

@@ -75,6 +75,7 @@ fn netcdf(fields: &[&ShownField], pictures: &MeshPictures, scene: &Scene, step: 
             values: places.map(|place| shown.field.values[place]).collect(),
         }
     }));
-    let dimensions = [("time", 1), ("y", rows), ("x", columns)].map(|(name, length)| (name.to_owned(), length)).to_vec();
+    let dimensions =
+        [("time", 1), ("y", rows), ("x", columns)].map(|(name, length)| (name.to_owned(), length)).to_vec();
     NetcdfFile { dimensions, attributes, variables }
 }

@@ -47,9 +47,8 @@ pub(super) fn carry(water: &ShallowWater, state: &mut State, fields: &MeshFields
         let depth = places.spread(|particle| masses[particle]);
         let share = |of: &[f64]| places.spread(|particle| masses[particle] * places.gather(of, particle));
         let fastest = velocity.iter().map(|component| largest(component)).fold(0.0, f64::max);
-        let is_near = |rest: &[f64]| {
-            rest.iter().zip(&depth).all(|(rest, depth)| rest.abs() <= TOLERANCE * fastest * depth)
-        };
+        let is_near =
+            |rest: &[f64]| rest.iter().zip(&depth).all(|(rest, depth)| rest.abs() <= TOLERANCE * fastest * depth);
         for (axis, component) in velocity.iter().enumerate() {
             let momentum: Vec<f64> = component.iter().zip(&depth).map(|(velocity, depth)| velocity * depth).collect();
             let of_nodes = solved(&share, &momentum, component.clone(), &is_near);
@@ -63,7 +62,13 @@ pub(super) fn carry(water: &ShallowWater, state: &mut State, fields: &MeshFields
 }
 
 /// Refuses fields that the particles of a scene cannot have.
-pub(super) fn check(water: &ShallowWater, scene: &Checked, state: &State, fields: &MeshFields, problems: &mut Problems) {
+pub(super) fn check(
+    water: &ShallowWater,
+    scene: &Checked,
+    state: &State,
+    fields: &MeshFields,
+    problems: &mut Problems,
+) {
     if water.carriers == 0 {
         return;
     }
@@ -75,7 +80,10 @@ pub(super) fn check(water: &ShallowWater, scene: &Checked, state: &State, fields
     // NaN is no distance.
     for (what, unit, distance) in [("depth", "the mean depth", depth), ("velocity", "the largest velocity", velocity)] {
         if !(distance <= LARGEST_DISTANCE) {
-            let found = format!("a {what} on the nodes that no masses and velocities of these particles have: they miss it by {} of {unit}", brief(distance));
+            let found = format!(
+                "a {what} on the nodes that no masses and velocities of these particles have: they miss it by {} of {unit}",
+                brief(distance)
+            );
             problems.refuse("state.file", found, accepted.clone());
         }
     }
@@ -88,7 +96,10 @@ pub(super) fn distances(water: &ShallowWater, model: &Model, state: &State, fiel
     let depth = smoothing(water, model).apply(&deviation);
     let apart = |a: &[f64], b: &[f64]| {
         // NaN is further than anything.
-        a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, |most: f64, apart| if apart <= most { most } else { apart })
+        a.iter()
+            .zip(b)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, |most: f64, apart| if apart <= most { most } else { apart })
     };
     let depth = apart(&depth, &fields.depth.iter().map(|depth| depth - 1.0).collect::<Vec<_>>());
     let velocity = fields.velocity.as_ref().map_or(0.0, |velocity| {

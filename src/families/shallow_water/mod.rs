@@ -17,6 +17,7 @@ mod start;
 mod steady;
 pub mod surface;
 mod warnings;
+mod waves;
 
 pub use layout::{Bins, WaterLayout};
 pub use plan::smoothing;

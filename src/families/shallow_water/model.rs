@@ -267,7 +267,7 @@ pub(crate) fn chebyshev_iterations(stiffness: [f64; 2], tolerance: f64) -> f64 {
 }
 
 /// Fourier symbols of ∫ψψ and of ∫ψ'ψ' of B-splines on a unit mesh, at an angle a node.
-fn spline_symbols(order: u32, angle: f64) -> (f64, f64) {
+pub(super) fn spline_symbols(order: u32, angle: f64) -> (f64, f64) {
     let linear = (4.0 + 2.0 * angle.cos()) / 6.0;
     let quadratic = (66.0 + 52.0 * angle.cos() + 2.0 * (2.0 * angle).cos()) / 120.0;
     let cubic = (2416.0 + 2382.0 * angle.cos() + 240.0 * (2.0 * angle).cos() + 2.0 * (3.0 * angle).cos()) / 5040.0;

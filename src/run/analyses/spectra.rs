@@ -44,9 +44,8 @@ impl Descriptor for Spectra {
         let shells = model.physics().wave_shells(model);
         let width = COLUMNS.len();
         let rows = shells.iter().enumerate().map(|(place, shell)| {
-            let cells = (0..width).flat_map(|column| {
-                sums.mean(|row| row[width * place + column]).map_or([f64::NAN; 2], Estimate::cells)
-            });
+            let cells = (0..width)
+                .flat_map(|column| sums.mean(|row| row[width * place + column]).map_or([f64::NAN; 2], Estimate::cells));
             [shell.wave_number, shell.modes as f64].into_iter().chain(cells).collect()
         });
         let columns = COLUMNS.iter().flat_map(|column| [(*column).to_owned(), format!("{column}_error")]);
@@ -73,11 +72,14 @@ impl Descriptor for Spectra {
             Series::line(name, shown.map(|(wave_number, value)| [wave_number, value]).collect())
                 .with_ink(SeriesInk::Numbered(ink))
         };
-        let panel = |y: &str| Panel { x: Axis::log("Wave number (1/length unit)"), y: Axis::log(y), ..Panel::default() };
+        let panel =
+            |y: &str| Panel { x: Axis::log("Wave number (1/length unit)"), y: Axis::log(y), ..Panel::default() };
         let [kinetic, potential, of_potential, plain] = COLUMNS;
-        let energy = panel("Energy of a shell (energy units)")
-            .with(series(kinetic, "kinetic", 0))
-            .with(series(potential, "potential", 1));
+        let energy = panel("Energy of a shell (energy units)").with(series(kinetic, "kinetic", 0)).with(series(
+            potential,
+            "potential",
+            1,
+        ));
         let enstrophy = panel("Enstrophy of a shell (1/time unit²)")
             .with(series(of_potential, "potential enstrophy", 2))
             .with(series(plain, "enstrophy", 3));

@@ -1,10 +1,15 @@
-//! A start from fields on the nodes of a mesh: depth and velocities of `.npz` and NetCDF files.
+//! A start of water: from depth and velocities on the nodes of a mesh, of `.npz` and NetCDF files, or from the particles of an earlier run.
 
-use super::{FileStart, KeptStart, Origin, Problems, Scene, SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities, shared};
+use super::{
+    FileStart, KeptStart, Origin, Problems, Scene, SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities,
+    checkpoint, shared,
+};
 use crate::document::{FilePlaces, MeshFields, OutsidePositions, ParticleGroup, Velocities, brief};
+use crate::families;
 use crate::numbers::counted;
+use crate::state::State;
 use crate::state_file::arrays::{Array, ArrayFile};
-use crate::state_file::{Mistake, quoted};
+use crate::state_file::{self, Mistake, quoted};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -19,12 +24,22 @@ const MEAN: f64 = 1e-4;
 ///
 /// # Errors
 /// [`SceneError::StateChanged`] if the file is not what it was.
-pub(super) fn read(scene: &mut Scene, state: &StateFile, mesh: [u32; 2], path: &Path, files: &StateFiles) -> Result<Problems, SceneError> {
+pub(super) fn read(
+    scene: &mut Scene,
+    state: &StateFile,
+    mesh: [u32; 2],
+    path: &Path,
+    files: &StateFiles,
+) -> Result<Problems, SceneError> {
     let mut problems = Problems::default();
     check_scene(scene, state, &mut problems);
-    let mesh = mesh.map(|nodes| nodes as usize);
-    let fields = match fields(path, state, mesh) {
-        Ok(fields) => fields,
+    let read = match checkpoint::of(path) {
+        Some(checkpoint) => places_of_run(scene, &checkpoint, state, mesh).map_err(|mistake| vec![mistake]),
+        None => fields(path, state, mesh.map(|nodes| nodes as usize))
+            .map(|fields| FilePlaces { fields: Some(Arc::new(fields)), ..FilePlaces::default() }),
+    };
+    let places = match read {
+        Ok(places) => places,
         Err(mistakes) if files.known(state).is_some() => {
             let reason = mistakes.first().map(|mistake| mistake.found.clone()).unwrap_or_default();
             return Err(SceneError::StateChanged { path: path.to_path_buf(), reason });
@@ -34,7 +49,7 @@ pub(super) fn read(scene: &mut Scene, state: &StateFile, mesh: [u32; 2], path: &
             return Ok(problems);
         }
     };
-    let checksum = checksum(&fields);
+    let checksum = checksum(&places);
     files.check(path, state, &checksum)?;
     if let Some(stated) = state.checksum.as_ref().filter(|stated| **stated != checksum) {
         let accepted = format!("{checksum}, that of what was read, or no `checksum`");
@@ -47,8 +62,9 @@ pub(super) fn read(scene: &mut Scene, state: &StateFile, mesh: [u32; 2], path: &
         state.checksum = Some(checksum);
     }
     let names = SpeciesNames::of(scene);
-    let fastest = fields.velocity.iter().flatten().flatten().fold(0.0, |most: f64, part| most.max(part.abs()));
-    let places = FilePlaces { fields: Some(Arc::new(fields)), ..FilePlaces::default() };
+    let of_nodes = places.fields.iter().flat_map(|fields| fields.velocity.iter().flatten().flatten());
+    let components = of_nodes.chain(places.velocities.iter().flatten());
+    let fastest = components.fold(0.0, |most: f64, part| most.max(part.abs()));
     let start = FileStart {
         copies: [1; 3],
         // The groups of the scene say how many particles there are.
@@ -86,6 +102,48 @@ fn check_scene(scene: &Scene, state: &StateFile, problems: &mut Problems) {
             problems.refuse(format!("particles[{index}].type"), "in a scene that starts from fields", accepted);
         }
     }
+}
+
+/// Particles, masses and velocities of an earlier run on the same mesh, whose scene may differ in all else that acts on them.
+fn places_of_run(
+    scene: &mut Scene,
+    checkpoint: &Path,
+    state: &StateFile,
+    mesh: [u32; 2],
+) -> Result<FilePlaces, Mistake> {
+    state_file::only_frame(state.frame)?;
+    let run = checkpoint::run(checkpoint, &|_| Ok(()))?;
+    let theirs = run.scene();
+    match families::mesh_of(theirs) {
+        Some(found) if found == mesh => {}
+        Some([columns, rows]) => {
+            let accepted = format!("a run on {} × {} nodes, the mesh of the scene", mesh[0], mesh[1]);
+            return Err(Mistake::new("", format!("found a run on {columns} × {rows} nodes"), accepted));
+        }
+        None => return Err(Mistake::new("", "found a run without a mesh", "a run of the same kind of scene")),
+    }
+    if scene.space.lengths.is_empty() {
+        scene.space.lengths.clone_from(&theirs.space.lengths);
+    }
+    if scene.space.lengths != theirs.space.lengths {
+        let accepted = format!("a run in the box {:?} of the scene, or no `space`", scene.space.lengths);
+        return Err(Mistake::new("", format!("found a run in the box {:?}", theirs.space.lengths), accepted));
+    }
+    let groups = |scene: &Scene| -> Vec<(bool, u64)> {
+        scene.particles.iter().map(|group| (group.tracer, group.resolved_count(&scene.space))).collect()
+    };
+    let [own, other] = [groups(scene), groups(theirs)];
+    if own != other {
+        let numbers = |groups: &[(bool, u64)]| {
+            let of_group = |(tracer, count): &(bool, u64)| format!("{count}{}", if *tracer { " tracers" } else { "" });
+            groups.iter().map(of_group).collect::<Vec<_>>().join(", ")
+        };
+        let accepted = format!("groups as in the scene: {}", numbers(&own));
+        return Err(Mistake::new("", format!("found groups of {} particles", numbers(&other)), accepted));
+    }
+    let velocities = if state.velocities == StateVelocities::File { run.velocities()? } else { Vec::new() };
+    let State { positions, masses, .. } = run.state();
+    Ok(FilePlaces { positions, velocities, masses, ..FilePlaces::default() })
 }
 
 /// The fields of a file, of which all mistakes are found.
@@ -134,7 +192,8 @@ fn on_nodes(array: Array, name: &str, frame: i64, mesh: [usize; 2]) -> Result<Ve
     let place = format!("array `{name}`");
     let [columns, rows] = mesh;
     let Array { shape, dimensions, values } = array;
-    let Some((frames, nodes)) = shape.len().checked_sub(2).filter(|before| *before <= 1).map(|at| shape.split_at(at)) else {
+    let Some((frames, nodes)) = shape.len().checked_sub(2).filter(|before| *before <= 1).map(|at| shape.split_at(at))
+    else {
         let accepted = format!("two dimensions of {columns} and {rows} nodes, or three with that of time before them");
         return Err(Mistake::new(place, format!("found {}", counted(shape.len() as u64, "dimension")), accepted));
     };
@@ -145,8 +204,13 @@ fn on_nodes(array: Array, name: &str, frame: i64, mesh: [usize; 2]) -> Result<Ve
             [Some(0), Some(1)] => true,
             [Some(1), Some(0)] => false,
             _ => {
-                let accepted = "dimensions whose names begin with y and x (or lat and lon, j and i), which tell the axes apart";
-                return Err(Mistake::new(place, format!("its dimensions are {}", quoted(named.iter().map(String::as_str))), accepted));
+                let accepted =
+                    "dimensions whose names begin with y and x (or lat and lon, j and i), which tell the axes apart";
+                return Err(Mistake::new(
+                    place,
+                    format!("its dimensions are {}", quoted(named.iter().map(String::as_str))),
+                    accepted,
+                ));
             }
         },
     };
@@ -163,7 +227,11 @@ fn on_nodes(array: Array, name: &str, frame: i64, mesh: [usize; 2]) -> Result<Ve
         let accepted = if frames == 0 {
             "a file with a frame".to_owned()
         } else {
-            format!("0 to {}, or -1 to -{frames} from the end: the array has {}", frames - 1, counted(frames as u64, "frame"))
+            format!(
+                "0 to {}, or -1 to -{frames} from the end: the array has {}",
+                frames - 1,
+                counted(frames as u64, "frame")
+            )
         };
         return Err(Mistake::new(place, format!("found frame {frame}"), accepted));
     };
@@ -204,16 +272,23 @@ fn wrong_depth(depth: &[f64], columns: usize) -> Vec<Mistake> {
         let found = format!("found {} on {}, the lowest", brief(*least), node(index, columns));
         mistakes.push(Mistake::new(place, found, "a depth above 0 on every node"));
     } else if (mean - 1.0).abs() > MEAN {
-        let accepted = format!("a mean of 1, to {MEAN}: divide the depth by {mean} if that is how deep the water is, and velocities by the unit that follows");
+        let accepted = format!(
+            "a mean of 1, to {MEAN}: divide the depth by {mean} if that is how deep the water is, and velocities by the unit that follows"
+        );
         mistakes.push(Mistake::new(place, format!("found a mean of {}", brief(mean)), accepted));
     }
     mistakes
 }
 
-fn checksum(fields: &MeshFields) -> String {
+fn checksum(places: &FilePlaces) -> String {
     let mut sum = crc32fast::Hasher::new();
-    for values in std::iter::once(&fields.depth).chain(fields.velocity.iter().flatten()) {
-        sum.update(bytemuck::cast_slice(values));
+    if let Some(fields) = &places.fields {
+        for values in std::iter::once(&fields.depth).chain(fields.velocity.iter().flatten()) {
+            sum.update(bytemuck::cast_slice(values));
+        }
     }
+    sum.update(bytemuck::cast_slice(&places.positions));
+    sum.update(bytemuck::cast_slice(&places.masses));
+    sum.update(bytemuck::cast_slice(&places.velocities));
     format!("{:08x}", sum.finalize())
 }

@@ -87,8 +87,15 @@ fn of_array(name: &str) -> String {
 
 /// Numbers of so many bytes each, of which the first is the most significant one or the last.
 fn numbers_of(bytes: &[u8], size: usize, big_endian: bool) -> Vec<f64> {
-    let single = |word: &[u8]| word.try_into().map_or(f64::NAN, |word| f64::from(if big_endian { f32::from_be_bytes(word) } else { f32::from_le_bytes(word) }));
-    let double = |word: &[u8]| word.try_into().map_or(f64::NAN, |word| if big_endian { f64::from_be_bytes(word) } else { f64::from_le_bytes(word) });
+    let single = |word: &[u8]| {
+        word.try_into().map_or(f64::NAN, |word| {
+            f64::from(if big_endian { f32::from_be_bytes(word) } else { f32::from_le_bytes(word) })
+        })
+    };
+    let double = |word: &[u8]| {
+        word.try_into()
+            .map_or(f64::NAN, |word| if big_endian { f64::from_be_bytes(word) } else { f64::from_le_bytes(word) })
+    };
     let words = bytes.chunks_exact(size);
     if size == 4 { words.map(single).collect() } else { words.map(double).collect() }
 }

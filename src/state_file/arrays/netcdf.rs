@@ -168,7 +168,9 @@ impl Header {
         if variable.kind != FLOAT && variable.kind != DOUBLE {
             return Err(Mistake::new(&place, "its numbers are integers or characters", "`float` or `double`"));
         }
-        if let Some(packed) = variable.attributes.iter().find(|name| ["scale_factor", "add_offset"].contains(&name.as_str())) {
+        if let Some(packed) =
+            variable.attributes.iter().find(|name| ["scale_factor", "add_offset"].contains(&name.as_str()))
+        {
             let found = format!("its attribute `{packed}` says that its numbers are packed");
             return Err(Mistake::new(&place, found, "numbers as they are"));
         }
@@ -187,8 +189,10 @@ impl Header {
             Some(values)
         };
         let values = read().ok_or_else(damaged)?;
-        let dimensions: Vec<String> = variable.dimensions.iter().map(|place| self.dimensions[*place].0.clone()).collect();
-        let mut shape: Vec<usize> = variable.dimensions.iter().map(|place| self.dimensions[*place].1 as usize).collect();
+        let dimensions: Vec<String> =
+            variable.dimensions.iter().map(|place| self.dimensions[*place].0.clone()).collect();
+        let mut shape: Vec<usize> =
+            variable.dimensions.iter().map(|place| self.dimensions[*place].1 as usize).collect();
         if let Some(first) = shape.first_mut().filter(|_| has_records) {
             *first = records as usize;
         }

@@ -29,7 +29,10 @@ pub(crate) fn read(bytes: &[u8], place: &str) -> Result<Array, Mistake> {
     let shape = lengths.map(|length| length.parse().ok()).collect::<Option<Vec<usize>>>().ok_or_else(damaged)?;
     let held = shape.iter().try_fold(size, |product: usize, length| product.checked_mul(*length));
     if held != Some(data.len()) {
-        return Err(wrong(format!("its shape {shape:?} takes another number of bytes than the {} that it has", data.len())));
+        return Err(wrong(format!(
+            "its shape {shape:?} takes another number of bytes than the {} that it has",
+            data.len()
+        )));
     }
     let values = numbers_of(data, size, big_endian);
     let values = if by_columns { by_rows(&values, &shape) } else { values };
