@@ -31,6 +31,10 @@ pub(crate) fn check(scene: &Scene, water: &ShallowWaterInteraction, path: &str, 
         let found = format!("`{}`", scene.integrator.name());
         problems.refuse("integrator.type", found, "`gyro` or `rotate`, the integrators of shallow water");
     }
+    if scene.state.is_some() && !water.surface.is_empty() {
+        let accepted = "no `surface`: the file of `state` says how deep the water is";
+        problems.refuse(format!("{path}.surface"), "beside a `state`", accepted);
+    }
     check_mesh(water, path, problems);
     check_groups(scene, water, problems);
     check_output(scene, problems);

@@ -51,15 +51,9 @@ pub(super) fn read(
     };
     let checksum = checksum(&places);
     files.check(path, state, &checksum)?;
-    if let Some(stated) = state.checksum.as_ref().filter(|stated| **stated != checksum) {
-        let accepted = format!("{checksum}, that of what was read, or no `checksum`");
-        problems.refuse("state.checksum", format!("\"{stated}\""), accepted);
-    }
+    super::adopt_checksum(scene, state, checksum, &mut problems);
     if !problems.is_empty() {
         return Ok(problems);
-    }
-    if let Some(state) = &mut scene.state {
-        state.checksum = Some(checksum);
     }
     let names = SpeciesNames::of(scene);
     let of_nodes = places.fields.iter().flat_map(|fields| fields.velocity.iter().flatten().flatten());
@@ -242,6 +236,7 @@ fn on_nodes(array: Array, name: &str, frame: i64, mesh: [usize; 2]) -> Result<Ve
     if let Some((index, value)) = strange.next() {
         let more = match strange.count() {
             0 => String::new(),
+            1 => ", and on another".to_owned(),
             others => format!(", and on {others} others"),
         };
         let found = format!("found {value} on {}{more}", node(index, columns));
@@ -291,4 +286,216 @@ fn checksum(places: &FilePlaces) -> String {
     sum.update(bytemuck::cast_slice(&places.masses));
     sum.update(bytemuck::cast_slice(&places.velocities));
     format!("{:08x}", sum.finalize())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use crate::families::reference::ShallowWaterReference;
+    use crate::families::shallow_water::flow::MeshFlow;
+    use crate::families::{Checked, initial_state};
+    use crate::output::{NetcdfFile, NetcdfVariable, write_npy_to};
+    use crate::scene::{self, SceneError};
+    use crate::state::Reported;
+    use std::io::Write;
+    use std::path::Path;
+
+    const COLUMNS: usize = 16;
+    const ROWS: usize = 8;
+
+    fn scene(file: &str, further: &[&str]) -> Result<Checked, SceneError> {
+        let state = format!(r#"state={{"file":"{file}"}}"#);
+        let water = r#"particles=[{"species":"water","count":2048,"placement":{"type":"lattice"}}]"#;
+        let changes = ["space.box=[6,3]", "interactions.0.mesh=[16,8]", "interactions.0.smoothing.length=0.8"];
+        let start = ["interactions.0.surface=[]", water, &state];
+        let all = changes.iter().chain(&start).chain(further).map(|change| (*change).to_owned());
+        scene::load("shallow-water", &all.collect::<Vec<_>>())
+    }
+
+    /// Depth and velocities of a flow on the nodes, x first.
+    fn flow() -> [Vec<f64>; 3] {
+        let water = r#"particles=[{"species":"water","count":2048,"placement":{"type":"lattice"},
+            "velocities":{"type":"geostrophic"}}]"#;
+        let bump = r#"interactions.0.surface=[{"type":"bump","center":[2,1],"radius":0.6,"amplitude":0.05}]"#;
+        let changes =
+            ["space.box=[6,3]", "interactions.0.mesh=[16,8]", "interactions.0.smoothing.length=0.8", water, bump];
+        let scene = scene::load("shallow-water", &changes.map(str::to_owned)).unwrap();
+        let mut reference = ShallowWaterReference::new(scene.model().clone(), initial_state(&scene)).unwrap();
+        reference.run(60).unwrap();
+        let water = scene.model().shallow_water().unwrap();
+        let flow = MeshFlow::new(scene.model(), water, &reference.reported_state().unwrap());
+        let [u, v] = flow.velocity();
+        [reference.depth(), u, v].map(|field| transposed(&field, COLUMNS))
+    }
+
+    fn transposed(field: &[f64], columns: usize) -> Vec<f64> {
+        let rows = field.len() / columns;
+        (0..field.len()).map(|index| field[index / rows + index % rows * columns]).collect()
+    }
+
+    fn write_npz(path: &Path, shape: &[usize], arrays: &[(&str, Vec<f64>)]) {
+        let mut archive = rawzip::ZipArchiveWriter::new(std::fs::File::create(path).unwrap());
+        for (name, values) in arrays {
+            let mut entry = archive.new_file(&format!("{name}.npy"));
+            entry = entry.compression_method(rawzip::CompressionMethod::STORE);
+            let (mut entry, config) = entry.start().unwrap();
+            let mut writer = config.wrap(&mut entry);
+            write_npy_to(&mut writer, shape, values).unwrap();
+            writer.flush().unwrap();
+            let (_, descriptor) = writer.finish().unwrap();
+            entry.finish(descriptor).unwrap();
+        }
+        archive.finish().unwrap();
+    }
+
+    fn write_netcdf(path: &Path, order: [&str; 2], arrays: &[(&str, Vec<f64>)], frames: usize) {
+        let length = |name: &str| if name == "x" { COLUMNS } else { ROWS };
+        let dimensions = vec![
+            ("time".to_owned(), frames),
+            (order[0].to_owned(), length(order[0])),
+            (order[1].to_owned(), length(order[1])),
+        ];
+        let variable = |(name, values): &(&str, Vec<f64>)| NetcdfVariable {
+            name: (*name).to_owned(),
+            dimensions: vec![0, 1, 2],
+            attributes: Vec::new(),
+            values: values.clone(),
+        };
+        let file = NetcdfFile { dimensions, attributes: Vec::new(), variables: arrays.iter().map(variable).collect() };
+        file.write_to(&mut std::fs::File::create(path).unwrap()).unwrap();
+    }
+
+    /// How far the fields of a start are from those of a file, x first.
+    fn distances(scene: &Checked, fields: &[Vec<f64>; 3]) -> [f64; 3] {
+        let model = scene.model();
+        let state = initial_state(scene);
+        assert_eq!(
+            state.masses.iter().map(|mass| u64::from(*mass)).sum::<u64>(),
+            model.shallow_water().unwrap().total_mass()
+        );
+        let flow = MeshFlow::new(model, model.shallow_water().unwrap(), &Reported::from(state.clone()));
+        let depth = ShallowWaterReference::new(model.clone(), state).unwrap().depth();
+        let [u, v] = flow.velocity();
+        let found = [depth, u, v].map(|field| transposed(&field, COLUMNS));
+        std::array::from_fn(|place| {
+            let apart = found[place].iter().zip(&fields[place]).map(|(found, asked)| (found - asked).abs());
+            apart.fold(0.0, f64::max)
+        })
+    }
+
+    /// Depth and velocities of the start are those of the file, whatever its format and order, and with particles at random places too.
+    #[test]
+    fn water_starts_with_the_fields_of_a_file() {
+        let directory = tempfile::tempdir().unwrap();
+        let fields = flow();
+        let largest = |field: &[f64]| field.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        assert!(largest(&fields[1]) > 0.05 && largest(&fields[2]) > 0.05);
+        let place = |name: &str| directory.path().join(name);
+        let text = |name: &str| place(name).display().to_string();
+        let by_letters = ["h", "u", "v"].into_iter().zip(fields.clone()).collect::<Vec<_>>();
+        write_npz(&place("f.npz"), &[COLUMNS, ROWS], &by_letters);
+        let by_names = ["depth", "velocity_x", "velocity_y"].into_iter().zip(fields.clone()).collect::<Vec<_>>();
+        write_netcdf(&place("x.nc"), ["x", "y"], &by_names, 1);
+        let other_order = |field: &Vec<f64>| transposed(field, ROWS);
+        let two: Vec<_> = by_names
+            .iter()
+            .map(|(name, field)| (*name, [vec![7.0; COLUMNS * ROWS], other_order(field)].concat()))
+            .collect();
+        write_netcdf(&place("y.nc"), ["y", "x"], &two, 2);
+        let starts = ["f.npz", "x.nc", "y.nc"].map(|name| scene(&text(name), &[]).unwrap());
+        for start in &starts {
+            let [depth, u, v] = distances(start, &fields);
+            assert!(depth < 3e-7 && u < 1e-6 && v < 1e-6, "{depth} {u} {v}");
+            assert_eq!(initial_state(start), initial_state(&starts[0]));
+        }
+        assert_eq!(starts[0].state.as_ref().unwrap().checksum, starts[2].state.as_ref().unwrap().checksum);
+        let [depth, u, v] =
+            distances(&scene(&text("f.npz"), &[r#"particles.0.placement={"type":"random"}"#]).unwrap(), &fields);
+        assert!(depth < 1e-6 && u < 1e-5 && v < 1e-5, "{depth} {u} {v}");
+        // Without velocities of the file.
+        let still = scene(&text("f.npz"), &[r#"state.velocities="rest""#]).unwrap();
+        assert!(
+            distances(&still, &fields)[0] < 3e-7
+                && initial_state(&still).momenta.iter().all(|momentum| *momentum == [0; 3])
+        );
+        let hot = scene(&text("f.npz"), &[r#"state.velocities="thermal""#, "temperature=0.01"]).unwrap();
+        let squares = |scene: &Checked| {
+            let momenta = initial_state(scene).momenta;
+            momenta
+                .iter()
+                .flat_map(|momentum| scene.model().units.momentum(*momentum))
+                .map(|part| part * part)
+                .sum::<f64>()
+        };
+        // ⟨V²⟩ = 2kT/m with masses of 1/16 on average, which vary.
+        assert!((squares(&hot) / 2048.0 / 0.32 - 1.0).abs() < 0.1, "{}", squares(&hot));
+        // Another frame of the same file.
+        let error = scene(&text("y.nc"), &["state.frame=0"]).unwrap_err().to_string();
+        assert!(error.contains("the depth: found a mean of 7"), "{error}");
+    }
+
+    /// A run goes on without the file.
+    #[test]
+    fn what_a_run_keeps_of_a_start_fits_it() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("f.npz");
+        write_npz(&path, &[COLUMNS, ROWS], &["h", "u", "v"].into_iter().zip(flow()).collect::<Vec<_>>());
+        let scene = scene(&path.display().to_string(), &[]).unwrap();
+        let kept = scene.start().unwrap();
+        let restored = super::FileStart::from_bytes(&kept.to_bytes()).unwrap();
+        assert!(restored.fits(&scene) && restored.places.is_none());
+        let again = scene.changed(|scene| scene.kept = super::KeptStart::of(std::sync::Arc::new(restored.clone())));
+        assert_eq!(again.model(), scene.model());
+        assert!(scene.model().units.momentum > 0.0);
+    }
+
+    #[test]
+    fn what_is_wrong_with_fields_is_said_at_once() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("wrong.npz");
+        let name = path.display().to_string();
+        let [h, u, v] = flow();
+        let errors = |shape: &[usize], arrays: &[(&str, Vec<f64>)], further: &[&str]| {
+            write_npz(&path, shape, arrays);
+            scene(&name, further).unwrap_err().to_string()
+        };
+        let mut strange = u.clone();
+        (strange[ROWS + 3], strange[9]) = (f64::NAN, f64::INFINITY);
+        let found =
+            errors(&[COLUMNS, ROWS], &[("h", h.clone()), ("u", strange), ("w", v.clone())], &["state.replicate=[2]"]);
+        for expected in [
+            "3 mistakes",
+            "state.replicate: found in a scene that starts from fields",
+            "array `u`: found inf on node (1, 1), and on another; accepted: a finite number on every node",
+            "its arrays are `h`, `u`, `w`; accepted: an array `velocity_y` or `v` among them",
+        ] {
+            assert!(found.contains(expected), "{found}");
+        }
+        let all = |h: &[f64]| [("h", h.to_vec()), ("u", u.clone()), ("v", v.clone())];
+        let mut dry = h.clone();
+        dry[ROWS + 2] = -0.5;
+        let doubled: Vec<f64> = h.iter().map(|depth| 2.0 * depth).collect();
+        // Finer than any mass of particles can have it.
+        let rough: Vec<f64> =
+            (0..h.len()).map(|index| if (index / ROWS + index) % 2 == 0 { 1.9 } else { 0.1 }).collect();
+        for (shape, depth, expected) in [
+            (&[ROWS, COLUMNS][..], &h, "array `h`: found 8 × 16 nodes; accepted: 16 × 8 nodes along x and y"),
+            (&[COLUMNS * ROWS], &h, "array `h`: found 1 dimension; accepted: two dimensions of 16 and 8 nodes"),
+            (&[COLUMNS, ROWS], &dry, "the depth: found -0.5000 on node (1, 2), the lowest; accepted: a depth above 0"),
+            (&[COLUMNS, ROWS], &doubled, "the depth: found a mean of 2.000; accepted: a mean of 1"),
+            (&[COLUMNS, ROWS], &rough, "a depth on the nodes that no masses and velocities of these particles have"),
+        ] {
+            let found = errors(shape, &all(depth), &[]);
+            assert!(found.contains(expected), "{found}");
+        }
+        let wave = r#"interactions.0.surface=[{"type":"wave","periods":[1,0],"amplitude":0.1}]"#;
+        let found = errors(&[COLUMNS, ROWS], &all(&h), &[wave, r#"particles.0.velocities={"type":"rest"}"#]);
+        assert!(found.contains("particles[0].velocities: found beside a `state`"), "{found}");
+        let found = errors(&[COLUMNS, ROWS], &all(&h), &[wave]);
+        assert!(found.contains("interactions[0].surface: found beside a `state`"), "{found}");
+        let found = errors(&[COLUMNS, ROWS], &all(&h), &["state.frame=2"]);
+        assert!(found.contains("array `h`: found frame 2; accepted: 0 to 0"), "{found}");
+        let found = errors(&[COLUMNS, ROWS], &all(&h), &[r#"state.checksum="00000000""#]);
+        assert!(found.contains("state.checksum: found \"00000000\""), "{found}");
+    }
 }
