@@ -15,7 +15,8 @@ const PACKAGES: [&str; 6] = ["numpy", "scipy", "netCDF4", "xarray", "dask", "gsd
 #[ignore = "installs Python packages"]
 fn other_programs_read_fields() {
     let root = tempfile::tempdir().unwrap();
-    let quantities = r#""every":10,"quantities":["depth","velocity-x","velocity-y","vorticity","potential-vorticity","speed"]"#;
+    let quantities =
+        r#""every":10,"quantities":["depth","velocity-x","velocity-y","vorticity","potential-vorticity","speed"]"#;
     for format in ["npy", "netcdf"] {
         let fields = format!(r#"output={{"fields":{{{quantities},"format":"{format}"}}}}"#);
         let scene = water(&["time.step=0.01", "time.steps=20", &fields]);
@@ -38,10 +39,12 @@ fn other_programs_read_fields() {
     let start = [r#"particles.0.velocities={"type":"thermal"}"#, "interactions.0.surface=[]", &state];
     let again = water(&[&["time.step=0.01", "time.steps=20"], &start[..]].concat());
     let directory = root.path().join("again");
-    let fields = again.changed(|scene| scene.output.fields = Some(mesoscope::scene::Fields { every: 20, ..Default::default() }));
+    let fields =
+        again.changed(|scene| scene.output.fields = Some(mesoscope::scene::Fields { every: 20, ..Default::default() }));
     Simulation::start(fields, &directory, true).execute(&adapter(), &mut |_| {}).unwrap();
     let read = |path: &Path| mesoscope::output::read_npy(path).unwrap().1;
-    let [asked, found] = [root.path().join("npy/depth.npy"), directory.join("depth-000001.npy")].map(|path| read(&path));
+    let [asked, found] =
+        [root.path().join("npy/depth.npy"), directory.join("depth-000001.npy")].map(|path| read(&path));
     let apart = asked.iter().zip(&found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     println!("depth of a start from an archive of numpy: at most {apart:.2e} apart");
     assert!(apart < 1e-6);

@@ -21,7 +21,7 @@ const LARGEST_DISTANCE: f64 = 1e-4;
 /// Gives particles at their places masses and, where the fields have velocities, velocities.
 pub(super) fn carry(water: &ShallowWater, state: &mut State, fields: &MeshFields, model: &Model) {
     let carriers = water.carriers as usize;
-    if carriers == 0 {
+    if carriers == 0 || fields.depth.len() as u64 != water.nodes() {
         return;
     }
     let smoothing = smoothing(water, model);
@@ -70,6 +70,11 @@ pub(super) fn check(
     problems: &mut Problems,
 ) {
     if water.carriers == 0 {
+        return;
+    }
+    if fields.depth.len() as u64 != water.nodes() {
+        let found = format!("fields on {} nodes", fields.depth.len());
+        problems.refuse("state.file", found, format!("fields on the {} nodes of the scene", water.nodes()));
         return;
     }
     let [depth, velocity] = distances(water, scene.model(), state, fields);

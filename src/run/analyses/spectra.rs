@@ -12,6 +12,8 @@ use serde_json::json;
 /// Columns of the table, and names in the result.
 const COLUMNS: [&str; 4] = ["kinetic_energy", "potential_energy", "potential_enstrophy", "enstrophy"];
 const WAVE_NUMBER: &str = "wave_number";
+/// Parts of the largest value that rounding leaves in shells without a wave.
+const ROUNDING: f64 = 1e-12;
 
 /// Spectra of energy and enstrophy.
 pub(super) struct Spectra;
@@ -66,9 +68,11 @@ impl Descriptor for Spectra {
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let series = |column: &str, name: &str, ink: usize| {
-            let points = drawn.column(WAVE_NUMBER).into_iter().zip(drawn.column(column));
-            // Of the mean there is no wave, and nothing has no logarithm.
-            let shown = points.filter(|(wave_number, value)| *wave_number > 0.0 && *value > 0.0);
+            let values = drawn.column(column);
+            // Of the mean there is no wave, and what is left by rounding is none.
+            let least = ROUNDING * values.iter().skip(1).fold(0.0, |most: f64, value| most.max(*value));
+            let points = drawn.column(WAVE_NUMBER).into_iter().zip(values).skip(1);
+            let shown = points.filter(|(_, value)| *value > least);
             Series::line(name, shown.map(|(wave_number, value)| [wave_number, value]).collect())
                 .with_ink(SeriesInk::Numbered(ink))
         };

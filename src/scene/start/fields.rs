@@ -133,7 +133,7 @@ fn places_of_run(
             groups.iter().map(of_group).collect::<Vec<_>>().join(", ")
         };
         let accepted = format!("groups as in the scene: {}", numbers(&own));
-        return Err(Mistake::new("", format!("found groups of {} particles", numbers(&other)), accepted));
+        return Err(Mistake::new("", format!("found groups of {}", numbers(&other)), accepted));
     }
     let velocities = if state.velocities == StateVelocities::File { run.velocities()? } else { Vec::new() };
     let State { positions, masses, .. } = run.state();
@@ -336,8 +336,9 @@ mod tests {
     fn write_npz(path: &Path, shape: &[usize], arrays: &[(&str, Vec<f64>)]) {
         let mut archive = rawzip::ZipArchiveWriter::new(std::fs::File::create(path).unwrap());
         for (name, values) in arrays {
-            let mut entry = archive.new_file(&format!("{name}.npy"));
-            entry = entry.compression_method(rawzip::CompressionMethod::STORE);
+            let name = format!("{name}.npy");
+            let entry = archive.new_file(&name);
+            let entry = entry.compression_method(rawzip::CompressionMethod::STORE);
             let (mut entry, config) = entry.start().unwrap();
             let mut writer = config.wrap(&mut entry);
             write_npy_to(&mut writer, shape, values).unwrap();
@@ -444,9 +445,58 @@ mod tests {
         let kept = scene.start().unwrap();
         let restored = super::FileStart::from_bytes(&kept.to_bytes()).unwrap();
         assert!(restored.fits(&scene) && restored.places.is_none());
-        let again = scene.changed(|scene| scene.kept = super::KeptStart::of(std::sync::Arc::new(restored.clone())));
+        let again =
+            scene.clone().changed(|scene| scene.kept = super::KeptStart::of(std::sync::Arc::new(restored.clone())));
         assert_eq!(again.model(), scene.model());
         assert!(scene.model().units.momentum > 0.0);
+    }
+
+    /// With another rotation, bath and time step the particles, their masses and the velocities of the last report are those of the run before.
+    #[test]
+    fn water_goes_on_with_changes() {
+        let directory = tempfile::tempdir().unwrap();
+        let name = directory.path().display().to_string();
+        let loops = r#"particles=[{"species":"water","count":2048,"placement":{"type":"lattice"},"velocities":{"type":"geostrophic"}},
+            {"species":"loop","tracer":true,"count":40,"placement":{"type":"circle","center":[2,1],"radius":0.5}}]"#;
+        let wave = r#"interactions.0.surface=[{"type":"wave","periods":[1,1],"amplitude":0.05}]"#;
+        let changes =
+            ["space.box=[6,3]", "interactions.0.mesh=[16,8]", "interactions.0.smoothing.length=0.8", loops, wave];
+        let first = scene::load("shallow-water", &changes.map(str::to_owned)).unwrap();
+        let mut reference = ShallowWaterReference::new(first.model().clone(), initial_state(&first)).unwrap();
+        reference.run(7).unwrap();
+        let path = directory.path().join(crate::output::files::CHECKPOINT);
+        crate::output::checkpoint::save(&path, crate::output::Id::of_run(&first), &first, reference.state(), &[], &[])
+            .unwrap();
+        let tracers = r#"particles=[{"species":"water","count":2048,"placement":{"type":"lattice"}},
+            {"species":"loop","tracer":true,"count":40,"placement":{"type":"circle","center":[2,1],"radius":0.5}}]"#;
+        let bath = r#"interactions.0.bath={"type":"memory","epsilon":1}"#;
+        let further = [tracers, "interactions.0.rotation=1", "time.step=0.01", "temperature=0.001", bath];
+        let second = scene(&name, &further).unwrap();
+        let (state, reported) = (initial_state(&second), reference.reported_state().unwrap());
+        assert_eq!((&state.positions, &state.masses, state.step), (&reported.positions, &reported.masses, 0));
+        assert_eq!((state.species.len(), state.node_bath.len()), (2088, 128));
+        let unit = |scene: &Checked| scene.model().units.momentum;
+        for (found, asked) in state.momenta.iter().zip(&reported.momenta) {
+            for axis in 0..2 {
+                let apart = f64::from(found[axis]) * unit(&second) - f64::from(asked[axis]) * unit(&first);
+                assert!(apart.abs() <= 0.5 * unit(&second), "{apart}");
+            }
+        }
+        assert!(state.momenta.iter().any(|momentum| momentum[0].abs() > 1000));
+        assert_ne!(second.model().seed, first.model().seed);
+        assert_eq!(second.model().shallow_water().unwrap().closed_loops().count(), 1);
+        for (further, expected) in [
+            (
+                &[tracers, "interactions.0.mesh=[8,8]"][..],
+                "found a run on 16 × 8 nodes; accepted: a run on 8 × 8 nodes",
+            ),
+            (&[tracers, "space.box=[6,6]"], "found a run in the box [6.0, 3.0]"),
+            (&[], "found groups of 2048, 40 tracers; accepted: groups as in the scene: 2048"),
+            (&[tracers, "state.frame=3"], "found frame 3"),
+        ] {
+            let error = scene(&name, further).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
     }
 
     #[test]
