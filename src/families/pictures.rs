@@ -64,6 +64,8 @@ pub(crate) struct MeshPictures {
     pub fields: Vec<ShownField>,
     /// Points of the curves.
     pub loops: Vec<Vec<[f64; 2]>>,
+    /// What they are computed by, in words.
+    pub method: &'static str,
     /// Parameters of the scene that files of the fields name.
     pub parameters: Vec<(&'static str, f64)>,
 }

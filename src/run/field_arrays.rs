@@ -36,7 +36,7 @@ fn netcdf(fields: &[&ShownField], pictures: &MeshPictures, scene: &Scene, step: 
     let (nodes, lengths) = fields.first().map_or(([0; 2], [0.0; 2]), |shown| (shown.field.nodes, shown.field.lengths));
     let [columns, rows] = nodes;
     let program = format!("mesoscope {}", env!("CARGO_PKG_VERSION"));
-    let source = format!("{program}: rotating shallow water by the Hamiltonian particle-mesh method");
+    let source = format!("{program}: {}", pictures.method);
     let history = format!("step {step}, written by {program}");
     let mut attributes = texts(&[
         ("Conventions", "CF-1.11"),

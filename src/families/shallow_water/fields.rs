@@ -8,6 +8,9 @@ use crate::families::{Field, Model, ShallowWater};
 use crate::quantity::{Quantity, RATE, Unit, VELOCITY, quantity};
 use crate::state::Reported;
 
+/// What the fields are computed by.
+const METHOD: &str = "rotating shallow water by the Hamiltonian particle-mesh method";
+
 /// Fields of a state with a smoothed depth, and loops of tracers that are still curves.
 pub(super) fn pictures(
     water: &ShallowWater,
@@ -25,7 +28,7 @@ pub(super) fn pictures(
         ("mean_depth", 1.0),
         ("smoothing_length", water.smoothing.length),
     ];
-    MeshPictures { fields, loops: closed_loops(state, model, water), parameters }
+    MeshPictures { fields, loops: closed_loops(state, model, water), method: METHOD, parameters }
 }
 
 /// The name of a field in the table of standard names of the CF conventions, where it has one.

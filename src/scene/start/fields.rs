@@ -531,7 +531,7 @@ mod tests {
         for (shape, depth, expected) in [
             (&[ROWS, COLUMNS][..], &h, "array `h`: found 8 × 16 nodes; accepted: 16 × 8 nodes along x and y"),
             (&[COLUMNS * ROWS], &h, "array `h`: found 1 dimension; accepted: two dimensions of 16 and 8 nodes"),
-            (&[COLUMNS, ROWS], &dry, "the depth: found -0.5000 on node (1, 2), the lowest; accepted: a depth above 0"),
+            (&[COLUMNS, ROWS], &dry, "the depth: found -0.500 on node (1, 2), the lowest; accepted: a depth above 0"),
             (&[COLUMNS, ROWS], &doubled, "the depth: found a mean of 2.000; accepted: a mean of 1"),
             (&[COLUMNS, ROWS], &rough, "a depth on the nodes that no masses and velocities of these particles have"),
         ] {
