@@ -1,4 +1,4 @@
-//! Arrays in the classic format of NetCDF with 64-bit offsets (`CDF-2`), which every program that reads NetCDF opens.
+//! Arrays in the classic format of `NetCDF` with 64-bit offsets (`CDF-2`), which every program that reads `NetCDF` opens.
 //!
 //! A page of specification against a dependency: the one crate that writes it without a C library calls itself experimental, and writes into
 //! paths, where files here appear complete or not at all. The format: <https://docs.unidata.ucar.edu/netcdf-c/current/file_format_specifications.html>.

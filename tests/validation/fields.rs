@@ -10,7 +10,7 @@ use crate::support::{adapter, water};
 
 const PACKAGES: [&str; 6] = ["numpy", "scipy", "netCDF4", "xarray", "dask", "gsd"];
 
-/// The fields of a run as NetCDF are those of the same run as arrays of `NumPy`, in three readers; both start another run with the same depth.
+/// The fields of a run as `NetCDF` are those of the same run as arrays of `NumPy`, in three readers; both start another run with the same depth.
 #[test]
 #[ignore = "installs Python packages"]
 fn other_programs_read_fields() {

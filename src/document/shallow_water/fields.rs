@@ -1,5 +1,6 @@
 //! Fields on the mesh, as pictures and arrays.
 
+use crate::document::defaults::is_default;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -10,7 +11,7 @@ pub struct Fields {
     /// Steps between two numbered pictures and arrays; zero writes them only at the end.
     pub every: u64,
     /// The format of the arrays.
-    #[serde(skip_serializing_if = "FieldFormat::is_default")]
+    #[serde(skip_serializing_if = "is_default")]
     pub format: FieldFormat,
     /// Which fields.
     #[schemars(length(max = 16))]
@@ -33,14 +34,8 @@ pub enum FieldFormat {
     /// A `.npy` file of `NumPy` of every field and time (default); the first index is that of x.
     #[default]
     Npy,
-    /// A NetCDF file of all fields of a time, with their coordinates and the names of the CF conventions: `fields.nc`, and numbered ones.
+    /// A `NetCDF` file of all fields of a time, with their coordinates and the names of the CF conventions: `fields.nc`, and numbered ones.
     Netcdf,
-}
-
-impl FieldFormat {
-    fn is_default(&self) -> bool {
-        *self == Self::default()
-    }
 }
 
 /// The lowest and the highest value on the colour scale of each field, for all pictures of the run. A range that is left out follows

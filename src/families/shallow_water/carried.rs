@@ -84,7 +84,7 @@ pub(super) fn check(
     );
     // NaN is no distance.
     for (what, unit, distance) in [("depth", "the mean depth", depth), ("velocity", "the largest velocity", velocity)] {
-        if !(distance <= LARGEST_DISTANCE) {
+        if distance.is_nan() || distance > LARGEST_DISTANCE {
             let found = format!(
                 "a {what} on the nodes that no masses and velocities of these particles have: they miss it by {} of {unit}",
                 brief(distance)

@@ -41,7 +41,7 @@ pub(super) fn nodes_for(order: u32, part: f64) -> u32 {
         let angle = TAU / f64::from(nodes);
         1.0 - (spline_symbols(order, angle).1 / (angle * angle)).sqrt()
     };
-    (2..).find(|nodes| lost(*nodes) <= part).unwrap_or(u32::MAX)
+    (2..1000).find(|nodes| lost(*nodes) <= part).unwrap_or(u32::MAX)
 }
 
 /// What `check` says of waves: of the shortest that the surface of the scene has, or of how many nodes they need.
@@ -59,26 +59,16 @@ pub(super) fn in_words(water: &ShallowWater, lengths: [f64; 2]) -> String {
         0.0 => String::new(),
         _ => format!(", and by {} by the smoothing", percent(kept.smoothing)),
     };
-    match waves.min_by(|a, b| nodes(*a).total_cmp(&nodes(*b))) {
-        Some(periods) => {
-            let kept = kept(water, lengths, periods);
-            let nodes = three_digits(nodes(periods));
-            format!(
-                "the shortest of the surface has {nodes} nodes a wavelength and is slowed by {} by the mesh{}",
-                percent(kept.mesh),
-                smoothed(kept)
-            )
-        }
-        None => {
-            let [hundredth, thousandth] = [0.01, 0.001].map(|part| nodes_for(water.spline_order, part));
-            let shortest = [0, 1].map(|axis| f64::from(water.mesh[axis]) / f64::from(hundredth));
-            let kept = kept(water, lengths, [shortest[0], 0.0]);
-            format!(
-                "{hundredth} nodes a wavelength are slowed by 1 % by the mesh{}; {thousandth} by 0.1 %",
-                smoothed(kept)
-            )
-        }
+    if let Some(periods) = waves.min_by(|a, b| nodes(*a).total_cmp(&nodes(*b))) {
+        let kept = kept(water, lengths, periods);
+        let (nodes, mesh, smoothing) = (three_digits(nodes(periods)), percent(kept.mesh), smoothed(kept));
+        return format!(
+            "the shortest of the surface has {nodes} nodes a wavelength and is slowed by {mesh} by the mesh{smoothing}"
+        );
     }
+    let [hundredth, thousandth] = [0.01, 0.001].map(|part| nodes_for(water.spline_order, part));
+    let smoothing = smoothed(kept(water, lengths, [f64::from(water.mesh[0]) / f64::from(hundredth), 0.0]));
+    format!("{hundredth} nodes a wavelength are slowed by 1 % by the mesh{smoothing}; {thousandth} by 0.1 %")
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! A start of water: from depth and velocities on the nodes of a mesh, of `.npz` and NetCDF files, or from the particles of an earlier run.
+//! A start of water: from depth and velocities on the nodes of a mesh, of `.npz` and `NetCDF` files, or from the particles of an earlier run.
 
 use super::{
     FileStart, KeptStart, Origin, Problems, Scene, SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities,

@@ -1,4 +1,4 @@
-//! Files of arrays by name: `.npz` of `NumPy`, and the classic formats of NetCDF.
+//! Files of arrays by name: `.npz` of `NumPy`, and the classic formats of `NetCDF`.
 
 mod netcdf;
 pub(crate) mod npy;

@@ -1,4 +1,4 @@
-//! The classic formats of NetCDF, `CDF-1`, `CDF-2` and `CDF-5`: big-endian arrays behind a header that lists them,
+//! The classic formats of `NetCDF`, `CDF-1`, `CDF-2` and `CDF-5`: big-endian arrays behind a header that lists them,
 //! <https://docs.unidata.ucar.edu/netcdf-c/current/file_format_specifications.html>.
 
 use super::{Array, numbers_of, of_array};
@@ -181,7 +181,7 @@ impl Header {
             let piece = self.numbers(variable)?.checked_mul(each)?;
             let stride = if has_records { self.record_size()? } else { 0 };
             let mut values = Vec::new();
-            for record in 0..if piece > 0 { records } else { 0 } {
+            for record in (0..records).take_while(|_| piece > 0) {
                 let begin = usize::try_from(variable.begin.checked_add(record.checked_mul(stride)?)?).ok()?;
                 let rest = bytes.get(begin..)?;
                 values.extend(numbers_of(rest.get(..usize::try_from(piece).ok()?)?, each as usize, true));
