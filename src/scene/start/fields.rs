@@ -146,16 +146,15 @@ fn fields(path: &Path, state: &StateFile, mesh: [usize; 2]) -> Result<MeshFields
     let mut mistakes = Vec::new();
     let names = file.names();
     let mut field = |known: [&str; 2]| {
-        let read = match known.iter().find(|name| names.contains(name)) {
-            Some(name) => file.read(name).and_then(|array| on_nodes(array, name, state.frame, mesh)),
-            None => {
-                let found = match &names[..] {
-                    [] => "the file has no arrays".to_owned(),
-                    _ => format!("its arrays are {}", quoted(names.iter().copied())),
-                };
-                let [name, letter] = known;
-                Err(Mistake::new("", found, format!("an array `{name}` or `{letter}` among them")))
-            }
+        let read = if let Some(name) = known.iter().find(|name| names.contains(name)) {
+            file.read(name).and_then(|array| on_nodes(array, name, state.frame, mesh))
+        } else {
+            let found = match &names[..] {
+                [] => "the file has no arrays".to_owned(),
+                _ => format!("its arrays are {}", quoted(names.iter().copied())),
+            };
+            let [name, letter] = known;
+            Err(Mistake::new("", found, format!("an array `{name}` or `{letter}` among them")))
         };
         read.map_err(|mistake| mistakes.push(mistake)).ok()
     };
