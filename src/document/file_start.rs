@@ -70,7 +70,7 @@ pub struct EarlierRun {
 }
 
 /// Where the particles of a file are in its box, and how fast.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct FilePlaces {
     /// Positions as fractions of the box of the file, in units of 2⁻³².
     pub positions: Vec<[u32; 3]>,
@@ -82,6 +82,19 @@ pub struct FilePlaces {
     pub tethers: Vec<[u32; 3]>,
     /// The state of a run that goes on, in place of all these.
     pub state: Option<State>,
+    /// Fields of shallow water, whose particles are where its groups say.
+    pub fields: Option<Arc<MeshFields>>,
+    /// Units of mass of the particles of shallow water, where an earlier run has them; else empty.
+    pub masses: Vec<u32>,
+}
+
+/// Fields that shallow water starts from: values on the nodes of its mesh, with node (k, l) in place k + l·nₓ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshFields {
+    /// The smoothed depth h, in mean depths.
+    pub depth: Vec<f64>,
+    /// The velocity along x and along y; none where the scene says how the water moves.
+    pub velocity: Option<[Vec<f64>; 2]>,
 }
 
 /// Bonds or angles of one type in a file.

@@ -31,7 +31,7 @@ pub use crate::noise::Generator;
 pub use bath::{Bath, BathScheme};
 pub(crate) use error::did_you_mean;
 pub use error::{Problem, SceneError, Warning};
-pub use file_start::{EarlierRun, FileLinks, FilePlaces, FileStart, KeptStart, Origin, Surroundings};
+pub use file_start::{EarlierRun, FileLinks, FilePlaces, FileStart, KeptStart, MeshFields, Origin, Surroundings};
 pub use files::{Checkpoint, Energies, Trajectory, TrajectoryFormat};
 pub(crate) use groups::NumberedGroup;
 pub use groups::{Chain, FileType, ParticleGroup, Placement, Velocities, WallSide};

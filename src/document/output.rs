@@ -90,6 +90,10 @@ pub struct Output {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-of" = ["voronoi"]))]
     pub shear_wave: Option<SampleInterval>,
+    /// Energy and enstrophy of shallow water by wave number.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-of" = ["shallow-water"]))]
+    pub spectra: Option<SampleInterval>,
     /// Fields on the mesh of shallow water, as pictures and arrays; left out, depth and potential vorticity at the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-of" = ["shallow-water"]))]
@@ -114,6 +118,7 @@ impl Output {
             (AnalysisId::Chain, self.chain.is_some()),
             (AnalysisId::Neighbours, self.neighbours.is_some()),
             (AnalysisId::ShearWave, self.shear_wave.is_some()),
+            (AnalysisId::Spectra, self.spectra.is_some()),
             (AnalysisId::Profiles, self.profiles.is_some()),
             (AnalysisId::Stress, self.stress.is_some()),
         ];
@@ -413,6 +418,8 @@ pub enum AnalysisId {
     Neighbours,
     /// The decay of a shear wave.
     ShearWave,
+    /// Spectra of energy and enstrophy.
+    Spectra,
     /// Profiles along an axis.
     Profiles,
     /// The pressure tensor.
@@ -446,7 +453,7 @@ macro_rules! names {
 
 impl AnalysisId {
     /// All of them.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::RadialDistribution,
         Self::StructureFactor,
         Self::Diffusion,
@@ -462,6 +469,7 @@ impl AnalysisId {
         Self::Chain,
         Self::Neighbours,
         Self::ShearWave,
+        Self::Spectra,
         Self::Profiles,
         Self::Stress,
     ];
@@ -485,6 +493,7 @@ impl AnalysisId {
             }
             Self::Neighbours => names!("neighbours"),
             Self::ShearWave => names!("shear_wave"),
+            Self::Spectra => names!("spectra"),
             Self::Profiles => names!("profiles"),
             Self::Stress => names!("stress": "stress", "stress_correlation"),
         }

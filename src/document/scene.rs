@@ -2,8 +2,8 @@
 
 use super::defaults::whole;
 use super::{
-    DpdInteraction, EarlierRun, FileStart, Generator, Interaction, KeptStart, Molecule, NumberedGroup, Origin, Output,
-    ParticleGroup, Shear, StateFile, StateVelocities, System, Walls,
+    DpdInteraction, EarlierRun, FileStart, Generator, Interaction, KeptStart, MeshFields, Molecule, NumberedGroup,
+    Origin, Output, ParticleGroup, Shear, StateFile, StateVelocities, System, Walls,
 };
 use crate::noise::seed_from_state;
 use schemars::JsonSchema;
@@ -36,7 +36,7 @@ pub struct Scene {
     pub space: Space,
     /// A file that the particles start from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+    #[schemars(extend("x-of" = ["particles", "shallow-water"], "x-instead" = {
         "voronoi": "no `state` in Voronoi DPD: its cells have masses and energies, which files of particles do not have",
     }))]
     pub state: Option<StateFile>,
@@ -101,6 +101,11 @@ impl Scene {
         self.system.interactions()
     }
 
+    /// Nodes along x and y of the mesh that it has fields on, if it has one.
+    pub(crate) fn mesh(&self) -> Option<[u32; 2]> {
+        self.system.shallow_water().map(|water| water.mesh)
+    }
+
     /// The `dpd` interactions, with their places in the list.
     pub(crate) fn pair_interactions(&self) -> impl Iterator<Item = (usize, &DpdInteraction)> {
         self.interactions().iter().enumerate().filter_map(|(index, interaction)| match interaction {
@@ -113,6 +118,11 @@ impl Scene {
     #[must_use]
     pub fn start(&self) -> Option<&Arc<FileStart>> {
         self.kept.get().filter(|_| self.has_start())
+    }
+
+    /// The fields on nodes that its particles carry at the start, where a file has them.
+    pub(crate) fn fields_of_start(&self) -> Option<&MeshFields> {
+        self.start()?.places.as_ref()?.fields.as_deref()
     }
 
     /// Whether a file or molecules say which particles there are, and where they start.

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A file that particles start from: a frame of GSD or extended XYZ, a data file of LAMMPS, or the directory of an earlier run,
-/// of which the last checkpoint is taken.
+/// of which the last checkpoint is taken. Shallow water starts from fields on its nodes, `.npz` or `NetCDF`, or from an earlier run.
 ///
 /// The file has the places of all particles, their species by name, and bonds and angles by type; the groups of the scene say
 /// what its species are.

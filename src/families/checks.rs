@@ -21,7 +21,8 @@ pub(crate) fn check(scene: &Checked, step: StepCheck, problems: &mut Problems) {
     let model = scene.model();
     // Of a run that continues the places are elsewhere.
     let has_places = !scene.has_start() || scene.start().is_some_and(|start| start.places.is_some());
-    if has_places && model.physics().may_refuse_starts() && model.particle_count() <= MOST_TRIED {
+    let may_refuse = model.physics().may_refuse_starts() || scene.fields_of_start().is_some();
+    if has_places && may_refuse && model.particle_count() <= MOST_TRIED {
         model.physics().check_start(scene, &initial_state(scene), problems);
     }
     model.physics().check_capacity(scene, problems);

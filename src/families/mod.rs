@@ -56,6 +56,7 @@ pub use particles::terms::pairs::{ManyBodyForce, PairForce, SoftRepulsion};
 pub use particles::terms::tethers::Tethers;
 pub use particles::{Particles, combinations};
 pub use pictures::PictureKind;
+pub(crate) use pictures::WaveShell;
 pub use registry::Family;
 pub(crate) use registry::{check_system, complete, settle};
 pub(crate) use shallow_water::model::{LARGEST_DEPTH, chebyshev_iterations};
@@ -278,6 +279,16 @@ pub(crate) trait Physics {
 
     /// The quantities of the fields that a scene asks for, and the nodes along x and y that they have values on.
     fn fields(&self, _: &Scene) -> Option<([usize; 2], Vec<Quantity>)> {
+        None
+    }
+
+    /// Shells of wave numbers of fields on a mesh; of [`PictureKind::Fields`] only.
+    fn wave_shells(&self, _: &Model) -> Vec<WaveShell> {
+        Vec::new()
+    }
+
+    /// Kinetic and potential energy, potential enstrophy and enstrophy of every shell.
+    fn spectra(&self, _: &Model, _: &Reported) -> Option<Vec<[f64; 4]>> {
         None
     }
 

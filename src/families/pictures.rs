@@ -48,6 +48,15 @@ pub(crate) enum ValueScale {
     Densities { mean: f64, molecules: f64 },
 }
 
+/// Fourier modes whose wave numbers are close to each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct WaveShell {
+    /// The wave number in the middle of the shell.
+    pub wave_number: f64,
+    /// The number of modes in it.
+    pub modes: u64,
+}
+
 /// Fields on a mesh, and closed curves on top of them.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MeshPictures {
@@ -55,6 +64,10 @@ pub(crate) struct MeshPictures {
     pub fields: Vec<ShownField>,
     /// Points of the curves.
     pub loops: Vec<Vec<[f64; 2]>>,
+    /// What they are computed by, in words.
+    pub method: &'static str,
+    /// Parameters of the scene that files of the fields name.
+    pub parameters: Vec<(&'static str, f64)>,
 }
 
 /// A field on the nodes of a mesh, ready to be named and drawn.
@@ -64,6 +77,8 @@ pub(crate) struct ShownField {
     pub quantity: FieldQuantity,
     /// Its files have this name.
     pub described: Quantity,
+    /// Its name in the CF conventions, where they have one.
+    pub standard_name: Option<&'static str>,
     /// The value in the middle of its colours, if they diverge from one.
     pub centre: Option<f64>,
     /// Whether its range begins at zero.

@@ -34,7 +34,9 @@ pub fn initial_state(scene: &Checked) -> State {
     if let Some(state) = scene.start().and_then(|start| start.places.as_ref()?.state.clone()) {
         return count_turns(state, scene);
     }
-    if let Some(velocities) = scene.start_velocities() {
+    let has_fields = scene.fields_of_start().is_some();
+    let of_run = scene.start().and_then(|start| start.places.as_ref()).filter(|places| !places.masses.is_empty());
+    if let Some(velocities) = scene.start_velocities().filter(|_| !has_fields && of_run.is_none()) {
         if let Some(start) = scene.start() {
             state = from_file(start, velocities, model);
         }
@@ -55,8 +57,16 @@ pub fn initial_state(scene: &Checked) -> State {
         let count = group.resolved_count(&scene.space) as usize;
         add_group(&mut state, group, count, model, lattice as f64 / lattices.max(1) as f64);
         lattice += usize::from(group.placement.is_lattice());
-        if group.velocities == Velocities::Thermal && !group.is_held() {
+        let draws = scene.start_velocities().is_none_or(|velocities| velocities == StateVelocities::Thermal);
+        if draws && group.velocities == Velocities::Thermal && !group.is_held() {
             thermal.extend(first..first + count);
+        }
+    }
+    if let Some(places) = of_run {
+        state.positions.clone_from(&places.positions);
+        state.masses.clone_from(&places.masses);
+        for (momentum, velocity) in state.momenta.iter_mut().zip(&places.velocities) {
+            *momentum = velocity.map(|part| to_units(part, model));
         }
     }
     complete(state, scene, &thermal)
@@ -89,7 +99,8 @@ pub fn start_in_words(scene: &Checked) -> Option<String> {
     }
     let remembers = model.has_memory() || model.particles().coloured_noise.is_some();
     let forgets = if remembers { "; what baths remember is drawn anew" } else { "" };
-    Some(format!("particles of `{file}`, with noise of its own{forgets}; `step` and `time` are counted from 0"))
+    let what = if scene.mesh().is_some() { "water" } else { "particles" };
+    Some(format!("{what} of `{file}`, with noise of its own{forgets}; `step` and `time` are counted from 0"))
 }
 
 /// Completes a state whose particles have places and momenta; `thermal` are those whose momenta were drawn.

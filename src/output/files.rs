@@ -9,7 +9,7 @@
 use std::path::Path;
 
 pub use super::trajectory::trajectory;
-use crate::scene::{AnalysisId, TrajectoryFormat};
+use crate::scene::{AnalysisId, FieldFormat, FieldQuantity, Fields, TrajectoryFormat};
 use std::ffi::{OsStr, OsString};
 
 /// The lock of the directory, there as long as a process writes into it.
@@ -32,6 +32,9 @@ pub const TRAJECTORY_GSD: &str = "trajectory.gsd";
 pub const TRAJECTORY_XYZ: &str = "trajectory.xyz";
 /// What the names of pictures and arrays of fields on the mesh begin with.
 pub const FIELDS: [&str; 6] = ["depth", "potential_vorticity", "vorticity", "speed", "velocity_x", "velocity_y"];
+
+/// What the names of files of all fields begin with.
+const ALL_FIELDS: &str = "fields";
 
 /// Pictures and arrays of fields at the end of a run.
 const FIELD_FILES: [[&str; 2]; 6] = [
@@ -60,6 +63,7 @@ pub fn all() -> impl Iterator<Item = &'static str> {
         .chain(trajectories)
         .chain(tables.flat_map(|names| [names.file, names.plot].into_iter().chain(names.vector)))
         .chain(FIELD_FILES.into_iter().flatten())
+        .chain(["fields.nc"])
 }
 
 /// The name of a numbered snapshot; the first has number 1.
@@ -87,6 +91,27 @@ pub fn field(stem: &str, number: Option<u64>, extension: &str) -> String {
     }
 }
 
+/// The names of the files of arrays of fields, numbered from 1 or of the end, each with the fields in it.
+///
+/// ```
+/// use mesoscope::output::files;
+/// use mesoscope::scene::{FieldFormat, FieldQuantity, Fields};
+///
+/// let fields = Fields { quantities: vec![FieldQuantity::Depth, FieldQuantity::Speed], ..Fields::default() };
+/// assert_eq!(files::field_arrays(&fields, None)[1], ("speed.npy".to_owned(), vec![FieldQuantity::Speed]));
+/// let fields = Fields { format: FieldFormat::Netcdf, ..fields };
+/// assert_eq!(files::field_arrays(&fields, Some(7)), [("fields-000007.nc".to_owned(), fields.quantities.clone())]);
+/// ```
+#[must_use]
+pub fn field_arrays(fields: &Fields, number: Option<u64>) -> Vec<(String, Vec<FieldQuantity>)> {
+    let quantities = &fields.quantities;
+    match fields.format {
+        FieldFormat::Npy => quantities.iter().map(|one| (field(one.stem(), number, "npy"), vec![*one])).collect(),
+        FieldFormat::Netcdf if quantities.is_empty() => Vec::new(),
+        FieldFormat::Netcdf => vec![(field(ALL_FIELDS, number, "nc"), quantities.clone())],
+    }
+}
+
 /// Whether a file is an array: one of those that a picture shows, which only the run writes.
 ///
 /// ```
@@ -96,7 +121,7 @@ pub fn field(stem: &str, number: Option<u64>, extension: &str) -> String {
 /// ```
 #[must_use]
 pub fn is_array(name: &str) -> bool {
-    Path::new(name).extension().is_some_and(|extension| extension == "npy")
+    Path::new(name).extension().is_some_and(|extension| extension == "npy" || extension == "nc")
 }
 
 /// The number in the name of a numbered snapshot or field.
@@ -114,6 +139,7 @@ pub fn snapshot_number(name: &str) -> Option<u64> {
     let number = digits.parse().ok()?;
     let known = match stem {
         "snapshot" => extension == "png",
+        ALL_FIELDS => extension == "nc",
         stem => FIELDS.contains(&stem) && ["png", "npy"].contains(&extension),
     };
     (known && field(stem, Some(number), extension) == name).then_some(number)
@@ -170,11 +196,13 @@ mod tests {
             assert_eq!(snapshot_number(&snapshot(number)), Some(number));
         }
         assert!(snapshot(9) < snapshot(10));
-        for name in ["depth-000007.npy", "potential_vorticity-000007.png"] {
+        for name in ["depth-000007.npy", "potential_vorticity-000007.png", "fields-000007.nc"] {
             assert_eq!(snapshot_number(name), Some(7), "{name}");
         }
         for stranger in [
             "depth-000007.csv",
+            "depth-000007.nc",
+            "fields-000007.npy",
             "height-000007.png",
             "snapshot-000007.npy",
             "snapshot-1.png",

@@ -1,6 +1,7 @@
 //! Arrays in the `.npy` format of `NumPy`, version 1.0: `numpy.load(path)` gives them back.
 
 use super::{OutputError, own_file, write_atomically};
+use crate::state_file::arrays::npy;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
@@ -33,7 +34,7 @@ pub fn write_npy(path: &Path, shape: &[usize], values: &[f64]) -> Result<(), Out
     write_atomically(path, |writer| write_npy_to(writer, shape, values))
 }
 
-/// Reads an array file of float64 in C order, little-endian: shape and values.
+/// Reads an array file of floating-point numbers: shape, and values in C order.
 ///
 /// ```
 /// use mesoscope::output::{read_npy, write_npy};
@@ -53,27 +54,11 @@ pub fn read_npy(path: &Path) -> Result<(Vec<usize>, Vec<f64>), OutputError> {
     let mut bytes = Vec::new();
     let read = own_file::open(path).and_then(|mut file| file.read_to_end(&mut bytes));
     read.map_err(OutputError::io("read", path))?;
-    parsed(&bytes).ok_or_else(|| {
-        let message = "it is no array of float64 in C order, little-endian, as `numpy.save` writes it";
+    let array = npy::read(&bytes, "").map_err(|mistake| {
+        let message = format!("{}; accepted: {}", mistake.found, mistake.accepted);
         OutputError::io("read", path)(io::Error::new(io::ErrorKind::InvalidData, message))
-    })
-}
-
-fn parsed(bytes: &[u8]) -> Option<(Vec<usize>, Vec<f64>)> {
-    let length = u16::from_le_bytes(bytes.get(8..PREAMBLE)?.try_into().ok()?);
-    let begin = PREAMBLE + usize::from(length);
-    let header = std::str::from_utf8(bytes.get(PREAMBLE..begin)?).ok()?;
-    let described = header.contains("'descr': '<f8'") && header.contains("'fortran_order': False");
-    if !bytes.starts_with(b"\x93NUMPY\x01\x00") || !described {
-        return None;
-    }
-    let shape = header.split_once("'shape': (")?.1.split_once(')')?.0;
-    let lengths = shape.split(',').map(str::trim).filter(|length| !length.is_empty());
-    let shape: Vec<usize> = lengths.map(|length| length.parse().ok()).collect::<Option<_>>()?;
-    let words = bytes.get(begin..)?.chunks_exact(8);
-    let values: Vec<f64> = words.filter_map(|word| Some(f64::from_le_bytes(word.try_into().ok()?))).collect();
-    let held = shape.iter().try_fold(1_usize, |product, length| product.checked_mul(*length))?;
-    (held == values.len()).then_some((shape, values))
+    })?;
+    Ok((array.shape, array.values))
 }
 
 /// Writes the content of an array file; see [`write_npy`].

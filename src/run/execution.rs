@@ -317,21 +317,22 @@ impl<'a> Run<'a> {
         let model = self.scene.model();
         summary.columns.insert(files::ENERGIES.to_owned(), ColumnSummary::of_energies(model));
         // Parts of a run without pictures left none.
-        let fields = self.scene.output.fields.clone().unwrap_or_default().quantities;
+        let fields = self.scene.output.fields.clone().unwrap_or_default();
         let is_there = |number: u64| match model.picture() {
-            PictureKind::Fields => fields
-                .iter()
-                .any(|field| self.directory.file(&files::field(field.stem(), Some(number), "npy")).exists()),
+            PictureKind::Fields => {
+                files::field_arrays(&fields, Some(number)).iter().any(|(name, _)| self.directory.file(name).exists())
+            }
             _ => self.directory.file(&files::snapshot(number)).exists(),
         };
         let numbered = self.schedule.numbered().filter(|(number, _)| is_there(*number));
         let frame = |(number, step)| NumberedFrame { number, step, time: step as f64 * model.time_step };
         summary.numbered = numbered.map(frame).collect();
         if let Some((nodes, quantities)) = model.physics().fields(self.scene) {
-            let columns = quantities.iter().map(|quantity| {
-                (files::field(quantity.name, None, "npy"), vec![ColumnSummary::new(quantity.name, quantity, 2)])
-            });
-            summary.columns.extend(columns);
+            for (name, held) in files::field_arrays(&fields, None) {
+                let described = quantities.iter().filter(|known| held.iter().any(|field| field.stem() == known.name));
+                let columns = described.map(|quantity| ColumnSummary::new(quantity.name, quantity, 2)).collect();
+                summary.columns.insert(name, columns);
+            }
             summary.mesh = Some(MeshSummary::new(nodes, [model.units.lengths[0], model.units.lengths[1]]));
         }
         let last_step = self.scene.time.steps;

@@ -42,6 +42,7 @@ mod energies;
 mod energy_rows;
 mod error;
 mod execution;
+mod field_arrays;
 mod interrupt;
 mod kept_sums;
 mod pace;

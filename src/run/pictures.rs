@@ -4,13 +4,14 @@ use super::RunError;
 use super::adapter::{open_adapter, plan_for};
 use super::analyses::{self, mean};
 use super::colour_ranges::{self, ColourRanges};
+use super::field_arrays;
 use crate::engine::{Engine, Shown, Stepper};
-use crate::families::pictures::{CellValues, EnergyChart, MeshPictures, ValueScale};
+use crate::families::pictures::{CellValues, EnergyChart, ValueScale};
 use crate::families::{Checked, Model, PictureKind};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::numbers::grouped;
 use crate::output::{
-    Checkpoint, Extent, Found, Id, OutputError, RunDirectory, Summary, checkpoint, exists, files, read_table, write_npy,
+    Checkpoint, Extent, Found, Id, OutputError, RunDirectory, Summary, checkpoint, exists, files, read_table,
 };
 use crate::plan::Options;
 use crate::plot::{
@@ -340,11 +341,11 @@ impl<'a> Pictures<'a> {
     ) -> Result<Vec<String>, RunError> {
         let asked = self.scene.output.fields.clone().unwrap_or_default();
         let pictures = model.physics().mesh_pictures(&asked.quantities, state, depth, model);
-        let Some(MeshPictures { fields, loops }) = pictures else { return Ok(Vec::new()) };
+        let Some(pictures) = pictures else { return Ok(Vec::new()) };
         let curves: Vec<PeriodicCurve<'_>> =
-            loops.iter().map(|points| PeriodicCurve { points, closed: true }).collect();
+            pictures.loops.iter().map(|points| PeriodicCurve { points, closed: true }).collect();
         let mut written = Vec::new();
-        for shown in fields {
+        for shown in &pictures.fields {
             let field = &shown.field;
             let subtitle = at_time(state, model);
             let given = asked.ranges.of(shown.quantity);
@@ -370,11 +371,12 @@ impl<'a> Pictures<'a> {
                 self.draw(&name, |plotter| plotter.draw_field(&picture, style))?;
                 written.push(name);
             }
-            let name = files::field(shown.described.name, number, "npy");
+        }
+        for (name, held) in files::field_arrays(&asked, number) {
             let path = self.directory.file(&name);
             // Those that are there are the run's.
             if self.arrays.is_some() || !path.exists() {
-                write_npy(&path, &field.nodes, &field.values)?;
+                field_arrays::write(&path, &held, &pictures, self.scene, state.step)?;
                 if let Some(arrays) = &mut self.arrays {
                     arrays.push((name.clone(), Extent::of(&path)?));
                 }

@@ -3,6 +3,7 @@
 //! Every format has a file of its own; trajectories in GSD are written through its file layer too ([`GsdWriter`]). The first three become
 //! one [`ParticleFile`], with what the file says in its own units and order. A length that a file announces is compared with its size before anything is allocated.
 
+pub(crate) mod arrays;
 mod atom_style;
 pub mod checkpoint;
 pub(crate) mod elements;

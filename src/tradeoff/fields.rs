@@ -3,7 +3,7 @@
 use super::measures::Measured;
 use crate::families::{Checked, PictureKind};
 use crate::output::{RunDirectory, files as run_files, read_npy, read_table};
-use crate::scene::{AnalysisId, FieldQuantity};
+use crate::scene::{AnalysisId, FieldFormat, FieldQuantity};
 use crate::study::{StudyError, by_key, each_once};
 use crate::table::Table;
 
@@ -98,7 +98,11 @@ pub(super) fn leaving_compared(scene: Checked) -> Checked {
     if quantities.is_empty() {
         return scene;
     }
-    scene.changed(|scene| scene.output.fields.get_or_insert_default().quantities = quantities)
+    scene.changed(|scene| {
+        let fields = scene.output.fields.get_or_insert_default();
+        // They are compared from arrays of their own.
+        (fields.quantities, fields.format) = (quantities, FieldFormat::Npy);
+    })
 }
 
 /// The names of the distances of a scene from an exact solution, if it has one.

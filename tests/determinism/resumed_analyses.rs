@@ -199,6 +199,9 @@ fn shallow_water_goes_on() {
     let scene = scene::parse("test", &text.to_string(), &[]).unwrap_or_else(|error| panic!("{error}"));
     let fields = r#"output.fields={"every":20,"quantities":["depth"]}"#;
     goes_on(&small(&scene, &["output.energies.every=2", fields]), &[27]);
+    // Several fields in one file, and states of the mesh.
+    let fields = r#"output.fields={"every":10,"format":"netcdf","quantities":["depth","velocity-x"]}"#;
+    goes_on(&small(&scene, &["output.energies.every=2", fields, "output.spectra.every=3"]), &[17]);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod channels;
 mod errors;
+mod fields;
 mod many_body;
 mod micelles;
 mod phases;

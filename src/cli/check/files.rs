@@ -21,11 +21,14 @@ pub fn outputs(scene: &Checked, sizes: &Sizes) -> String {
     ];
     if model.picture() == PictureKind::Fields {
         let fields = output.fields.clone().unwrap_or_default();
-        for quantity in fields.quantities {
-            let stem = quantity.stem();
-            rows.push((format!("{stem}.png, {stem}.npy"), "at the end".to_owned()));
+        for (array, quantities) in files::field_arrays(&fields, None) {
+            let pictures = quantities.iter().map(|quantity| files::field(quantity.stem(), None, "png"));
+            let names = pictures.chain([array]).collect::<Vec<_>>().join(", ");
             if fields.every > 0 {
-                rows.push((format!("{stem}-….png, {stem}-….npy"), interval(0, fields.every)));
+                rows.push((names.clone(), "at the end".to_owned()));
+                rows.push((names.replace('.', "-…."), interval(0, fields.every)));
+            } else {
+                rows.push((names, "at the end".to_owned()));
             }
         }
     } else if model.units.dimension > 1 {

@@ -1,5 +1,6 @@
 //! Fields on the mesh, as pictures and arrays.
 
+use crate::document::defaults::is_default;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -9,6 +10,9 @@ use serde::{Deserialize, Serialize};
 pub struct Fields {
     /// Steps between two numbered pictures and arrays; zero writes them only at the end.
     pub every: u64,
+    /// The format of the arrays.
+    #[serde(skip_serializing_if = "is_default")]
+    pub format: FieldFormat,
     /// Which fields.
     #[schemars(length(max = 16))]
     pub quantities: Vec<FieldQuantity>,
@@ -19,8 +23,19 @@ pub struct Fields {
 impl Default for Fields {
     fn default() -> Self {
         let quantities = vec![FieldQuantity::Depth, FieldQuantity::PotentialVorticity];
-        Self { every: 0, quantities, ranges: FieldRanges::default() }
+        Self { every: 0, format: FieldFormat::default(), quantities, ranges: FieldRanges::default() }
     }
+}
+
+/// The format of arrays of fields.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FieldFormat {
+    /// A `.npy` file of `NumPy` of every field and time (default); the first index is that of x.
+    #[default]
+    Npy,
+    /// A `NetCDF` file of all fields of a time, with their coordinates and the names of the CF conventions: `fields.nc`, and numbered ones.
+    Netcdf,
 }
 
 /// The lowest and the highest value on the colour scale of each field, for all pictures of the run. A range that is left out follows

@@ -3,7 +3,7 @@
 mod fields;
 mod water;
 
-pub use fields::{FieldQuantity, FieldRanges, Fields};
+pub use fields::{FieldFormat, FieldQuantity, FieldRanges, Fields};
 pub use water::{
     BathRate, LaplacianSymbol, MeshBath, ShallowWaterInteraction, Smoothing, SmoothingSolver, SurfaceFeature,
 };

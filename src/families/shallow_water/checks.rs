@@ -28,6 +28,10 @@ pub(crate) fn check(scene: &Scene, water: &ShallowWaterInteraction, problems: &m
         let found = format!("{} edge{}", lengths.len(), if lengths.len() == 1 { "" } else { "s" });
         problems.refuse("space.box", found, "two edges: shallow water is two-dimensional");
     }
+    if scene.state.is_some() && !water.surface.is_empty() {
+        let accepted = "no `surface`: the file of `state` says how deep the water is";
+        problems.refuse(format!("{PATH}.surface"), "beside a `state`", accepted);
+    }
     check_mesh(water, problems);
     check_groups(scene, water, problems);
     let smoothing = &water.smoothing;

@@ -1,7 +1,7 @@
 //! What `check` says of shallow water.
 
-use super::WaterLayout;
 use super::plan::smoothing::iterations;
+use super::{WaterLayout, waves};
 use crate::document::{BathRate, BathScheme, LaplacianSymbol, MeshBath, Scene, SmoothingSolver};
 use crate::families::ShallowWater;
 use crate::numbers::{grouped, six_digits};
@@ -60,6 +60,7 @@ pub(super) fn mesh(water: &ShallowWater, scene: &Scene, plan: &Plan, nodes: &str
         }
         None => {}
     }
+    rows.push(("waves", waves::in_words(water, lengths)));
     let share = water.stability(lengths, scene.time.step);
     let clean = water.clean_share();
     rows.push((

@@ -8,6 +8,9 @@ use crate::families::{Field, Model, ShallowWater};
 use crate::quantity::{Quantity, RATE, Unit, VELOCITY, quantity};
 use crate::state::Reported;
 
+/// What the fields are computed by.
+const METHOD: &str = "rotating shallow water by the Hamiltonian particle-mesh method";
+
 /// Fields of a state with a smoothed depth, and loops of tracers that are still curves.
 pub(super) fn pictures(
     water: &ShallowWater,
@@ -18,7 +21,26 @@ pub(super) fn pictures(
 ) -> MeshPictures {
     let flow = MeshFlow::new(model, water, state);
     let fields = quantities.iter().map(|quantity| field(*quantity, &flow, depth, model, water)).collect();
-    MeshPictures { fields, loops: closed_loops(state, model, water) }
+    // The mean depth H is 1, and c₀² = gH.
+    let parameters = vec![
+        ("coriolis_parameter", water.rotation),
+        ("gravity", water.wave_speed * water.wave_speed),
+        ("mean_depth", 1.0),
+        ("smoothing_length", water.smoothing.length),
+    ];
+    MeshPictures { fields, loops: closed_loops(state, model, water), method: METHOD, parameters }
+}
+
+/// The name of a field in the table of standard names of the CF conventions, where it has one.
+fn standard_name(field: FieldQuantity) -> Option<&'static str> {
+    match field {
+        FieldQuantity::Depth => Some("sea_floor_depth_below_sea_surface"),
+        FieldQuantity::PotentialVorticity => None,
+        FieldQuantity::Vorticity => Some("ocean_relative_vorticity"),
+        FieldQuantity::Speed => Some("sea_water_speed"),
+        FieldQuantity::VelocityX => Some("sea_water_x_velocity"),
+        FieldQuantity::VelocityY => Some("sea_water_y_velocity"),
+    }
 }
 
 /// The quantity of a field, which has the name of its files.
@@ -61,7 +83,8 @@ fn field(asked: FieldQuantity, flow: &MeshFlow, depth: &[f64], model: &Model, wa
         lengths: [model.units.lengths[0], model.units.lengths[1]],
         values: places.map(|place| values[place]).collect(),
     };
-    ShownField { described, centre, from_zero: asked == FieldQuantity::Speed, quantity: asked, field }
+    let standard_name = standard_name(asked);
+    ShownField { described, standard_name, centre, from_zero: asked == FieldQuantity::Speed, quantity: asked, field }
 }
 
 /// The points of every closed loop of tracers that is still a curve.

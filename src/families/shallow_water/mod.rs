@@ -1,5 +1,6 @@
 //! Rotating shallow water by the Hamiltonian particle-mesh method.
 
+mod carried;
 pub(crate) mod checks;
 pub mod circulation;
 mod description;
@@ -11,10 +12,12 @@ mod observables;
 mod plan;
 pub mod reference;
 mod small_scene;
+mod spectra;
 mod start;
 mod steady;
 pub mod surface;
 mod warnings;
+mod waves;
 
 pub use layout::{Bins, WaterLayout};
 pub use plan::smoothing;
@@ -23,9 +26,11 @@ use super::pictures::{EnergyChart, MeshPictures};
 use super::reference::Stepper;
 use super::{
     BathStep, Beyond, Checked, Column, ExactMean, KeptQuantity, KeptSum, Limit, MaterialLoops, Model, Observables,
-    Physics, PictureKind, ShallowWater, Species, column, conservation, speeds,
+    Physics, PictureKind, ShallowWater, Species, WaveShell, column, conservation, speeds,
 };
-use crate::document::{FieldQuantity, ParticleGroup, Scene, SmoothingSolver, Warning, WaterIntegrator, brief};
+use crate::document::{
+    FieldQuantity, ParticleGroup, Problems, Scene, SmoothingSolver, Warning, WaterIntegrator, brief,
+};
 use crate::numbers::{grouped, with_error};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
 use crate::quantity::Quantity;
@@ -143,7 +148,13 @@ impl Physics for ShallowWater {
     }
 
     fn complete_start(&self, state: &mut State, scene: &Checked, thermal: &[usize]) {
-        start::complete(self, state, scene.model(), thermal);
+        start::complete(self, state, scene, thermal);
+    }
+
+    fn check_start(&self, scene: &Checked, state: &State, problems: &mut Problems) {
+        if let Some(fields) = scene.fields_of_start() {
+            carried::check(self, scene, state, fields, problems);
+        }
     }
 
     fn plan(&self, model: &Model, measured: &Measured, hardware: Hardware, options: Options) -> PhysicsPlan {
@@ -216,6 +227,14 @@ impl Physics for ShallowWater {
 
     fn nodes(&self) -> u64 {
         Self::nodes(self)
+    }
+
+    fn wave_shells(&self, model: &Model) -> Vec<WaveShell> {
+        spectra::shells(self, model)
+    }
+
+    fn spectra(&self, model: &Model, state: &Reported) -> Option<Vec<[f64; 4]>> {
+        (self.carriers > 0).then(|| spectra::of_state(self, model, state))
     }
 
     fn observables(&self, step: u64, sums: &[i64], plan: &Plan, model: &Model) -> Observables {

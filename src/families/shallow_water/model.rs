@@ -70,8 +70,9 @@ impl ShallowWater {
         };
         let carriers: u64 = count(false).sum();
         let mut waters = scene.particles.iter().filter(|group| !group.tracer);
-        let starts_still =
-            interaction.surface.is_empty() && waters.all(|group| matches!(group.velocities, Velocities::Thermal));
+        let starts_still = scene.state.is_none()
+            && interaction.surface.is_empty()
+            && waters.all(|group| matches!(group.velocities, Velocities::Thermal));
         let tracers = scene.particles.iter().filter(|group| group.tracer).zip(count(true));
         let nodes = f64::from(interaction.mesh[0]) * f64::from(interaction.mesh[1]);
         let heaviest = LARGEST_DEPTH * nodes / carriers.max(1) as f64;
@@ -269,7 +270,7 @@ pub(crate) fn chebyshev_iterations(stiffness: [f64; 2], tolerance: f64) -> f64 {
 }
 
 /// Fourier symbols of ∫ψψ and of ∫ψ'ψ' of B-splines on a unit mesh, at an angle a node.
-fn spline_symbols(order: u32, angle: f64) -> (f64, f64) {
+pub(super) fn spline_symbols(order: u32, angle: f64) -> (f64, f64) {
     let linear = (4.0 + 2.0 * angle.cos()) / 6.0;
     let quadratic = (66.0 + 52.0 * angle.cos() + 2.0 * (2.0 * angle).cos()) / 120.0;
     let cubic = (2416.0 + 2382.0 * angle.cos() + 240.0 * (2.0 * angle).cos() + 2.0 * (3.0 * angle).cos()) / 5040.0;

@@ -9,6 +9,8 @@ const CROWD: u64 = 16;
 /// Water at random places on a coarse mesh in the box of a scene: it has the same splines, solver, bath and integrator, and moves.
 pub(super) fn of(scene: &Scene) -> Scene {
     let mut small = scene.clone();
+    // A file has another mesh.
+    small.state = None;
     let mut nodes = 0;
     if let Some(water) = small.system.shallow_water_mut() {
         water.mesh = water.mesh.map(|cells| cells.min(CELLS));

@@ -1,7 +1,8 @@
 //! How shallow water starts: masses from the depth, velocities in balance or thermal, variables of the bath.
 
+use super::carried;
 use crate::document::{Generator, ParticleGroup, Velocities};
-use crate::families::{Model, ShallowWater, start};
+use crate::families::{Checked, Model, ShallowWater, start};
 use crate::noise::{self, stream};
 use crate::state::State;
 use std::ops::Range;
@@ -34,8 +35,12 @@ pub(super) fn set_in_motion(
 }
 
 /// Completes the state, once all particles are there.
-pub(super) fn complete(water: &ShallowWater, state: &mut State, model: &Model, thermal: &[usize]) {
-    set_mean_depth(&mut state.masses[..water.carriers as usize], water);
+pub(super) fn complete(water: &ShallowWater, state: &mut State, scene: &Checked, thermal: &[usize]) {
+    let model = scene.model();
+    match scene.fields_of_start() {
+        Some(fields) => carried::carry(water, state, fields, model),
+        None => set_mean_depth(&mut state.masses[..water.carriers as usize], water),
+    }
     draw_thermal_velocities(state, thermal, model, water);
     draw_bath(state, model, water);
 }
@@ -56,7 +61,7 @@ fn fill(state: &mut State, group: &ParticleGroup, first: usize, model: &Model, w
 }
 
 /// Scales the masses so that they add up to 1 a node, to the last unit.
-fn set_mean_depth(masses: &mut [u32], water: &ShallowWater) {
+pub(super) fn set_mean_depth(masses: &mut [u32], water: &ShallowWater) {
     let wanted = water.total_mass();
     let sum: u64 = masses.iter().map(|mass| u64::from(*mass)).sum();
     if sum == 0 {

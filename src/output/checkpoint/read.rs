@@ -48,8 +48,12 @@ pub fn load(path: &Path) -> Result<Checkpoint, CheckpointError> {
         // Layers of frozen particles follow those of the start.
         let frozen = scene.particles.iter().filter(|group| group.is_frozen());
         let frozen: u64 = frozen.map(|group| group.resolved_count(&scene.space)).sum();
-        let fits =
-            |start: &FileStart| start.particles().saturating_add(frozen) == state.len() as u64 && start.fits(&scene);
+        // Particles that carry fields are in none of their own.
+        let are_there = |start: &FileStart| {
+            let from_fields = scene.mesh().is_some() && start.species.is_empty();
+            from_fields || start.particles().saturating_add(frozen) == state.len() as u64
+        };
+        let fits = |start: &FileStart| are_there(start) && start.fits(&scene);
         let start = start
             .filter(fits)
             .ok_or_else(|| malformed("what it keeps of the start of its particles makes no sense"))?;

@@ -22,6 +22,7 @@ mod radial_distribution;
 mod results;
 mod shear_wave;
 mod species_pairs;
+mod spectra;
 mod stress;
 mod structure_factor;
 mod under_way;
@@ -62,6 +63,7 @@ fn describe(id: AnalysisId) -> Box<dyn Descriptor> {
         AnalysisId::Chain => Box::new(chain::Chain),
         AnalysisId::Neighbours => Box::new(neighbours::Neighbours),
         AnalysisId::ShearWave => Box::new(shear_wave::ShearWave),
+        AnalysisId::Spectra => Box::new(spectra::Spectra),
         AnalysisId::Profiles => Box::new(profiles::Profiles),
         AnalysisId::Stress => Box::new(stress::Stress),
     }

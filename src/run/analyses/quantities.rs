@@ -2,7 +2,7 @@
 
 use crate::quantity::{
     NUMBER, Quantity, RATE, TIME, Unit,
-    Unit::{Density, Other, Pressure, Temperature, Tension, Viscosity},
+    Unit::{Density, Energy, Other, Pressure, Temperature, Tension, Viscosity},
     VELOCITY, quantity,
 };
 use crate::scene::{AnalysisId, CorrelatedQuantity, CountedQuantity};
@@ -15,6 +15,7 @@ const VELOCITY_SQUARED: Unit = Other("length units²/time unit²");
 const DIFFUSION: Unit = Other("length units²/time unit");
 const ACCELERATION: Unit = Other("length units/time unit²");
 const VELOCITIES: [Unit; 3] = [VELOCITY, VELOCITY_SQUARED, Other("length units⁴/time unit⁴")];
+const SQUARED_RATE: Unit = Other("1/time unit²");
 const INVERSE: Unit = Other("1 over the unit of the quantity");
 
 const LAG: Quantity = quantity("time", "t", TIME, "lag");
@@ -267,6 +268,18 @@ pub(super) fn of(id: AnalysisId) -> &'static [Quantity] {
                     quantity("kinematic_viscosity", "ν", DIFFUSION, "decay rate over k²"),
                     quantity("shear_viscosity", "η", Viscosity, "kinematic viscosity times the density"),
                     quantity("", "η", Viscosity, "known beforehand, for comparison"),
+                ]
+            }
+        }
+        AnalysisId::Spectra => {
+            const {
+                &[
+                    quantity("wave_number", "k", WAVE_NUMBER, "wave number in the middle of the shell"),
+                    quantity("modes", "n", NUMBER, "Fourier modes in the shell"),
+                    quantity("kinetic_energy", "K", Energy, "½ Σ h̃(u² + v²) over nodes, of the modes of the shell"),
+                    quantity("potential_energy", "U", Energy, "½ c₀² Σ (h̃ − 1)(h − 1), of the modes of the shell"),
+                    quantity("potential_enstrophy", "Z", SQUARED_RATE, "½ Σ (ζ + f₀)²/h, of the modes of the shell"),
+                    quantity("enstrophy", "Z_ζ", SQUARED_RATE, "½ Σ ζ², of the modes of the shell"),
                 ]
             }
         }

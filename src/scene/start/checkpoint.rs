@@ -53,6 +53,11 @@ impl Run {
         State { step: 0, ..self.state.clone() }
     }
 
+    /// Its scene.
+    pub fn scene(&self) -> &Checked {
+        &self.scene
+    }
+
     /// What of it a scene with other steps cannot take, in words.
     pub fn forgotten(&self) -> impl Iterator<Item = &'static str> {
         let there = StateArray::ALL.into_iter().filter(|array| self.state.length(*array) > 0);
@@ -82,6 +87,12 @@ impl Run {
 /// The particles of a checkpoint, in the order that they have there, and the run. Their momenta are those with which they came to their
 /// positions.
 pub(super) fn particles(path: &Path, fits: &Fits<'_>) -> Result<(ParticleFile, Run), Mistake> {
+    let run = run(path, fits)?;
+    Ok((of_state(run.scene.model(), &run.state)?, run))
+}
+
+/// The run of a checkpoint.
+pub(super) fn run(path: &Path, fits: &Fits<'_>) -> Result<Run, Mistake> {
     if !path.exists() {
         let found = format!("the directory has no `{FILE}`: no run has saved its state there");
         return Err(Mistake::new("", found, "the directory of a run with a checkpoint, or a file"));
@@ -94,8 +105,7 @@ pub(super) fn particles(path: &Path, fits: &Fits<'_>) -> Result<(ParticleFile, R
     let start = start.and_then(|(_, bytes)| FileStart::from_bytes(bytes)).map(Arc::new);
     let written = WrittenScene::new("its scene", content.scene);
     let scene = written.check_kept(start).map_err(|error| damaged(&format!("its scene is refused ({error})")))?;
-    let particles = of_state(scene.model(), &content.state)?;
-    Ok((particles, Run { scene, state: content.state }))
+    Ok(Run { scene, state: content.state })
 }
 
 fn refusal(error: &ContentError) -> Mistake {

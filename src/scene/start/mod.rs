@@ -2,6 +2,7 @@
 //! says.
 
 mod checkpoint;
+mod fields;
 mod molecules;
 mod places;
 mod weight;
@@ -39,6 +40,9 @@ pub(super) fn read(
     let mut problems = Problems::default();
     if !scene.has_start() {
         return Ok(problems);
+    }
+    if let (Some(state), Some(mesh)) = (scene.state.clone(), scene.mesh()) {
+        return fields::read(scene, &state, mesh, &files.path(name, &state.file), files);
     }
     check_scene(scene, &mut problems);
     if !problems.is_empty() {
@@ -210,6 +214,17 @@ fn shared(start: FileStart) -> Arc<FileStart> {
     let start = Arc::new(start);
     *last = Arc::downgrade(&start);
     start
+}
+
+/// Compares the checksum of what was read with the one that a scene has, and puts it there.
+fn adopt_checksum(scene: &mut Scene, state: &StateFile, found: String, problems: &mut Problems) {
+    if let Some(given) = state.checksum.as_ref().filter(|given| **given != found) {
+        let found = format!("\"{given}\", and \"{found}\" of `{}`", state.file);
+        problems.refuse("state.checksum", found, "the file as it was, or no `checksum`");
+    }
+    if let Some(state) = &mut scene.state {
+        state.checksum = Some(found);
+    }
 }
 
 /// The first group of a species.
@@ -647,13 +662,7 @@ impl<'a> Reader<'a> {
     /// A checksum in the scene has to be that of what was read.
     fn adopt_checksum(&mut self, scene: &mut Scene) {
         let Some(found) = self.checksum.clone() else { return };
-        if let Some(given) = self.state.checksum.as_ref().filter(|given| **given != found) {
-            let found = format!("\"{given}\", and \"{found}\" of `{}`", self.state.file);
-            self.problems.refuse("state.checksum", found, "the file as it was, or no `checksum`");
-        }
-        if let Some(state) = &mut scene.state {
-            state.checksum = Some(found);
-        }
+        adopt_checksum(scene, self.state, found, &mut self.problems);
     }
 
     /// Says what is in the file, and nowhere in the scene.

@@ -40,7 +40,7 @@ pub(super) fn start(
     let bonds = file.bonds.iter().map(|links| of_box.links(links)).collect();
     let angles = file.angles.iter().map(|links| of_box.links(links)).collect();
     let tethers = fractions(&file.tethers);
-    let places = Some(FilePlaces { positions, velocities: Vec::new(), images, tethers, state: None });
+    let places = Some(FilePlaces { positions, velocities: Vec::new(), images, tethers, ..FilePlaces::default() });
     let fastest = vec![0.0; species_of_scene];
     let mut start = FileStart { copies, species, fastest, bonds, angles, surroundings: None, origin: None, places };
     if state.velocities == StateVelocities::File {

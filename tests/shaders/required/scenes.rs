@@ -373,7 +373,7 @@ pub fn ways_to_say_off() -> Vec<(&'static str, Change, Change)> {
 }
 
 const LISTS: [&str; 2] = ["autocorrelations", "histograms"];
-const ANALYSES: [&str; 13] = [
+const ANALYSES: [&str; 14] = [
     "clusters",
     "trajectory",
     "radial_distribution",
@@ -384,6 +384,7 @@ const ANALYSES: [&str; 13] = [
     "chain",
     "neighbours",
     "shear_wave",
+    "spectra",
     "profiles",
     "stress",
     "fields",

@@ -39,7 +39,7 @@ pub(super) fn spread(water: &ShallowWater, state: &State) -> Vec<f64> {
 ///
 /// For the solver `chebyshev`, whose Laplacian is the five-point one, this is what its polynomial approximates.
 #[derive(Clone)]
-pub(super) struct Smoothing {
+pub(crate) struct Smoothing {
     mesh: [usize; 2],
     /// Fourier symbol of A over the number of nodes, which the transforms back and forth multiply by; empty for A = 1.
     symbol: Vec<f64>,
@@ -49,7 +49,7 @@ pub(super) struct Smoothing {
 
 impl Smoothing {
     /// The smoothing of a model in a box with these edges.
-    pub(super) fn new(water: &ShallowWater, lengths: [f64; 2]) -> Self {
+    pub(crate) fn new(water: &ShallowWater, lengths: [f64; 2]) -> Self {
         let mesh = water.mesh.map(|nodes| nodes as usize);
         let mut planner = FftPlanner::new();
         let mut symbol = Vec::new();
@@ -69,18 +69,36 @@ impl Smoothing {
     }
 
     /// A applied to a field.
-    pub(super) fn apply(&self, field: &[f64]) -> Vec<f64> {
-        if self.symbol.is_empty() {
-            return field.to_vec();
-        }
+    pub(crate) fn apply(&self, field: &[f64]) -> Vec<f64> {
+        self.multiplied(field, |symbol| symbol)
+    }
+
+    /// The field to which A gives this one.
+    pub(crate) fn undo(&self, field: &[f64]) -> Vec<f64> {
+        let nodes = field.len() as f64;
+        self.multiplied(field, |symbol| 1.0 / (symbol * nodes * nodes))
+    }
+
+    /// The Fourier modes of a field, those of neighbouring wave numbers along y next to each other.
+    pub(crate) fn modes(&self, field: &[f64]) -> Vec<Complex<f64>> {
         let mut values: Vec<Complex<f64>> = field.iter().map(|value| Complex::new(*value, 0.0)).collect();
-        // Lines along x, then lines along y; the transform back leaves the field as it was.
+        // Lines along x, then lines along y.
         self.forward[0].process(&mut values);
         let mut values = transposed(&values, self.mesh[0]);
         self.forward[1].process(&mut values);
+        values
+    }
+
+    /// A field whose Fourier modes have the factor that a function makes of the symbol of A.
+    fn multiplied(&self, field: &[f64], factor: impl Fn(f64) -> f64) -> Vec<f64> {
+        if self.symbol.is_empty() {
+            return field.to_vec();
+        }
+        // The transform back leaves the field as it was.
+        let mut values = self.modes(field);
         for k in 0..self.mesh[0] {
             for l in 0..self.mesh[1] {
-                values[k * self.mesh[1] + l] *= self.symbol[k + l * self.mesh[0]];
+                values[k * self.mesh[1] + l] *= factor(self.symbol[k + l * self.mesh[0]]);
             }
         }
         self.inverse[1].process(&mut values);

@@ -32,14 +32,14 @@ mod depth;
 mod motion;
 pub(crate) mod splines;
 
-pub(crate) use depth::mesh_splines;
+pub(crate) use depth::{Smoothing, mesh_splines};
 
 use crate::families::Observables;
 use crate::families::reference::{Unstable, bath, drift};
 use crate::families::{Model, ShallowWater};
 use crate::noise::{self, stream};
 use crate::state::{Reported, State};
-use depth::{Smoothing, spread};
+use depth::spread;
 use motion::{Motion, half_kick};
 
 /// What rounding may take from a depth of nothing.
