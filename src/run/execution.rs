@@ -363,7 +363,7 @@ impl<'a> Run<'a> {
         go_on()?;
         if self.task.draws {
             self.pictures.energies(&self.energies.rows.table(), self.scene.model(), &summary)?;
-            self.pictures.analyses(&summary, &go_on)?;
+            self.pictures.analyses(self.scene.model(), &summary, &go_on)?;
         } else {
             // Those that are there show an earlier end.
             self.directory.remove_last_pictures()?;

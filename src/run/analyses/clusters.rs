@@ -87,7 +87,7 @@ impl Descriptor for Clusters {
             let panel = Panel { x: Axis::log("Particles in a cluster"), y: Axis::log("Clusters"), ..Panel::default() };
             let points = drawn.column("size").into_iter().zip(drawn.column("clusters"));
             let panel = panel.with(Series::markers("", points.map(|(size, count)| [size, count]).collect()));
-            return Chart { title: drawn.title().to_owned(), subtitle, panels: vec![panel] };
+            return drawn.of_species(Chart { title: drawn.title().to_owned(), subtitle, panels: vec![panel] });
         }
         let series = |column: &str, name: &str, ink: usize| {
             let mean = mean(&drawn.result[column]);
