@@ -18,8 +18,9 @@ pub struct Output {
     /// The appearance of the plots.
     #[serde(default)]
     pub plot: PlotStyle,
-    /// Pictures of the particles.
-    #[serde(default)]
+    /// Pictures of the particles; none where this is `null`.
+    #[serde(default, with = "super::pictures::nullable")]
+    #[schemars(with = "Option<Snapshot>")]
     pub snapshot: Snapshot,
     /// Checkpoints to resume from.
     #[serde(default)]

@@ -199,7 +199,7 @@ impl<'a> Run<'a> {
         let number = self.schedule.snapshot(step);
         let taken = self.analyses.take_state(step);
         let fields = self.scene.model().picture() == PictureKind::Fields;
-        let is_shown = (number.is_some() || last) && (fields || self.task.draws);
+        let is_shown = (number.is_some() || last) && (fields || self.task.draws && !self.scene.output.snapshot.is_off);
         if is_shown || taken {
             let most = most_shown(self.scene);
             let all = if taken { Shown::all(engine.reported()?) } else { engine.shown(most)? };

@@ -19,7 +19,9 @@ use crate::plot::{
     ShownValues, energies_chart, means_note, missing_glyphs, snapshot_size, vector_graphics,
 };
 use crate::printable;
-use crate::scene::{AnalysisTable, PlotStyle, Scene, Snapshot, SnapshotColor, VectorFormat, WrittenScene};
+use crate::scene::{
+    AnalysisTable, PlotStyle, Scene, Snapshot, SnapshotColor, SnapshotSlice, VectorFormat, WrittenScene,
+};
 use crate::shaders::Array;
 use crate::state::{Reported, crossings};
 use crate::table::Table;
@@ -64,7 +66,7 @@ pub fn redraw(
         let depth = mesh_depth(&mut engine, model)?;
         let names = pictures.fields(None, &state, &depth, model)?;
         written.extend(files::all().filter(|name| names.iter().any(|written| written == name)));
-    } else {
+    } else if !scene.output.snapshot.is_off {
         let shown = engine.shown(most_shown(&scene))?;
         pictures.snapshot(files::SNAPSHOT, &shown, model)?;
         if model.units.dimension > 1 {
@@ -238,8 +240,15 @@ impl<'a> Pictures<'a> {
         let asked = &self.scene.output.snapshot;
         let is_shown = |name: &String| asked.species.is_empty() || asked.species.contains(name);
         let of_species: Vec<bool> = model.species.iter().map(|species| is_shown(&species.name)).collect();
-        let particles: Vec<usize> =
+        let mut particles: Vec<usize> =
             (0..state.len()).filter(|&index| of_species.get(state.species[index] as usize) == Some(&true)).collect();
+        let sampled = particles.len() as u64;
+        if let Some(slice) = asked.slice {
+            let axis = slice.axis as usize;
+            let is_walled = model.particles().walls.iter().any(|walls| walls.axis == axis);
+            let period = (!is_walled).then_some(edges[axis]);
+            particles.retain(|&index| slice.holds(units.position(state.positions[index])[axis], period));
+        }
         let positions: Vec<[f64; 3]> = particles.iter().map(|&index| place(&state.positions[index])).collect();
         let species: Vec<u32> = particles.iter().map(|&index| state.species[index]).collect();
         let by_speed = self.scene.output.snapshot.color == SnapshotColor::Speed;
@@ -254,8 +263,11 @@ impl<'a> Pictures<'a> {
         if shown.numbers.is_some() {
             let all: u64 =
                 model.species.iter().filter(|species| is_shown(&species.name)).map(|species| species.count).sum();
-            let [some, all] = [particles.len() as u64, all].map(grouped);
+            let [some, all] = [sampled, all].map(grouped);
             subtitle = format!("{subtitle}; {some} of {all} particles");
+        }
+        if let Some(SnapshotSlice { axis, position, thickness }) = asked.slice {
+            subtitle = format!("{subtitle}; slice at {} = {position} ± {}", axis.name(), rounded(0.5 * thickness));
         }
         if !asked.species.is_empty() {
             let names: Vec<_> = asked.species.iter().map(|name| printable::name(name)).collect();

@@ -128,7 +128,7 @@ fn check_groups(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut P
 
 fn check_output(scene: &Scene, problems: &mut Problems) {
     let output = &scene.output;
-    if output.snapshot != Snapshot::default() {
+    if !output.snapshot.is_off && output.snapshot != Snapshot::default() {
         let accepted = "no `output.snapshot` in shallow water: `output.fields` draws the water, `output.plot` says how";
         problems.refuse("output.snapshot", "settings of pictures of particles", accepted);
     }
