@@ -32,12 +32,11 @@ pub fn neighbours_chart(title: &str, table: &Table) -> Chart {
     let mean = numbers.iter().zip(&fractions).map(|(n, f)| n * f).sum::<f64>();
     let square = numbers.iter().zip(&fractions).map(|(n, f)| n * n * f).sum::<f64>();
     let mut panel = Panel::new("Neighbours of a cell", "Fraction of cells");
-    panel.series.push(Series::line("measured", outline));
-    panel.series.push(Series::markers("random points", pairs(&numbers, &random)));
+    panel.series.push(Series::line("measured", outline).with_ink(SeriesInk::Numbered(0)));
+    panel.series.push(Series::markers("random points", pairs(&numbers, &random)).with_ink(SeriesInk::Numbered(1)));
     if errors.iter().any(|error| error.is_finite() && *error > 0.0) {
-        let bars = Series::markers("", pairs(&numbers, &fractions))
-            .with_errors(errors)
-            .with_ink(SeriesInk::Ink { pattern: 0 });
+        let bars =
+            Series::markers("", pairs(&numbers, &fractions)).with_errors(errors).with_ink(SeriesInk::Numbered(0));
         panel.series.push(bars);
     }
     let top = 1.08 * highest(fractions.iter().chain(&random).copied()).max(1e-9);
@@ -47,7 +46,7 @@ pub fn neighbours_chart(title: &str, table: &Table) -> Chart {
     Chart { title: title.to_owned(), subtitle, panels: vec![panel] }
 }
 
-const MAGNITUDE: &str = "Its magnitude (length units/time unit)";
+const MAGNITUDE: &str = "Magnitude of the amplitude (length units/time unit)";
 
 /// The amplitude of a shear wave over time, with the exponential decay of this name fitted to it: on a linear axis, and its magnitude on a
 /// logarithmic one.

@@ -79,7 +79,7 @@ pub(crate) use particles::snapshot_size;
 pub use presets::{autocorrelation_chart, circulation_chart, histogram_chart, radial_distribution_chart};
 pub use profile_charts::{ProfiledSpecies, profiles_chart};
 pub use quantities::{Averages, energies_chart, quantity_label};
-pub(crate) use quantities::{UNEQUILIBRATED, means_note};
+pub(crate) use quantities::{UNEQUILIBRATED, capitalised, means_note};
 pub use renderer::{Plotter, vector_graphics};
 pub use stress_charts::{stress_chart, stress_correlation_chart};
 pub use text::missing_glyphs;

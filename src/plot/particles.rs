@@ -167,6 +167,9 @@ pub(super) fn lay_out(
     for (axis, name) in axes.filter(|(axis, _)| is_seen(*axis)) {
         let is_oblique = picture.dimension == 3 && style.view == SnapshotView::Corner;
         let [from, to] = measured_edge(axis, is_oblique).map(project);
+        // Beside spheres that stand out of the box.
+        let [away, is_upright] = [0.5 * overhang * pixels_per_length, f64::from(u8::from(from[0] == to[0]))];
+        let [from, to] = [from, to].map(|[x, y]| [x - is_upright * away, y + (1.0 - is_upright) * away]);
         page.edge_length(name, lengths[axis], [from, to]);
     }
     page.footer(&key, outline, pixels_per_length);

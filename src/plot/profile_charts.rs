@@ -22,7 +22,7 @@ pub struct ProfiledSpecies {
 /// out.
 ///
 /// The columns are `position`, those of the densities, `velocity_x` and so on, `temperature`, and `pressure_xx` and so on, each but the first
-/// with another whose name ends in `_error`. `temperature` is that of the bath, if there is one.
+/// with another whose name ends in `_error`. `dimension` is that of the box, and `temperature` that of the bath, if there is one.
 ///
 /// ```
 /// use mesoscope::plot::profiles_chart;
@@ -30,7 +30,7 @@ pub struct ProfiledSpecies {
 ///
 /// let columns = ["position", "velocity_x", "velocity_x_error"];
 /// let table = Table::new(columns, vec![vec![0.5, 0.9, 0.1], vec![1.5, -0.9, 0.1]]);
-/// let chart = profiles_chart("Two streams", "y", &table, &[], Some(1.0));
+/// let chart = profiles_chart("Two streams", "y", 2, &table, &[], Some(1.0));
 /// assert_eq!(chart.panels.len(), 1);
 /// assert_eq!(chart.panels[0].x.label, "Position along y (length units)");
 /// assert_eq!(chart.panels[0].series[0].errors, Some(vec![0.1, 0.1]));
@@ -39,6 +39,7 @@ pub struct ProfiledSpecies {
 pub fn profiles_chart(
     title: &str,
     axis: &str,
+    dimension: usize,
     table: &Table,
     densities: &[ProfiledSpecies],
     temperature: Option<f64>,
@@ -59,12 +60,11 @@ pub fn profiles_chart(
         Panel { series, ..Panel::new(&along, label) }
     };
     let columns: Vec<_> = densities.iter().map(|of| (of.column.as_str(), of.name.as_str())).collect();
-    let mut density = panel("Number density (particles/unit volume)", &columns);
+    let mut density = panel(&axis_label("Number density", Unit::Density, dimension), &columns);
     let inks = densities.iter().filter(|of| table.column(&of.column).is_some()).map(|of| of.ink);
     density.series.iter_mut().zip(inks).for_each(|(series, ink)| series.ink = ink);
     let velocities = [("velocity_x", "v_{x}"), ("velocity_y", "v_{y}"), ("velocity_z", "v_{z}")];
     let velocity = panel("Velocity (length units/time unit)", &velocities);
-    let dimension = if table.column("velocity_z").is_some() || table.column("pressure_zz").is_some() { 3 } else { 2 };
     let mut thermal = panel(
         &axis_label("Temperature", Unit::Temperature, dimension),
         &[("temperature", "about the velocity of the bin")],
@@ -95,7 +95,7 @@ mod tests {
             density("A", "number_density_0", SeriesInk::Species([0, 0])),
             density("B", "number_density_1", SeriesInk::Species([1, 1])),
         ];
-        let chart = profiles_chart("a mixture", "z", &table, &species, None);
+        let chart = profiles_chart("a mixture", "z", 3, &table, &species, None);
         let shown: Vec<usize> = chart.panels.iter().map(|panel| panel.series.len()).collect();
         assert_eq!(shown, [3, 1]);
         assert_eq!(chart.panels[0].series[2].name, "B");

@@ -149,7 +149,8 @@ impl fmt::Display for Mean {
     }
 }
 
-pub(super) fn capitalised(word: &str) -> String {
+/// A word with a capital.
+pub(crate) fn capitalised(word: &str) -> String {
     let mut letters = word.chars();
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }

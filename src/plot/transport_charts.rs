@@ -57,7 +57,8 @@ pub fn diffusion_chart(
             || "autocorrelation".to_owned(),
             |found| format!("autocorrelation; from its integral D = {found}"),
         );
-        chart.panels.push(panel.with(Series::line(&name, points)).with_reference("zero", 0.0));
+        let series = Series::line(&name, points).with_band(table.values("velocity_autocorrelation_error"));
+        chart.panels.push(panel.with(series).with_reference("zero", 0.0));
     }
     chart
 }

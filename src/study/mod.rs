@@ -34,6 +34,7 @@ pub(crate) use lists::{by_key, each_once};
 pub(crate) use members::{Member, finished};
 pub(crate) use naming::{ShortKeys, readable};
 pub use parameter::parameter_label;
+pub(crate) use parameter::parameter_name;
 pub(crate) use record::{ASKS_ELSE, check_version, load};
 pub use record::{Charts, Record};
 pub use run::{LONG, Observer, StudyEvent, StudyOutcome, StudyRun, redraw};

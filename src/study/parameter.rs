@@ -1,5 +1,6 @@
 //! What an axis calls a key of a scene: its quantity, what that belongs to, and its unit.
 
+use crate::plot::capitalised;
 use crate::quantity::{RATE, TIME, Unit, VELOCITY};
 use crate::scene::Scene;
 use serde_json::Value;
@@ -26,6 +27,9 @@ const UNITS: [(&str, Unit); 16] = [
     ("time", TIME),
 ];
 
+/// Parts of a scene that a key within them is not said to be of.
+const LISTS: [&str; 6] = ["space", "time", "interactions", "particles", "pairs", "species"];
+
 /// Interactions and their parts whose keys of the same names have other units, which no axis gives.
 const OTHERWISE: [&str; 5] = ["harmonic-chain", "shallow-water", "voronoi", "angles", "many_body"];
 
@@ -45,36 +49,42 @@ const OTHERWISE: [&str; 5] = ["harmonic-chain", "shallow-water", "voronoi", "ang
 /// ```
 #[must_use]
 pub fn parameter_label(key: &str, short: &str, scene: &Scene) -> String {
+    let (name, unit) = in_words(key, scene).unwrap_or_else(|| (short.to_owned(), String::new()));
+    capitalised(&name) + &unit
+}
+
+/// The name of a key within a sentence: `repulsion of A–B`.
+pub(crate) fn parameter_name(key: &str, scene: &Scene) -> String {
+    in_words(key, scene).map_or_else(|| key.to_owned(), |(name, _)| name)
+}
+
+/// The quantity of a key with what it belongs to, and its unit in parentheses, where that is known.
+fn in_words(key: &str, scene: &Scene) -> Option<(String, String)> {
     // Plain data: this conversion cannot fail.
     let document = serde_json::to_value(scene).unwrap_or_default();
     let parts: Vec<&str> = key.split('.').collect();
-    // All that the key lies in, the innermost last.
+    // All that the key lies in, the outermost first.
     let mut around = vec![&document];
     for part in &parts[..parts.len() - 1] {
-        let inner = part
-            .parse()
-            .map_or_else(|_| around[around.len() - 1].get(part), |index: usize| around[around.len() - 1].get(index));
-        around.extend(inner);
+        let outer = around[around.len() - 1];
+        around.extend(part.parse().map_or_else(|_| outer.get(part), |index: usize| outer.get(index)));
     }
-    let names: Vec<&str> = parts.iter().copied().filter(|part| part.parse::<usize>().is_err()).collect();
-    let (name, holder) = match names[..] {
-        ["time", "step"] => return format!("Time step ({})", TIME.in_words(None)),
-        [.., holder, name] if !["space", "time", "interactions", "particles", "pairs", "species"].contains(&holder) => {
-            (name, Some(holder))
-        }
-        [.., name] => (name, None),
-        [] => return short.to_owned(),
-    };
+    let names: Vec<&str> = parts.into_iter().filter(|part| part.parse::<usize>().is_err()).collect();
+    let unit_in_words = |unit: Unit| format!(" ({})", unit.in_words(Some(scene.space.lengths.len())));
+    let (name, holders) = names.split_last()?;
+    if names == ["time", "step"] {
+        return Some(("time step".to_owned(), unit_in_words(TIME)));
+    }
+    let holder = holders
+        .last()
+        .filter(|holder| !LISTS.contains(*holder))
+        .map(|holder| format!("the {}", holder.replace('_', " ")));
     let owner = around.iter().rev().find_map(|object| owner(object));
-    let of_holder = holder.map(|holder| format!("the {}", holder.replace('_', " ")));
-    let of: String = of_holder.into_iter().chain(owner).map(|of| format!(" of {of}")).collect();
+    let of: String = holder.into_iter().chain(owner).map(|of| format!(" of {of}")).collect();
     let is_otherwise = |object: &&Value| object["type"].as_str().is_some_and(|kind| OTHERWISE.contains(&kind));
     let has_unit = !around.iter().any(is_otherwise) && !names.iter().any(|name| OTHERWISE.contains(name));
-    let unit = UNITS.iter().find(|(known, _)| *known == name && has_unit).map(|(_, unit)| *unit);
-    let unit = unit.map_or_else(String::new, |unit| format!(" ({})", unit.in_words(Some(scene.space.lengths.len()))));
-    let mut letters = name.chars();
-    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
-    format!("{first}{}{of}{unit}", letters.as_str().replace('_', " "))
+    let unit = UNITS.iter().find(|(known, _)| known == name && has_unit).map(|(_, unit)| unit_in_words(*unit));
+    Some((name.replace('_', " ") + &of, unit.unwrap_or_default()))
 }
 
 /// Whose the values of an object are: those of a pair of species, or of one.

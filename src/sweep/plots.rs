@@ -8,7 +8,9 @@ use super::variant::VariantState;
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::plot::{Chart, Series, SeriesInk, SeriesStyle, overlay_chart};
 use crate::run;
-use crate::study::{Charts, Setting, ShortKeys, StudyError, Sweep, Variant, by_key, each_once, numbers};
+use crate::study::{
+    Charts, Setting, ShortKeys, StudyError, Sweep, Variant, by_key, each_once, numbers, parameter_name,
+};
 use crate::table::Table;
 
 /// A scale of colours says more than colours apart from more than this many values on.
@@ -101,7 +103,9 @@ fn mean_curve<'p>(curves: impl ExactSizeIterator<Item = &'p [[f64; 2]]> + Clone)
 
 /// What is varied, and what is not in the picture.
 fn subtitle(sweep: &Sweep, summary: &SweepSummary) -> String {
-    let keys: Vec<&str> = sweep.variations().iter().map(|variation| variation.key.as_str()).collect();
+    let scene = sweep.variants().first().map(|variant| &variant.scene);
+    let name = |key: &str| scene.map_or_else(|| key.to_owned(), |scene| parameter_name(key, scene));
+    let keys: Vec<String> = sweep.variations().iter().map(|variation| name(&variation.key)).collect();
     let mut text = format!("{} varied", keys.join(", "));
     for (state, words) in [(VariantState::Failed, "failed"), (VariantState::Waiting, "not finished")] {
         let names: Vec<&str> =

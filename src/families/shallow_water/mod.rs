@@ -199,7 +199,7 @@ impl Physics for ShallowWater {
             subtitle,
             unit: Some("mass of a node × (length units/time unit)²"),
             dimension: 2,
-            temperature: self.bath.is_some().then_some(model.temperature),
+            temperature: self.has_thermostat(model).then_some(model.temperature),
             is_conserved: self.is_conservative(model),
             ..EnergyChart::default()
         }

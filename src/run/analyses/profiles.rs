@@ -164,7 +164,7 @@ impl Descriptor for Profiles {
         densities.extend(names.iter().enumerate().map(of_species));
         let axis = drawn.scene.output.profiles.as_ref().map_or("x", |asked| asked.axis.name());
         let temperature = Some(drawn.scene.temperature).filter(|temperature| *temperature > 0.0);
-        profiles_chart(drawn.title(), axis, drawn.table, &densities, temperature)
+        profiles_chart(drawn.title(), axis, drawn.model.units.dimension, drawn.table, &densities, temperature)
     }
 
     fn labels(&self) -> &'static [(&'static str, &'static str)] {
