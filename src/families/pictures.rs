@@ -27,6 +27,8 @@ pub struct EnergyChart {
     pub unit: Option<&'static str>,
     /// Dimension of the box.
     pub dimension: usize,
+    /// True if temperatures say nothing: of a flow that no bath keeps in equilibrium.
+    pub is_athermal: bool,
     /// Set temperature kT to compare with.
     pub temperature: Option<f64>,
     /// True if the exact motion conserves the total energy.

@@ -15,7 +15,7 @@ const FEW_POINTS: usize = 30;
 const LINE_GAIN: f64 = 1.0;
 const MARKER_GAIN: f64 = 0.55;
 /// How much a thin line covers, of 255.
-const THIN_OPACITY: u8 = 110;
+const THIN_OPACITY: u8 = 170;
 /// The hole of a hollow marker, in sizes of the marker.
 const HOLLOW: f64 = 0.42;
 /// Places where a series leaves its panel that are marked, at most.
@@ -49,9 +49,9 @@ impl Layout {
             let width = if rough { 0.7 * self.sizes.line } else { self.sizes.line };
             let width = width * (1.0 + LINE_GAIN * covered[number] as f64);
             let dashes = if rough && look.marker.is_some() { &[] } else { look.dashes };
-            let (colour, width) = match series.style {
-                SeriesStyle::Thin => (with_alpha(look.colour, THIN_OPACITY), 0.4 * self.sizes.line),
-                _ => (look.colour, width),
+            let (colour, width, dashes) = match series.style {
+                SeriesStyle::Thin => (with_alpha(look.colour, THIN_OPACITY), 0.45 * self.sizes.line, &[][..]),
+                _ => (look.colour, width, dashes),
             };
             for run in pieces[number].iter().filter(|_| series.style != SeriesStyle::Markers) {
                 self.stroke(run, place.area, dashes, colour, width);
@@ -128,7 +128,8 @@ impl Layout {
 
     /// Arrowheads where a series leaves a panel whose axis does not show all of it.
     fn exits(&mut self, place: &Placed<'_>, number: usize, colour: Colour) {
-        if place.prepared.beyond == [None; 2] {
+        let is_thin = place.prepared.panel.series[number].style == SeriesStyle::Thin;
+        if is_thin || place.prepared.beyond == [None; 2] {
             return;
         }
         let (area, radius) = (place.area, 0.9 * self.marker_radius());

@@ -64,7 +64,10 @@ const FLAT: f64 = 0.2;
 #[must_use]
 pub fn energies_chart(title: &str, table: &Table, of: &EnergyChart, averages: &Averages) -> Chart {
     let mut panels = Vec::new();
-    for (name, unit) in [("Energy", Unit::Energy), ("Temperature", Unit::Temperature), ("Pressure", Unit::Pressure)] {
+    for (name, unit) in [("energy", Unit::Energy), ("temperature", Unit::Temperature), ("pressure", Unit::Pressure)] {
+        if unit == Unit::Temperature && of.is_athermal {
+            continue;
+        }
         let (noun, count) = of.per.filter(|_| unit == Unit::Energy).unwrap_or_default();
         let divisor = count.max(1) as f64;
         let mut panel = Panel { averaged_from: averages.from, ..Panel::new(TIME, "").settled() };
@@ -73,10 +76,10 @@ pub fn energies_chart(title: &str, table: &Table, of: &EnergyChart, averages: &A
             let series = Series::line(look.legend, points).with_ink(SeriesInk::Numbered(look.ink));
             panel.series.push(Series { mean: averages.of(quantity.name, divisor), ..series });
         }
-        let form = if unit == Unit::Energy { relative_to_levels(&mut panel) } else { "" };
+        let [before, after] = if unit == Unit::Energy { relative_to_levels(&mut panel) } else { [""; 2] };
         let per = if noun.is_empty() { String::new() } else { format!(" per {noun}") };
         let words = of.unit.filter(|_| unit != Unit::Pressure).unwrap_or(unit.in_words(Some(of.dimension)));
-        panel.y.label = format!("{name}{per}{form} ({words})");
+        panel.y.label = capitalised(&format!("{before}{name}{per}{after} ({words})"));
         if let Some(set) = of.temperature.filter(|set| unit == Unit::Temperature && set.is_finite()) {
             panel = panel.with_reference(&format!("set, kT = {}", short(set)), set);
         }
@@ -89,8 +92,8 @@ pub fn energies_chart(title: &str, table: &Table, of: &EnergyChart, averages: &A
     Chart::of_found(title, &notes.collect::<Vec<_>>().join("; "), panels)
 }
 
-/// Draws curves that would be flat lines far apart relative to a level each, and returns the words for the axis.
-fn relative_to_levels(panel: &mut Panel) -> &'static str {
+/// Draws curves that would be flat lines far apart relative to a level each, and returns the words before and after their name.
+fn relative_to_levels(panel: &mut Panel) -> [&'static str; 2] {
     let from = panel.averaged_from.unwrap_or(f64::NEG_INFINITY);
     let ranges = panel.series.iter().filter_map(|series| {
         let late = series.points.iter().filter(|[time, value]| *time >= from && value.is_finite());
@@ -102,7 +105,7 @@ fn relative_to_levels(panel: &mut Panel) -> &'static str {
     let widest = ranges.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
     // Of curves that do not vary at all nothing is seen either way.
     if ranges.len() < 2 || widest == 0.0 || widest >= FLAT * (outermost[1] - outermost[0]) {
-        return "";
+        return [""; 2];
     }
     let of_means = panel.series.iter().all(|series| series.mean.is_some());
     for series in &mut panel.series {
@@ -114,7 +117,7 @@ fn relative_to_levels(panel: &mut Panel) -> &'static str {
         series.points.iter_mut().for_each(|point| point[1] -= level);
     }
     panel.references.push(ReferenceLine { label: String::new(), value: 0.0 });
-    if of_means { ", deviation from its mean" } else { ", change since the start" }
+    if of_means { ["", " less its mean"] } else { ["change of ", ""] }
 }
 
 /// The change of the total energy relative to its first value, where motion conserves that.
@@ -279,12 +282,12 @@ mod tests {
         let absolute = chart(&rows(1.0), 1, &averages);
         assert_eq!(absolute.panels[0].series[0].points[1], [1.0, 2.5]);
         let deviations = &chart(&rows(0.5), 1, &averages).panels[0];
-        assert_eq!(deviations.y.label, "Energy per particle, deviation from its mean (energy units)");
+        assert_eq!(deviations.y.label, "Energy per particle less its mean (energy units)");
         assert_eq!(deviations.series[0].points, [[0.0, -0.25], [1.0, 0.25]]);
         assert_eq!(deviations.series[1].name, "potential, mean 4.25 ± 0.10");
         assert!(deviations.series.iter().all(|series| series.mean.is_none()), "a bar would lie elsewhere");
         let changes = &chart(&rows(0.5), 1, &Averages::default()).panels[0];
-        assert!(changes.y.label.contains(", change since the start ("), "{}", changes.y.label);
+        assert!(changes.y.label.starts_with("Change of energy per particle ("), "{}", changes.y.label);
         assert_eq!(
             (changes.series[1].points[1], changes.series[1].name.as_str()),
             ([1.0, -0.5], "potential, from 4.5")

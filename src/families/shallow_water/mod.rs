@@ -199,7 +199,8 @@ impl Physics for ShallowWater {
             subtitle,
             unit: Some("mass of a node × (length units/time unit)²"),
             dimension: 2,
-            temperature: self.has_thermostat(model).then_some(model.temperature),
+            is_athermal: !self.has_thermostat(model),
+            temperature: Some(model.temperature),
             is_conserved: self.is_conservative(model),
             ..EnergyChart::default()
         }
