@@ -102,18 +102,18 @@ const ACTION: Unit = Other("momentum units × length units");
 
 /// All quantities, those most asked for first.
 pub const QUANTITIES: [Quantity; 30] = [
-    settling("temperature", "kT", Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0).usual_one(),
+    settling("temperature", "kT", Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0).assessed(),
     settling("internal_temperature", "kT_i", Temperature, "mean temperature inside cells")
         .looks("internal", 5)
-        .usual_one(),
-    settling("configurational_temperature", "kT_C", Temperature, "|∇U|²/∇²U").looks("configurational", 1).usual_one(),
+        .assessed(),
+    settling("configurational_temperature", "kT_C", Temperature, "|∇U|²/∇²U").looks("configurational", 1).assessed(),
     settling("pressure", "p", Pressure, "by kinetic energy and all virials; of cells, by their gas")
         .looks("total", 2)
-        .usual_one(),
+        .assessed(),
     settling("kinetic_energy", "K", Energy, "kinetic energy of all particles").looks("kinetic", 0),
     settling("potential_energy", "U", Energy, "potential energy; free energy of cells")
         .looks("potential", 1)
-        .usual_one(),
+        .assessed(),
     settling("pressure_conservative", "p_C", Pressure, "without friction and noise").looks("conservative part", 1),
     quantity("internal_energy", "E_i", Energy, "internal energy of all cells").looks("internal", 5),
     quantity("total_energy", "E", Energy, "K + U; of cells with an energy of their own, K + E_i").looks("total", 2),
@@ -154,7 +154,7 @@ impl Quantity {
         Self { look: Some(Look { legend, ink }), ..self }
     }
 
-    const fn usual_one(self) -> Self {
+    const fn assessed(self) -> Self {
         Self { is_usual: true, ..self }
     }
 

@@ -11,7 +11,8 @@ use super::line;
 use super::report::{marked, marks};
 use super::table::aligned;
 
-/// Columns of the table at the end, where a variant has them: the total energy, and what does not grow with the number of particles.
+/// Columns of the table at the end, where a variant has them: the total energy, and what does not grow with the number
+/// of particles.
 fn shown() -> impl Iterator<Item = &'static str> {
     let usual = Quantity::usual().filter(|quantity| quantity.unit != Unit::Energy).map(|quantity| quantity.name);
     std::iter::once("total_energy").chain(usual)

@@ -264,8 +264,8 @@ pub enum SeriesInk {
         /// Number of the pattern of dashes; 0 is a solid line.
         pattern: usize,
     },
-    /// The colour of a species in snapshots, given by its number twice; of a pair of species the colour of the first, with the dashes and
-    /// markers of the second.
+    /// The colour of a species in snapshots, given by its number twice; of a pair of species the colour of the first,
+    /// with the dashes and markers of the second.
     Species([usize; 2]),
     /// The grey of all particles beside those of one species.
     AllSpecies,

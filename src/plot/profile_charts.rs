@@ -21,8 +21,9 @@ pub struct ProfiledSpecies {
 /// Profiles of density, velocity, temperature and normal pressures along an axis, with error bars; a column that is not in the table leaves its panel
 /// out.
 ///
-/// The columns are `position`, those of the densities, `velocity_x` and so on, `temperature`, and `pressure_xx` and so on, each but the first
-/// with another whose name ends in `_error`. `dimension` is that of the box, and `temperature` that of the bath, if there is one.
+/// The columns are `position`, those of the densities, `velocity_x` and so on, `temperature`, and `pressure_xx` and so
+/// on, each but the first with another whose name ends in `_error`. `dimension` is that of the box, and `temperature`
+/// that of the bath, if there is one.
 ///
 /// ```
 /// use mesoscope::plot::profiles_chart;

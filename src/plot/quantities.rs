@@ -38,14 +38,15 @@ impl Averages {
     }
 }
 
-/// Curves whose values vary by less than this part of the distance between the outermost of them are drawn as deviations.
+/// Curves whose values vary by less than this part of the distance between the outermost of them are drawn as
+/// deviations.
 const FLAT: f64 = 0.2;
 
 /// Energies, temperatures and pressures over time, with their means; a panel none of whose columns exist is left out.
 ///
-/// The columns are `time` and those of [`QUANTITIES`](crate::quantity::QUANTITIES) with a look, of which each has its panel by its unit.
-/// Energies that vary by less than a fifth of the distance between the outermost of their curves would be flat lines: they are drawn as
-/// deviations from their means, or without means as changes since the first row.
+/// The columns are `time` and those of [`QUANTITIES`](crate::quantity::QUANTITIES) with a look, of which each has its
+/// panel by its unit. Energies that vary by less than a fifth of the distance between the outermost of their curves
+/// would be flat lines: they are drawn as deviations from their means, or without means as changes since the first row.
 ///
 /// ```
 /// use mesoscope::families::EnergyChart;
@@ -92,7 +93,8 @@ pub fn energies_chart(title: &str, table: &Table, of: &EnergyChart, averages: &A
     Chart::of_found(title, &notes.collect::<Vec<_>>().join("; "), panels)
 }
 
-/// Draws curves that would be flat lines far apart relative to a level each, and returns the words before and after their name.
+/// Draws curves that would be flat lines far apart relative to a level each, and returns the words before and after
+/// their name.
 fn relative_to_levels(panel: &mut Panel) -> [&'static str; 2] {
     let from = panel.averaged_from.unwrap_or(f64::NEG_INFINITY);
     let ranges = panel.series.iter().filter_map(|series| {

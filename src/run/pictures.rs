@@ -169,7 +169,8 @@ impl<'a> Pictures<'a> {
         self.chart(files::ENERGIES_PLOT, &chart)
     }
 
-    /// True if means over time with errors say something: of a stationary random process, not of a flow or of motion that is exact.
+    /// True if means over time with errors say something: of a stationary random process, not of a flow or of motion
+    /// that is exact.
     fn has_means(&self, model: &Model) -> bool {
         is_about_equilibrium(self.scene, model) && !model.physics().is_conservative(model)
     }

@@ -1,4 +1,5 @@
-//! What pictures show: ranges of colours that have a length, of quantities that have a scale, and slices within the box.
+//! What pictures show: ranges of colours that have a length, of quantities that have a scale, and slices within the
+//! box.
 
 use super::{Problems, Scene, SnapshotColor, SnapshotSlice, SnapshotView};
 

@@ -70,7 +70,8 @@ pub(super) fn charts<'c>(
     Ok(Box::new(means.chain(quantities.into_iter().filter_map(of_quantity))))
 }
 
-/// The curves of variants that differ in their seeds alone, given with the number of their group: each of them, thin, behind their mean.
+/// The curves of variants that differ in their seeds alone, given with the number of their group: each of them, thin,
+/// behind their mean.
 fn curves_of_seeds(
     (number, ((settings, _), members)): (usize, ((Vec<Setting>, bool), Vec<(&Variant, SeriesInk, Vec<[f64; 2]>)>)),
 ) -> Vec<Series> {

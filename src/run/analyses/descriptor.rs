@@ -134,7 +134,8 @@ impl Drawn<'_> {
         &self.scene.title
     }
 
-    /// The ink of what belongs to the species that a result names: one, a pair, or all of them. Where there is only one, all are of it.
+    /// The ink of what belongs to the species that a result names: one, a pair, or all of them. Where there is only
+    /// one, all are of it.
     pub(super) fn ink(&self, result: &Value) -> SeriesInk {
         let named = &result["species"];
         let names = named.as_array().map_or(std::slice::from_ref(named), Vec::as_slice);
