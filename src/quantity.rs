@@ -187,7 +187,6 @@ impl Quantity {
     }
 
     /// The quantities that say most of matter in equilibrium: means with a look of their own, no parts of others.
-    #[must_use]
     pub fn usual() -> impl Iterator<Item = &'static Self> {
         QUANTITIES.iter().filter(|quantity| quantity.is_usual)
     }

@@ -80,11 +80,11 @@ fn in_words(key: &str, scene: &Scene) -> Option<(String, String)> {
         .filter(|holder| !LISTS.contains(*holder))
         .map(|holder| format!("the {}", holder.replace('_', " ")));
     let owner = around.iter().rev().find_map(|object| owner(object));
-    let of: String = holder.into_iter().chain(owner).map(|of| format!(" of {of}")).collect();
+    let of: Vec<String> = [name.replace('_', " ")].into_iter().chain(holder).chain(owner).collect();
     let is_otherwise = |object: &&Value| object["type"].as_str().is_some_and(|kind| OTHERWISE.contains(&kind));
     let has_unit = !around.iter().any(is_otherwise) && !names.iter().any(|name| OTHERWISE.contains(name));
     let unit = UNITS.iter().find(|(known, _)| known == name && has_unit).map(|(_, unit)| unit_in_words(*unit));
-    Some((name.replace('_', " ") + &of, unit.unwrap_or_default()))
+    Some((of.join(" of "), unit.unwrap_or_default()))
 }
 
 /// Whose the values of an object are: those of a pair of species, or of one.

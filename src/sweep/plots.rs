@@ -47,11 +47,15 @@ pub(super) fn charts<'c>(
             }
             let (seeds, others) =
                 variant.settings.iter().cloned().partition::<Vec<_>, _>(|setting| setting.key == SEED);
-            Some(((others, seeds.is_empty()), (*variant, *ink, found?)))
+            Some(((others, seeds.is_empty()), Curve { variant, ink: *ink, points: found? }))
         });
         let groups = by_key(found);
         let averaged = groups.iter().any(|(_, members)| members.len() > 1);
-        let curves: Vec<Series> = groups.into_iter().enumerate().flat_map(curves_of_seeds).collect();
+        let curves: Vec<Series> = groups
+            .iter()
+            .enumerate()
+            .flat_map(|(number, ((settings, _), members))| curves_of_seeds(number, settings, members))
+            .collect();
         if curves.is_empty() || look.quantities.is_empty() && !changes(&curves) {
             return None;
         }
@@ -70,36 +74,41 @@ pub(super) fn charts<'c>(
     Ok(Box::new(means.chain(quantities.into_iter().filter_map(of_quantity))))
 }
 
-/// The curves of variants that differ in their seeds alone, given with the number of their group: each of them, thin,
-/// behind their mean.
-fn curves_of_seeds(
-    (number, ((settings, _), members)): (usize, ((Vec<Setting>, bool), Vec<(&Variant, SeriesInk, Vec<[f64; 2]>)>)),
-) -> Vec<Series> {
+/// A quantity of a variant over time.
+#[derive(Clone)]
+struct Curve<'v> {
+    variant: &'v Variant,
+    ink: SeriesInk,
+    points: Vec<[f64; 2]>,
+}
+
+/// The curves of variants that differ in their seeds alone, with the number of their group and what they have in
+/// common: each of them, thin, behind their mean.
+fn curves_of_seeds(number: usize, settings: &[Setting], members: &[Curve<'_>]) -> Vec<Series> {
     let ink = |ink: SeriesInk| if ink == SeriesInk::Own { SeriesInk::Numbered(number) } else { ink };
-    let mean = mean_curve(members.iter().map(|(_, _, points)| points.as_slice()));
-    let single = members.len() == 1 || mean.is_none();
-    let shown = |(variant, own, points): &(&Variant, SeriesInk, Vec<[f64; 2]>)| {
-        let (name, style) = if single { (variant.label.as_str(), SeriesStyle::Line) } else { ("", SeriesStyle::Thin) };
+    let mean = mean_curve(members).filter(|_| members.len() > 1);
+    let shown = |Curve { variant, ink: own, points }: &Curve<'_>| {
+        let (name, style) =
+            if mean.is_none() { (variant.label.as_str(), SeriesStyle::Line) } else { ("", SeriesStyle::Thin) };
         Series { style, ..Series::line(name, points.clone()).with_ink(ink(*own)) }
     };
     let mut curves: Vec<Series> = members.iter().map(shown).collect();
-    if let (false, Some(mean), Some((_, own, _))) = (single, mean, members.first()) {
-        let label = if settings.is_empty() { "mean" } else { &ShortKeys::of_settings(&settings).label(&settings) };
-        curves.push(Series::line(label, mean).with_ink(ink(*own)));
+    if let (Some(mean), Some(first)) = (mean, members.first()) {
+        let label = if settings.is_empty() { "mean" } else { &ShortKeys::of_settings(settings).label(settings) };
+        curves.push(Series::line(label, mean).with_ink(ink(first.ink)));
     }
     curves
 }
 
 /// The mean of curves over their values at the same times; none where times differ.
-fn mean_curve<'p>(curves: impl ExactSizeIterator<Item = &'p [[f64; 2]]> + Clone) -> Option<Vec<[f64; 2]>> {
-    let (count, first) = (curves.len() as f64, curves.clone().next()?);
-    let is_alike =
-        |curve: &[[f64; 2]]| curve.len() == first.len() && curve.iter().zip(first).all(|(a, b)| a[0] == b[0]);
-    if !curves.clone().all(is_alike) {
-        return None;
-    }
-    let mean = |row: usize| curves.clone().map(|curve| curve[row][1]).sum::<f64>() / count;
-    Some(first.iter().enumerate().map(|(row, [time, _])| [*time, mean(row)]).collect())
+fn mean_curve(curves: &[Curve<'_>]) -> Option<Vec<[f64; 2]>> {
+    let first = &curves.first()?.points;
+    let is_alike = |Curve { points, .. }: &Curve<'_>| {
+        points.len() == first.len() && points.iter().zip(first).all(|(a, b)| a[0].total_cmp(&b[0]).is_eq())
+    };
+    let mean = |row: usize| curves.iter().map(|curve| curve.points[row][1]).sum::<f64>() / curves.len() as f64;
+    let means = || first.iter().enumerate().map(|(row, [time, _])| [*time, mean(row)]).collect();
+    curves.iter().all(is_alike).then(means)
 }
 
 /// What is varied, and what is not in the picture.
@@ -201,15 +210,16 @@ mod tests {
         let [one, other] = [&sweep.variants()[0], &sweep.variants()[1]];
         let settings = vec![one.settings[0].clone()];
         let own = SeriesInk::Own;
-        let members = vec![(one, own, vec![[0.0, 1.0], [1.0, 3.0]]), (other, own, vec![[0.0, 2.0], [1.0, 5.0]])];
-        let curves = curves_of_seeds((3, ((settings.clone(), false), members.clone())));
+        let curve = |variant, points: [[f64; 2]; 2]| Curve { variant, ink: own, points: points.to_vec() };
+        let members = [curve(one, [[0.0, 1.0], [1.0, 3.0]]), curve(other, [[0.0, 2.0], [1.0, 5.0]])];
+        let curves = curves_of_seeds(3, &settings, &members);
         let seen: Vec<(SeriesStyle, &str)> = curves.iter().map(|curve| (curve.style, curve.name.as_str())).collect();
         assert_eq!(seen, [(SeriesStyle::Thin, ""), (SeriesStyle::Thin, ""), (SeriesStyle::Line, "temperature = 1")]);
         assert_eq!(curves[2].points, [[0.0, 1.5], [1.0, 4.0]]);
         assert!(curves.iter().all(|curve| curve.ink == SeriesInk::Numbered(3)));
         let mut unlike = members;
-        unlike[1].2[1][0] = 1.5;
-        let curves = curves_of_seeds((0, ((settings, false), unlike)));
+        unlike[1].points[1][0] = 1.5;
+        let curves = curves_of_seeds(0, &settings, &unlike);
         assert!(curves.len() == 2 && curves.iter().all(|curve| !curve.name.is_empty()), "no mean of unlike times");
     }
 
