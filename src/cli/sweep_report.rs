@@ -70,7 +70,6 @@ pub fn warn_of_results(variants: &[&Variant], outcome: &SweepOutcome) {
 pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     let variants = &outcome.summary.variants;
     let columns: Vec<&str> = shown()
-        .into_iter()
         .filter(|name| variants.iter().any(|v| v.means.get(*name).and_then(printed_estimate).is_some()))
         .collect();
     let mut header = vec!["VARIANT".to_owned()];
