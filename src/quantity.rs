@@ -24,6 +24,8 @@ pub struct Quantity {
     pub meaning: &'static str,
     /// Its look in the panel of its unit in the chart of energies, if it is there.
     pub look: Option<Look>,
+    /// True if it is reported and assessed where nobody says which quantities are.
+    pub is_usual: bool,
     /// True if it fluctuates about a constant in equilibrium; false if it is conserved, wanders or counts.
     pub settles: bool,
 }
@@ -100,12 +102,18 @@ const ACTION: Unit = Other("momentum units × length units");
 
 /// All quantities, those most asked for first.
 pub const QUANTITIES: [Quantity; 30] = [
-    settling("temperature", "kT", Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0),
-    settling("internal_temperature", "kT_i", Temperature, "mean temperature inside cells").looks("internal", 5),
-    settling("configurational_temperature", "kT_C", Temperature, "|∇U|²/∇²U").looks("configurational", 1),
-    settling("pressure", "p", Pressure, "by kinetic energy and all virials; of cells, by their gas").looks("total", 2),
+    settling("temperature", "kT", Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0).assessed(),
+    settling("internal_temperature", "kT_i", Temperature, "mean temperature inside cells")
+        .looks("internal", 5)
+        .assessed(),
+    settling("configurational_temperature", "kT_C", Temperature, "|∇U|²/∇²U").looks("configurational", 1).assessed(),
+    settling("pressure", "p", Pressure, "by kinetic energy and all virials; of cells, by their gas")
+        .looks("total", 2)
+        .assessed(),
     settling("kinetic_energy", "K", Energy, "kinetic energy of all particles").looks("kinetic", 0),
-    settling("potential_energy", "U", Energy, "potential energy; free energy of cells").looks("potential", 1),
+    settling("potential_energy", "U", Energy, "potential energy; free energy of cells")
+        .looks("potential", 1)
+        .assessed(),
     settling("pressure_conservative", "p_C", Pressure, "without friction and noise").looks("conservative part", 1),
     quantity("internal_energy", "E_i", Energy, "internal energy of all cells").looks("internal", 5),
     quantity("total_energy", "E", Energy, "K + U; of cells with an energy of their own, K + E_i").looks("total", 2),
@@ -134,7 +142,7 @@ pub const QUANTITIES: [Quantity; 30] = [
 
 /// A quantity that no chart of energies shows.
 pub(crate) const fn quantity(name: &'static str, symbol: &'static str, unit: Unit, meaning: &'static str) -> Quantity {
-    Quantity { name, symbol, unit, meaning, look: None, settles: false }
+    Quantity { name, symbol, unit, meaning, look: None, is_usual: false, settles: false }
 }
 
 const fn settling(name: &'static str, symbol: &'static str, unit: Unit, meaning: &'static str) -> Quantity {
@@ -144,6 +152,10 @@ const fn settling(name: &'static str, symbol: &'static str, unit: Unit, meaning:
 impl Quantity {
     const fn looks(self, legend: &'static str, ink: usize) -> Self {
         Self { look: Some(Look { legend, ink }), ..self }
+    }
+
+    const fn assessed(self) -> Self {
+        Self { is_usual: true, ..self }
     }
 
     /// Its name with symbol and unit, for an axis or a bar of colours.
@@ -163,13 +175,20 @@ impl Quantity {
         QUANTITIES.iter().find(|known| known.name == if of_wall { "wall_momentum" } else { name })
     }
 
+    /// The quantities that a chart shows in the panel of a unit, in their order, with their look.
+    pub(crate) fn shown_in(unit: Unit) -> impl DoubleEndedIterator<Item = (&'static Self, Look)> {
+        QUANTITIES.iter().filter(move |quantity| quantity.unit == unit).filter_map(|shown| Some((shown, shown.look?)))
+    }
+
     /// The names of the columns that a chart shows in the panel of a unit, in their order.
     #[must_use]
     pub fn columns_shown_in(unit: Unit) -> impl DoubleEndedIterator<Item = &'static str> {
-        QUANTITIES
-            .iter()
-            .filter(move |quantity| quantity.unit == unit && quantity.look.is_some())
-            .map(|shown| shown.name)
+        Self::shown_in(unit).map(|(shown, _)| shown.name)
+    }
+
+    /// The quantities that say most of matter in equilibrium: means with a look of their own, no parts of others.
+    pub fn usual() -> impl Iterator<Item = &'static Self> {
+        QUANTITIES.iter().filter(|quantity| quantity.is_usual)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use mesoscope::families;
 use mesoscope::output::summary::Unequilibrated;
+use mesoscope::quantity::{Quantity, Unit};
 use mesoscope::run::printed_estimate;
 use mesoscope::sweep::{SweepOutcome, Variant, VariantState};
 use serde_json::{Map, Value};
@@ -10,8 +11,12 @@ use super::line;
 use super::report::{marked, marks};
 use super::table::aligned;
 
-/// Columns of the table at the end, where a variant has them.
-const SHOWN: [&str; 4] = ["total_energy", "temperature", "configurational_temperature", "pressure"];
+/// Columns of the table at the end, where a variant has them: the total energy, and what does not grow with the number
+/// of particles.
+fn shown() -> impl Iterator<Item = &'static str> {
+    let usual = Quantity::usual().filter(|quantity| quantity.unit != Unit::Energy).map(|quantity| quantity.name);
+    std::iter::once("total_energy").chain(usual)
+}
 
 /// Writes lines for the user, each about a variant; one about several is written once, with their names unless they are all.
 fn print(texts: &[(String, &str)], variants: usize) {
@@ -51,8 +56,7 @@ pub fn warn_of_results(variants: &[&Variant], outcome: &SweepOutcome) {
 /// The table at the end and the files written.
 pub fn results(outcome: &SweepOutcome, directory: &str) -> String {
     let variants = &outcome.summary.variants;
-    let columns: Vec<&str> = SHOWN
-        .into_iter()
+    let columns: Vec<&str> = shown()
         .filter(|name| variants.iter().any(|v| v.means.get(*name).and_then(printed_estimate).is_some()))
         .collect();
     let mut header = vec!["VARIANT".to_owned()];

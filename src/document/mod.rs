@@ -42,7 +42,9 @@ pub use molecules::Molecule;
 pub(crate) use nearest::nearest;
 pub use output::*;
 pub use particles::*;
-pub use pictures::{Headings, PlotStyle, Snapshot, SnapshotColor, Theme, UnitNames, VectorFormat};
+pub use pictures::{
+    Headings, PlotStyle, Snapshot, SnapshotColor, SnapshotSlice, SnapshotView, Theme, UnitNames, VectorFormat,
+};
 pub(crate) use problems::{Problems, brief};
 pub use quantities::*;
 pub use scene::{Distribution, Noise, Scene, Space, Time};

@@ -18,9 +18,9 @@ pub struct Output {
     /// The appearance of the plots.
     #[serde(default)]
     pub plot: PlotStyle,
-    /// Pictures of the particles.
-    #[serde(default)]
-    #[schemars(extend("x-of" = ["particles", "voronoi"], "x-instead" = {
+    /// Pictures of the particles; none where this is `null`.
+    #[serde(default, with = "super::pictures::nullable")]
+    #[schemars(with = "Option<Snapshot>", extend("x-of" = ["particles", "voronoi"], "x-instead" = {
         "shallow-water": "no `output.snapshot` in shallow water: `output.fields` draws the water, `output.plot` says how",
     }))]
     pub snapshot: Snapshot,

@@ -1,5 +1,6 @@
 //! The appearance of plots and pictures.
 
+use super::Axis;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -171,6 +172,12 @@ pub struct Snapshot {
     pub radius: Option<f64>,
     /// Whether bonds are drawn, where there are any.
     pub bonds: bool,
+    /// The side from which a box of three dimensions is seen.
+    #[serde(skip_serializing_if = "is_corner")]
+    pub view: SnapshotView,
+    /// The slice of a box of three dimensions whose particles alone are drawn; left out, all of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slice: Option<SnapshotSlice>,
     /// The species that are shown; left out, all.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 256), extend("x-of" = ["particles"], "x-instead" = {
@@ -183,6 +190,74 @@ pub struct Snapshot {
     /// first picture and the temperature of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
+    /// True where the scene has `null` in its place: nothing is drawn.
+    #[serde(skip)]
+    pub is_off: bool,
+}
+
+impl Snapshot {
+    /// No picture.
+    fn off() -> Self {
+        Self { is_off: true, ..Self::default() }
+    }
+}
+
+/// A snapshot, or `null` for none.
+pub(super) mod nullable {
+    use super::Snapshot;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(in super::super) fn serialize<S: Serializer>(snapshot: &Snapshot, serializer: S) -> Result<S::Ok, S::Error> {
+        (!snapshot.is_off).then_some(snapshot).serialize(serializer)
+    }
+
+    pub(in super::super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Snapshot, D::Error> {
+        Ok(Option::deserialize(deserializer)?.unwrap_or_else(Snapshot::off))
+    }
+}
+
+/// The side from which a box of three dimensions is seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SnapshotView {
+    /// From beside a corner, a little from above (default).
+    #[default]
+    Corner,
+    /// Against the x axis: y to the right, z upwards.
+    X,
+    /// Along the y axis: x to the right, z upwards.
+    Y,
+    /// Against the z axis: x to the right, y upwards.
+    Z,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_corner(view: &SnapshotView) -> bool {
+    *view == SnapshotView::Corner
+}
+
+/// A slice of the box, normal to an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SnapshotSlice {
+    /// The axis that it is normal to.
+    pub axis: Axis,
+    /// Its middle along this axis, in units of length.
+    #[schemars(range(min = 0))]
+    pub position: f64,
+    /// Its thickness, in units of length: particles are drawn whose centres lie in it.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub thickness: f64,
+}
+
+impl SnapshotSlice {
+    /// True if it holds a coordinate along its axis, which repeats after `period`, or does not.
+    #[must_use]
+    pub fn holds(&self, coordinate: f64, period: Option<f64>) -> bool {
+        let distance = coordinate - self.position;
+        let distance = period.map_or(distance, |period| distance - period * (distance / period).round());
+        distance.abs() <= 0.5 * self.thickness
+    }
 }
 
 impl Default for Snapshot {
@@ -193,9 +268,12 @@ impl Default for Snapshot {
             height: None,
             radius: None,
             bonds: true,
+            view: SnapshotView::default(),
+            slice: None,
             species: Vec::new(),
             color: SnapshotColor::default(),
             range: None,
+            is_off: false,
         }
     }
 }

@@ -55,8 +55,8 @@ pub(crate) use particles::terms::pairs::{FREQUENCY_LIMIT, MOST_RELAXATION, TOLER
 pub use particles::terms::pairs::{ManyBodyForce, PairForce, SoftRepulsion};
 pub use particles::terms::tethers::Tethers;
 pub use particles::{Particles, combinations};
-pub use pictures::PictureKind;
 pub(crate) use pictures::WaveShell;
+pub use pictures::{EnergyChart, PictureKind};
 pub use registry::Family;
 pub(crate) use registry::{check_system, complete, settle};
 pub(crate) use shallow_water::model::{LARGEST_DEPTH, chebyshev_iterations};
@@ -72,7 +72,7 @@ use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan, Rows};
 use crate::quantity::Quantity;
 use crate::state::{Reported, State};
 use crate::tessellation::Tessellation;
-use pictures::{CellValues, EnergyChart, MeshPictures};
+use pictures::{CellValues, MeshPictures};
 use std::ops::Range;
 
 /// Closed loops of tracers that move with the flow.
@@ -263,8 +263,9 @@ pub(crate) trait Physics {
     }
 
     /// What the chart of energies is of.
-    fn energy_chart(&self, _: &Model) -> EnergyChart {
-        EnergyChart::Particles
+    fn energy_chart(&self, model: &Model) -> EnergyChart {
+        let of = EnergyChart::of("particle", model.particle_count(), model.units.dimension);
+        EnergyChart { temperature: Some(model.temperature), is_conserved: self.is_conservative(model), ..of }
     }
 
     /// Values of cells for a colour, if that is not the one of the species; of [`PictureKind::Cells`] only.

@@ -2,6 +2,7 @@
 
 use super::Field;
 use crate::document::FieldQuantity;
+use crate::numbers::grouped;
 use crate::quantity::Quantity;
 
 /// What pictures of a state are of.
@@ -16,14 +17,32 @@ pub enum PictureKind {
 }
 
 /// What the chart of energies is of.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum EnergyChart {
-    /// Particles at a temperature.
-    Particles,
-    /// Cells with internal energies.
-    EnergeticCells,
-    /// Particles on a mesh: a subtitle, and the temperature of a bath if there is one.
-    Mesh { subtitle: String, temperature: Option<f64> },
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct EnergyChart {
+    /// The conditions, for the line below the title.
+    pub subtitle: String,
+    /// Energies are those of one of these, of which there are so many; none of energies of the whole.
+    pub per: Option<(&'static str, u64)>,
+    /// Another unit of energies and temperatures.
+    pub unit: Option<&'static str>,
+    /// Dimension of the box.
+    pub dimension: usize,
+    /// True if temperatures say nothing: of a flow that no bath keeps in equilibrium.
+    pub is_athermal: bool,
+    /// Set temperature kT to compare with.
+    pub temperature: Option<f64>,
+    /// True if the exact motion conserves the total energy.
+    pub is_conserved: bool,
+}
+
+impl EnergyChart {
+    /// The energies of so many particles of this name in a box of this dimension.
+    #[must_use]
+    pub fn of(noun: &'static str, count: u64, dimension: usize) -> Self {
+        let plural = if count == 1 { "" } else { "s" };
+        let subtitle = format!("{} {noun}{plural}", grouped(count));
+        Self { subtitle, per: Some((noun, count)), dimension, ..Self::default() }
+    }
 }
 
 /// Values of cells that colours show.
@@ -79,7 +98,7 @@ pub(crate) struct ShownField {
     pub described: Quantity,
     /// Its name in the CF conventions, where they have one.
     pub standard_name: Option<&'static str>,
-    /// The value in the middle of its colours, if they diverge from one.
+    /// Its value at rest, from which its colours diverge where it has values on both sides.
     pub centre: Option<f64>,
     /// Whether its range begins at zero.
     pub from_zero: bool,

@@ -1,37 +1,9 @@
 //! The charts of Voronoi DPD, made from the tables of a run.
 
 use super::chart::{Axis, Chart, Panel, Series, SeriesInk};
-use super::points::{highest, pairs, since_first, steps};
-use super::quantities::{Averages, TEMPERATURE, TIME, panel, series};
-use crate::quantity::{Quantity, Unit};
+use super::points::{highest, pairs, steps};
+use super::quantities::TIME;
 use crate::table::Table;
-
-/// Temperatures and energies of cells that keep account of their internal energy, over time: both temperatures with their
-/// means, and what has been added to the energies of a cell since the first row.
-///
-/// The columns are `time`, `temperature`, `internal_temperature`, `kinetic_energy`, `internal_energy` and `total_energy`.
-///
-/// ```
-/// use mesoscope::plot::{Averages, energetic_cells_chart};
-/// use mesoscope::table::Table;
-///
-/// let columns = ["time", "temperature", "internal_temperature", "kinetic_energy", "internal_energy", "total_energy"];
-/// let rows = vec![vec![0.0, 1.0, 1.0, 100.0, 500.0, 650.0], vec![0.1, 1.1, 0.98, 110.0, 490.0, 650.0]];
-/// let table = Table::new(columns, rows);
-/// let chart = energetic_cells_chart("Hot and cold", &table, 100, &Averages::default());
-/// // What each cell has gained.
-/// assert_eq!(chart.panels[1].series[0].points[1], [0.1, 1.1 - 1.0]);
-/// ```
-#[must_use]
-pub fn energetic_cells_chart(title: &str, table: &Table, particle_count: u64, averages: &Averages) -> Chart {
-    let temperatures = panel(TEMPERATURE, table, Unit::Temperature, 1.0, averages);
-    let mut changes = Panel::new(TIME, "Change of energy per cell (energy units)");
-    for column in Quantity::columns_shown_in(Unit::Energy) {
-        let points = table.over_time(column, particle_count.max(1) as f64);
-        changes.series.extend(points.map(|points| series(column, since_first(&points))));
-    }
-    Chart { title: title.to_owned(), subtitle: String::new(), panels: vec![temperatures, changes] }
-}
 
 /// The histogram of the numbers of neighbours of cells, compared with that of random points, with the mean of 6 that every
 /// tessellation has.
@@ -60,12 +32,11 @@ pub fn neighbours_chart(title: &str, table: &Table) -> Chart {
     let mean = numbers.iter().zip(&fractions).map(|(n, f)| n * f).sum::<f64>();
     let square = numbers.iter().zip(&fractions).map(|(n, f)| n * n * f).sum::<f64>();
     let mut panel = Panel::new("Neighbours of a cell", "Fraction of cells");
-    panel.series.push(Series::line("measured", outline));
-    panel.series.push(Series::markers("random points", pairs(&numbers, &random)));
+    panel.series.push(Series::line("measured", outline).with_ink(SeriesInk::Numbered(0)));
+    panel.series.push(Series::markers("random points", pairs(&numbers, &random)).with_ink(SeriesInk::Numbered(1)));
     if errors.iter().any(|error| error.is_finite() && *error > 0.0) {
-        let bars = Series::markers("", pairs(&numbers, &fractions))
-            .with_errors(errors)
-            .with_ink(SeriesInk::Ink { pattern: 0 });
+        let bars =
+            Series::markers("", pairs(&numbers, &fractions)).with_errors(errors).with_ink(SeriesInk::Numbered(0));
         panel.series.push(bars);
     }
     let top = 1.08 * highest(fractions.iter().chain(&random).copied()).max(1e-9);
@@ -75,7 +46,7 @@ pub fn neighbours_chart(title: &str, table: &Table) -> Chart {
     Chart { title: title.to_owned(), subtitle, panels: vec![panel] }
 }
 
-const MAGNITUDE: &str = "Its magnitude (length units/time unit)";
+const MAGNITUDE: &str = "Magnitude of the amplitude (length units/time unit)";
 
 /// The amplitude of a shear wave over time, with the exponential decay of this name fitted to it: on a linear axis, and its magnitude on a
 /// logarithmic one.
@@ -141,16 +112,5 @@ mod tests {
         assert_eq!(chart.panels[1].series[1].points[1], [1.0, 0.6]);
         let without = shear_wave_chart("t", "s", "decay", &table(&columns, &[&[0.0, 1.0, f64::NAN]]));
         assert_eq!(without.panels[0].series.len(), 1);
-    }
-
-    #[test]
-    fn energies_are_shown_as_they_change() {
-        let columns =
-            ["time", "kinetic_energy", "internal_energy", "temperature", "internal_temperature", "total_energy"];
-        let rows: [&[f64]; 2] = [&[0.0, 8.0, 92.0, 1.0, 1.0, 100.0], &[1.0, 6.0, 94.0, 1.0, 2.0, 100.0]];
-        let chart = energetic_cells_chart("t", &table(&columns, &rows), 4, &Averages::default());
-        let last: Vec<f64> = chart.panels[1].series.iter().map(|series| series.points[1][1]).collect();
-        assert_eq!(last, [-0.5, 0.5, 0.0]);
-        assert_eq!(chart.panels[0].series[1].points[1], [1.0, 2.0]);
     }
 }

@@ -145,6 +145,11 @@ pub fn chain_memory_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
     {
         panel.series.push(Series::line(&format!("n = {size}"), line(column)));
     }
+    // Computed curves bear no markers, however jagged they are.
+    let last = panel.series.len().saturating_sub(1).max(1) as f64;
+    for (number, series) in panel.series.iter_mut().enumerate() {
+        series.ink = SeriesInk::Scale { place: number as f64 / last, pattern: 0 };
+    }
     for column in table.columns.iter().filter(|name| name.starts_with("plateau_")) {
         let height = table.values(column).first().copied().unwrap_or(f64::NAN);
         panel.series.push(Series::compared(&format!("plateau, from γ* = {height:.3}"), line(column)));

@@ -146,6 +146,8 @@ pub struct Series {
     pub ink: SeriesInk,
     /// Its mean, drawn over the part of the panel that it was taken from.
     pub mean: Option<Mean>,
+    /// Points whose error is from few samples: their markers are hollow. Empty where there are none.
+    pub few: Vec<bool>,
     /// A word beside every point, as far as there is space for it; empty for a series without labels.
     pub labels: Vec<String>,
 }
@@ -186,6 +188,13 @@ impl Series {
     #[must_use]
     pub fn with_ink(mut self, ink: SeriesInk) -> Self {
         self.ink = ink;
+        self
+    }
+
+    /// The series with hollow markers for points whose error is from few samples.
+    #[must_use]
+    pub fn with_few(mut self, few: Vec<bool>) -> Self {
+        self.few = few;
         self
     }
 
@@ -230,6 +239,8 @@ pub enum SeriesStyle {
     LineMarkers,
     /// A line inside a shaded band as wide as the errors.
     Band,
+    /// A thin, pale line, for one of the samples that a mean is of.
+    Thin,
 }
 
 /// What a series is drawn with.
@@ -253,6 +264,11 @@ pub enum SeriesInk {
         /// Number of the pattern of dashes; 0 is a solid line.
         pattern: usize,
     },
+    /// The colour of a species in snapshots, given by its number twice; of a pair of species the colour of the first,
+    /// with the dashes and markers of the second.
+    Species([usize; 2]),
+    /// The grey of all particles beside those of one species.
+    AllSpecies,
     /// A grey that stands back behind all others.
     Faint,
 }

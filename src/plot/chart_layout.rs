@@ -258,10 +258,16 @@ impl Layout {
 
 /// Whether a line of the panel goes up and down so much that dashes could not be distinguished from noise.
 fn is_rough(place: &Placed<'_>) -> bool {
-    place.prepared.panel.series.iter().filter(|series| series.style != SeriesStyle::Markers).any(|series| {
-        let drawn: f64 = place.pieces(series).iter().map(|run| length(run, &place.area)).sum();
-        drawn > 2.5 * (place.area.width() + place.area.height())
-    })
+    place
+        .prepared
+        .panel
+        .series
+        .iter()
+        .filter(|series| !matches!(series.style, SeriesStyle::Markers | SeriesStyle::Thin))
+        .any(|series| {
+            let drawn: f64 = place.pieces(series).iter().map(|run| length(run, &place.area)).sum();
+            drawn > 2.5 * (place.area.width() + place.area.height())
+        })
 }
 
 #[cfg(test)]

@@ -4,11 +4,9 @@ use super::canvas::{Anchor, Area};
 use super::chart::{Panel, Series, SeriesStyle};
 use super::chart_layout::{Layout, Placed, Sizes};
 use super::palette::with_alpha;
-use super::quantities::{FEW_SAMPLES, UNEQUILIBRATED};
 use super::series_look::{Look, look, reference_look};
 use super::series_path::{clipped, segments};
 use super::text::{LINE_HEIGHT, Weight, in_rows};
-use crate::numbers::with_error;
 
 /// One line of a legend.
 pub(super) struct Entry {
@@ -21,11 +19,7 @@ pub(super) struct Entry {
 /// The name of a series, with its mean.
 fn entry_text(series: &Series) -> String {
     match series.mean {
-        Some(mean) => {
-            let few = if mean.from_few_samples { FEW_SAMPLES } else { "" };
-            let way = if mean.unequilibrated { UNEQUILIBRATED } else { "" };
-            format!("{} {}{few}{way}", series.name, with_error(mean.value, mean.standard_error)).trim_start().to_owned()
-        }
+        Some(mean) => format!("{} {mean}", series.name).trim_start().to_owned(),
         None => series.name.clone(),
     }
 }

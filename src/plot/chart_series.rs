@@ -14,6 +14,10 @@ const FEW_POINTS: usize = 30;
 /// What a line or a marker gains in width for each that covers it.
 const LINE_GAIN: f64 = 1.0;
 const MARKER_GAIN: f64 = 0.55;
+/// How much a thin line covers, of 255.
+const THIN_OPACITY: u8 = 170;
+/// The hole of a hollow marker, in sizes of the marker.
+const HOLLOW: f64 = 0.42;
 /// Places where a series leaves its panel that are marked, at most.
 const MOST_EXITS: usize = 4;
 
@@ -45,8 +49,12 @@ impl Layout {
             let width = if rough { 0.7 * self.sizes.line } else { self.sizes.line };
             let width = width * (1.0 + LINE_GAIN * covered[number] as f64);
             let dashes = if rough && look.marker.is_some() { &[] } else { look.dashes };
+            let (colour, width, dashes) = match series.style {
+                SeriesStyle::Thin => (with_alpha(look.colour, THIN_OPACITY), 0.45 * self.sizes.line, &[][..]),
+                _ => (look.colour, width, dashes),
+            };
             for run in pieces[number].iter().filter(|_| series.style != SeriesStyle::Markers) {
-                self.stroke(run, place.area, dashes, look.colour, width);
+                self.stroke(run, place.area, dashes, colour, width);
             }
         }
         // Over the lines, or noise around a reference would hide it.
@@ -65,11 +73,19 @@ impl Layout {
                 SeriesStyle::Markers | SeriesStyle::LineMarkers => {
                     let size = 1.0 + MARKER_GAIN * covered[number] as f64;
                     self.markers(pieces[number].iter().flatten().copied(), place, (look, size), panel);
+                    let few = series.points.iter().zip(&series.few).filter(|(_, few)| **few);
+                    let hollow = Look { colour: self.canvas.inks.paper, ..look };
+                    self.markers(
+                        few.filter_map(|(point, _)| place.pixel(*point)),
+                        place,
+                        (hollow, HOLLOW * size),
+                        panel,
+                    );
                 }
                 SeriesStyle::Line | SeriesStyle::Band if rough && panel.series.len() > 1 && look.marker.is_some() => {
                     self.sparse_markers(&pieces[number], place, look, [number, panel.series.len()]);
                 }
-                SeriesStyle::Line | SeriesStyle::Band => {}
+                SeriesStyle::Line | SeriesStyle::Band | SeriesStyle::Thin => {}
             }
         }
         for number in 0..panel.series.len() {
@@ -112,7 +128,8 @@ impl Layout {
 
     /// Arrowheads where a series leaves a panel whose axis does not show all of it.
     fn exits(&mut self, place: &Placed<'_>, number: usize, colour: Colour) {
-        if place.prepared.beyond == [None; 2] {
+        let is_thin = place.prepared.panel.series[number].style == SeriesStyle::Thin;
+        if is_thin || place.prepared.beyond == [None; 2] {
             return;
         }
         let (area, radius) = (place.area, 0.9 * self.marker_radius());

@@ -64,7 +64,7 @@ mod ticks;
 mod transport_charts;
 mod vector;
 
-pub use cell_charts::{energetic_cells_chart, neighbours_chart, shear_wave_chart};
+pub use cell_charts::{neighbours_chart, shear_wave_chart};
 pub use cells::{CellPicture, ShownValues};
 pub use chain_charts::{
     chain_correlation_chart, chain_equilibrium_chart, chain_memory_chart, chain_profile_chart, chain_pulse_chart,
@@ -76,13 +76,10 @@ pub use field::{FieldPicture, Interpolation, PeriodicCurve};
 pub use overlay::overlay_chart;
 pub use particles::ParticlePicture;
 pub(crate) use particles::snapshot_size;
-pub use presets::{
-    autocorrelation_chart, circulation_chart, energies_chart, histogram_chart, mesh_energies_chart,
-    radial_distribution_chart,
-};
+pub use presets::{autocorrelation_chart, circulation_chart, histogram_chart, radial_distribution_chart};
 pub use profile_charts::{ProfiledSpecies, profiles_chart};
-pub(crate) use quantities::UNEQUILIBRATED;
-pub use quantities::{Averages, averages_note, quantity_label};
+pub use quantities::{Averages, energies_chart, quantity_label};
+pub(crate) use quantities::{UNEQUILIBRATED, capitalised, means_note};
 pub use renderer::{Plotter, vector_graphics};
 pub use stress_charts::{stress_chart, stress_correlation_chart};
 pub use text::missing_glyphs;

@@ -22,8 +22,10 @@ const MOST_NAMES: usize = 12;
 /// ```
 #[must_use]
 pub fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool, mut curves: Vec<Series>) -> Chart {
-    let on_scale: Vec<&mut Series> =
-        curves.iter_mut().filter(|curve| matches!(curve.ink, SeriesInk::Scale { .. })).collect();
+    let on_scale: Vec<&mut Series> = curves
+        .iter_mut()
+        .filter(|curve| !curve.name.is_empty() && matches!(curve.ink, SeriesInk::Scale { .. }))
+        .collect();
     let count = on_scale.len();
     for (place, curve) in on_scale.into_iter().enumerate() {
         if !is_named(place, count) {

@@ -35,11 +35,12 @@ const YELLOW: Colour = rgb(0x00F0_E442);
 const BLUE: Colour = rgb(0x0000_72B2);
 const VERMILION: Colour = rgb(0x00D5_5E00);
 const PURPLE: Colour = rgb(0x00CC_79A7);
-const GREY: Colour = rgb(0x0099_9999);
+/// In the place of their black. Grey is for all species together.
+const BROWN: Colour = rgb(0x008B_5E3C);
 
 /// The colours of a theme.
 pub(super) fn inks(theme: Theme) -> Inks {
-    let species = [BLUE, ORANGE, GREEN, PURPLE, SKY, VERMILION, YELLOW, GREY];
+    let species = [BLUE, ORANGE, GREEN, PURPLE, SKY, VERMILION, YELLOW, BROWN];
     match theme {
         Theme::Light => Inks {
             paper: rgb(0x00FF_FFFF),
@@ -58,7 +59,7 @@ pub(super) fn inks(theme: Theme) -> Inks {
             grid: rgb(0x0034_373D),
             faint: rgb(0x0069_6E77),
             series: [SKY, ORANGE, rgb(0x00EC_ECEC), GREEN, PURPLE, YELLOW, VERMILION],
-            species: [SKY, ORANGE, GREEN, PURPLE, BLUE, VERMILION, YELLOW, GREY],
+            species: [SKY, ORANGE, GREEN, PURPLE, BLUE, VERMILION, YELLOW, BROWN],
             line_scale: [0.28, 1.0],
         },
     }

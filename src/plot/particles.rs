@@ -6,7 +6,7 @@ use super::palette::{Colour, Inks, linear};
 use super::periodic;
 use super::snapshot_page::{self, Key, Page};
 use super::sphere_renderer::{Camera, SphereScene};
-use crate::scene::{Snapshot, SnapshotColor, Theme};
+use crate::scene::{Snapshot, SnapshotColor, SnapshotView, Theme};
 use bytemuck::{Pod, Zeroable};
 
 /// The particles of one moment and what to write beside them.
@@ -60,9 +60,15 @@ const ROD: f64 = 0.35;
 const AZIMUTH: f64 = -62.0;
 const ELEVATION: f64 = 20.0;
 
-fn view(dimension: u32) -> [[f64; 3]; 3] {
-    if dimension == 2 {
-        return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// What points to the right, upwards and towards the viewer.
+fn view(dimension: u32, from: SnapshotView) -> [[f64; 3]; 3] {
+    let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    match from {
+        _ if dimension == 2 => return [x, y, z],
+        SnapshotView::Corner => {}
+        SnapshotView::X => return [y, z, x],
+        SnapshotView::Y => return [x, z, [0.0, -1.0, 0.0]],
+        SnapshotView::Z => return [x, y, z],
     }
     let (sin_a, cos_a) = AZIMUTH.to_radians().sin_cos();
     let (sin_e, cos_e) = ELEVATION.to_radians().sin_cos();
@@ -96,7 +102,7 @@ fn check(picture: &ParticlePicture<'_>, style: &Snapshot) -> Result<(), PlotErro
 
 /// Width and height in pixels of a snapshot of a box.
 pub(crate) fn snapshot_size(style: &Snapshot, dimension: u32, lengths: [f64; 3]) -> [f64; 2] {
-    let [right, up, _] = view(dimension);
+    let [right, up, _] = view(dimension, style.view);
     let lengths = visible(dimension, lengths);
     snapshot_page::size(style, [extent(right, lengths), extent(up, lengths)])
 }
@@ -124,7 +130,7 @@ pub(super) fn lay_out(
     theme: Theme,
 ) -> Result<(Canvas, SphereScene), PlotError> {
     check(picture, style)?;
-    let [right, up, toward] = view(picture.dimension);
+    let [right, up, toward] = view(picture.dimension, style.view);
     let lengths = visible(picture.dimension, picture.lengths);
     let extent = |axis| extent(axis, lengths);
     let shape = [right, up].map(extent);
@@ -156,8 +162,14 @@ pub(super) fn lay_out(
     for (from, to, _) in edges.iter().filter(|(_, _, front)| *front) {
         page.canvas.line(project(*from), project(*to), page.rule, ink);
     }
-    for (axis, name) in ["x", "y", "z"].into_iter().enumerate().take(picture.dimension as usize) {
-        let [from, to] = measured_edge(axis, picture.dimension).map(project);
+    let is_seen = |axis: usize| right[axis] != 0.0 || up[axis] != 0.0;
+    let axes = ["x", "y", "z"].into_iter().enumerate().take(picture.dimension as usize);
+    for (axis, name) in axes.filter(|(axis, _)| is_seen(*axis)) {
+        let is_oblique = picture.dimension == 3 && style.view == SnapshotView::Corner;
+        let [from, to] = measured_edge(axis, is_oblique).map(project);
+        // Beside spheres that stand out of the box.
+        let [away, is_upright] = [0.5 * overhang * pixels_per_length, f64::from(u8::from(from[0] == to[0]))];
+        let [from, to] = [from, to].map(|[x, y]| [x - is_upright * away, y + (1.0 - is_upright) * away]);
         page.edge_length(name, lengths[axis], [from, to]);
     }
     page.footer(&key, outline, pixels_per_length);
@@ -210,8 +222,8 @@ fn box_edges(dimension: u32, toward: [f64; 3]) -> Vec<([f64; 3], [f64; 3], bool)
 }
 
 /// The edge along an axis beside which its length is written: at the outline of the view, below it or to its left.
-fn measured_edge(axis: usize, dimension: u32) -> [[f64; 3]; 2] {
-    let from = if axis == 1 && dimension == 3 { [1.0, 0.0, 0.0] } else { [0.0; 3] };
+fn measured_edge(axis: usize, is_oblique: bool) -> [[f64; 3]; 2] {
+    let from = if axis == 1 && is_oblique { [1.0, 0.0, 0.0] } else { [0.0; 3] };
     let mut to = from;
     to[axis] = 1.0;
     [from, to]

@@ -2,81 +2,8 @@
 
 use super::chart::{Chart, Panel, Series, SeriesInk, SeriesStyle};
 use super::points::{MOST_MARKERS, highest, pairs, since_first, steps};
-use super::quantities::{
-    Averages, TEMPERATURE, TIME, capitalised, panel, pressure_label, series, with_set_temperature,
-};
-use crate::numbers::grouped;
-use crate::quantity::Unit;
+use super::quantities::{TIME, capitalised};
 use crate::table::Table;
-
-/// Energies per particle, temperatures and pressures over time, with their means; a panel none of whose columns exist is left
-/// out.
-///
-/// The columns are `time` and those of [`QUANTITIES`](crate::quantity::QUANTITIES) with a look. `temperature` is the set
-/// kT, drawn as a reference; a value that is not finite leaves it out.
-///
-/// ```
-/// use mesoscope::plot::{Averages, energies_chart};
-/// use mesoscope::table::Table;
-///
-/// let columns = ["time", "kinetic_energy", "temperature"];
-/// let table = Table::new(columns, vec![vec![0.0, 30.0, 1.1], vec![0.5, 27.0, 0.9]]);
-/// let chart = energies_chart("A fluid", &table, 20, 1.0, &Averages::default());
-/// // There is no pressure in the table, and no panel for it.
-/// assert_eq!(chart.panels.len(), 2);
-/// assert_eq!(chart.panels[0].series[0].points, [[0.0, 1.5], [0.5, 1.35]]);
-/// assert_eq!(chart.panels[1].references[0].value, 1.0);
-/// ```
-#[must_use]
-pub fn energies_chart(title: &str, table: &Table, particle_count: u64, temperature: f64, averages: &Averages) -> Chart {
-    let per_particle = particle_count.max(1) as f64;
-    let panels = [
-        panel("Energy per particle (energy units)", table, Unit::Energy, per_particle, averages),
-        with_set_temperature(panel(TEMPERATURE, table, Unit::Temperature, 1.0, averages), temperature),
-        panel(&pressure_label(dimension(table)), table, Unit::Pressure, 1.0, averages),
-    ];
-    let plural = if particle_count == 1 { "particle" } else { "particles" };
-    Chart::of_found(title, &format!("{} {plural}", grouped(particle_count)), panels)
-}
-
-/// Dimensions of the box, of which each has a momentum.
-fn dimension(table: &Table) -> usize {
-    let momenta = table.columns.iter().filter(|name| name.starts_with("momentum_")).count();
-    if momenta == 0 { 3 } else { momenta }
-}
-
-/// Energies of shallow water over time, the change of the conserved one relative to its first value, and, in a bath, the
-/// temperature; with their means.
-///
-/// The columns are `time`, `kinetic_energy`, `potential_energy`, `total_energy`, and with a bath `bath_energy`,
-/// `extended_energy` and `temperature`, of which `temperature` is the set kT. Masses are in units of the water that a node
-/// holds at the mean depth.
-///
-/// ```
-/// use mesoscope::plot::{Averages, mesh_energies_chart};
-/// use mesoscope::table::Table;
-///
-/// let columns = ["time", "kinetic_energy", "potential_energy", "total_energy"];
-/// let rows = vec![vec![0.0, 300.0, 1000.0, 1300.0], vec![0.1, 301.3, 1000.0, 1301.3]];
-/// let chart = mesh_energies_chart("A vortex", &Table::new(columns, rows), None, &Averages::default());
-/// let change = &chart.panels[1].series[0].points;
-/// assert!((change[1][1] - 1e-3).abs() < 1e-12);
-/// ```
-#[must_use]
-pub fn mesh_energies_chart(title: &str, table: &Table, temperature: Option<f64>, averages: &Averages) -> Chart {
-    let unit = "(mass of a node × (length units/time unit)²)";
-    let energies = panel(&format!("Energy {unit}"), table, Unit::Energy, 1.0, averages);
-    let second = if let Some(set) = temperature {
-        with_set_temperature(panel(&format!("Temperature {unit}"), table, Unit::Temperature, 1.0, averages), set)
-    } else {
-        let points = table.over_time("total_energy", 1.0).unwrap_or_default();
-        let first = points.first().map_or(f64::NAN, |point| point[1]);
-        let change = points.iter().map(|point| [point[0], point[1] / first - 1.0]).collect();
-        let panel = Panel::new(TIME, "Relative change of the energy");
-        panel.with(series("total_energy", change)).with_reference("no change", 0.0)
-    };
-    Chart { title: title.to_owned(), panels: vec![energies, second], ..Chart::default() }
-}
 
 /// Changes of the circulations of material loops over time, relative to their first values unless one of these is 0.
 ///
@@ -206,68 +133,6 @@ pub fn histogram_chart(
 mod tests {
     #![allow(clippy::panic)]
     use super::*;
-
-    fn table(columns: &[&str], rows: &[&[f64]]) -> Table {
-        Table::new(columns.to_vec(), rows.iter().map(|row| row.to_vec()).collect())
-    }
-
-    #[test]
-    fn columns_decide_the_panels() {
-        let table = table(&["step", "time", "pressure", "kinetic_energy"], &[&[1.0, 0.5, 23.0, 30.0], &[2.0, 1.0]]);
-        let chart = energies_chart("a run", &table, 10, 1.0, &Averages::default());
-        assert_eq!(chart.panels.len(), 2);
-        assert_eq!(chart.panels[0].series[0].points[0], [0.5, 3.0]);
-        assert!(chart.panels[0].series[0].points[1][1].is_nan());
-        assert_eq!(chart.panels[1].series[0].points[0], [0.5, 23.0]);
-        assert_eq!(chart.subtitle, "10 particles");
-    }
-
-    #[test]
-    fn the_set_temperature_is_a_reference() {
-        let chart =
-            energies_chart("a run", &table(&["time", "temperature"], &[&[0.0, 1.1]]), 0, 1.5, &Averages::default());
-        assert_eq!(chart.panels[0].references[0].label, "set, kT = 1.5");
-        assert_eq!(chart.panels[0].references[0].value, 1.5);
-        let without = energies_chart(
-            "a run",
-            &table(&["time", "temperature"], &[&[0.0, 1.1]]),
-            0,
-            f64::NAN,
-            &Averages::default(),
-        );
-        assert!(without.panels[0].references.is_empty());
-    }
-
-    #[test]
-    fn all_lines_of_energies_are_told_apart() {
-        use super::super::series_look::assert_all_told_apart;
-        let columns = [
-            "time",
-            "kinetic_energy",
-            "potential_energy",
-            "total_energy",
-            "bath_energy",
-            "extended_energy",
-            "temperature",
-            "configurational_temperature",
-            "pressure",
-            "pressure_conservative",
-            "momentum_x",
-            "momentum_y",
-        ];
-        let table = table(&columns, &[&[1.0; 12]]);
-        let chart = energies_chart("a run", &table, 1, 1.0, &Averages::default());
-        assert_eq!(chart.panels[2].y.label, "Pressure (energy units/length unit²)");
-        assert_all_told_apart(&chart);
-        assert_all_told_apart(&mesh_energies_chart("water", &table, Some(1.0), &Averages::default()));
-    }
-
-    #[test]
-    fn a_table_without_time_has_no_panels() {
-        assert!(
-            energies_chart("a run", &table(&["pressure"], &[&[1.0]]), 1, 1.0, &Averages::default()).panels.is_empty()
-        );
-    }
 
     #[test]
     fn a_fit_is_a_line_over_points_with_errors() {

@@ -4,6 +4,7 @@
 use super::chart::SeriesStyle;
 use super::chart::{Panel, Series, SeriesInk};
 use super::palette::{Colour, Inks, scale_colour};
+use super::species_colours::species_colours;
 
 /// How a series is distinguished from the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +48,12 @@ pub(super) fn look(number: usize, series: &Series, inks: &Inks) -> Look {
             Look { colour, dashes: dashes(pattern), marker: None }
         }
         SeriesInk::Ink { pattern } => Look { colour: inks.ink, dashes: dashes(pattern), marker: None },
+        SeriesInk::Species([first, second]) => {
+            let colours = species_colours(inks, first + 1);
+            let pattern = if first == second { 0 } else { second };
+            Look { colour: colours[first % colours.len()], dashes: dashes(pattern), marker: Some(second) }
+        }
+        SeriesInk::AllSpecies => Look { colour: inks.muted, dashes: dashes(0), marker: Some(MARKERS - 1) },
         SeriesInk::Faint => Look { colour: inks.faint, dashes: dashes(0), marker: None },
     }
 }
@@ -127,6 +134,17 @@ mod tests {
             panel = panel.with_reference(&format!("reference {number}"), f64::from(number));
         }
         assert_all_told_apart(&Chart { panels: vec![panel], ..Chart::default() });
+    }
+
+    #[test]
+    fn pairs_of_species_are_told_apart_and_have_the_colour_of_the_first() {
+        let inks = super::super::palette::inks(crate::scene::Theme::Light);
+        let pairs = (0..4).flat_map(|second| (0..=second).map(move |first| [first, second]));
+        let named = |pair: [usize; 2]| Series::line(&format!("{pair:?}"), vec![]).with_ink(SeriesInk::Species(pair));
+        let panel = pairs.map(named).fold(Panel::new("r", "g"), Panel::with);
+        let all = Series::line("all", vec![]).with_ink(SeriesInk::AllSpecies);
+        assert_eq!(look(0, &named([2, 3]), &inks).colour, species_colours(&inks, 12)[2]);
+        assert_all_told_apart(&Chart { panels: vec![panel.with(all)], ..Chart::default() });
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! Charts of the pressure tensor.
 
 use super::chart::{Chart, Mean, Panel, Series, SeriesInk};
-use super::quantities::{TIME, pressure_label};
+use super::quantities::{TIME, axis_label};
 use crate::measure::statistics::Estimate;
+use crate::quantity::Unit;
 use crate::table::Table;
 
 /// Normal and shear components of the pressure tensor over time, with their means.
@@ -24,10 +25,8 @@ use crate::table::Table;
 #[must_use]
 pub fn stress_chart(title: &str, table: &Table, means: &dyn Fn(&str) -> Option<Mean>) -> Chart {
     let dimension = if table.column("pressure_zz").is_some() { 3 } else { 2 };
-    let unit = pressure_label(dimension);
-    let unit = unit.trim_start_matches("Pressure ");
     let panel = |name: &str, components: &[&str]| {
-        let mut panel = Panel::new(TIME, &format!("{name} {unit}")).settled();
+        let mut panel = Panel::new(TIME, &axis_label(name, Unit::Pressure, dimension)).settled();
         for (number, component) in components.iter().enumerate() {
             if let Some(points) = table.over_time(&format!("pressure_{component}"), 1.0) {
                 let series = Series::line(&format!("P_{{{component}}}"), points).with_ink(SeriesInk::Numbered(number));
@@ -37,7 +36,7 @@ pub fn stress_chart(title: &str, table: &Table, means: &dyn Fn(&str) -> Option<M
         panel
     };
     let panels = [panel("Normal pressure", &["xx", "yy", "zz"]), panel("Shear stress", &["xy", "xz", "yz"])];
-    Chart::of_found(title, "pressure tensor, with means ± errors after equilibration", panels)
+    Chart::of_found(title, "pressure tensor", panels)
 }
 
 /// The autocorrelation of the shear stress over the lag, and the viscosity that its sum up to there gives, with errors.

@@ -57,7 +57,8 @@ pub fn diffusion_chart(
             || "autocorrelation".to_owned(),
             |found| format!("autocorrelation; from its integral D = {found}"),
         );
-        chart.panels.push(panel.with(Series::line(&name, points)).with_reference("zero", 0.0));
+        let series = Series::line(&name, points).with_band(table.values("velocity_autocorrelation_error"));
+        chart.panels.push(panel.with(series).with_reference("zero", 0.0));
     }
     chart
 }
@@ -123,6 +124,8 @@ pub fn viscosity_chart(title: &str, table: &Table, viscosities: &[Estimate], all
 pub struct ChainKind {
     /// Name of the species.
     pub species: String,
+    /// The ink of its curves.
+    pub ink: SeriesInk,
     /// Beads in a chain.
     pub beads: u64,
     /// Mean of the squared distance of the ends; none of a ring.
@@ -155,7 +158,7 @@ pub fn chain_sizes_chart(title: &str, table: &Table, kinds: &[ChainKind]) -> Cha
             let mean = mean_of(kind);
             let Some(points) = table.over_time(&format!("{column}_{number}"), 1.0) else { continue };
             let series = Series::line(&format!("{}, {} beads", kind.species, kind.beads), points);
-            panel.series.push(Series { mean, ..series.with_ink(SeriesInk::Numbered(number)) });
+            panel.series.push(Series { mean, ..series.with_ink(kind.ink) });
         }
         panel
     };
@@ -164,7 +167,7 @@ pub fn chain_sizes_chart(title: &str, table: &Table, kinds: &[ChainKind]) -> Cha
     ends.series.retain(|series| series.mean.is_some());
     let gyration =
         panel("Squared radius of gyration (length units²)", "radius_of_gyration_squared", |kind| kind.gyration);
-    let subtitle = "means over all chains of a kind, and ± errors over time after equilibration";
+    let subtitle = "sizes are averages over all chains of a kind";
     Chart::of_found(title, subtitle, [ends, gyration])
 }
 

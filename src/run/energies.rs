@@ -78,7 +78,7 @@ impl EnergyRecorder {
                 file => (file?, read_table(path)?.rows),
             },
         };
-        let is_about_equilibrium = settling::is_about_equilibrium(scene);
+        let is_about_equilibrium = settling::is_about_equilibrium(scene, scene.model());
         let rows = EnergyRows::continued(scene, rows, configuration);
         Ok(Self { file, rows, is_about_equilibrium })
     }

@@ -200,7 +200,7 @@ impl<'a> Run<'a> {
         let number = self.schedule.snapshot(step);
         let taken = self.analyses.take_state(step);
         let fields = self.scene.model().picture() == PictureKind::Fields;
-        let is_shown = (number.is_some() || last) && (fields || self.task.draws);
+        let is_shown = (number.is_some() || last) && (fields || self.task.draws && !self.scene.output.snapshot.is_off);
         if is_shown || taken {
             let most = most_shown(self.scene);
             let all = if taken { Shown::all(engine.reported()?) } else { engine.shown(most)? };
@@ -365,7 +365,7 @@ impl<'a> Run<'a> {
         go_on()?;
         if self.task.draws {
             self.pictures.energies(&self.energies.rows.table(), self.scene.model(), &summary)?;
-            self.pictures.analyses(&summary, &go_on)?;
+            self.pictures.analyses(self.scene.model(), &summary, &go_on)?;
         } else {
             // Those that are there show an earlier end.
             self.directory.remove_last_pictures()?;

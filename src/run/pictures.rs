@@ -5,8 +5,9 @@ use super::adapter::{open_adapter, plan_for};
 use super::analyses::{self, mean};
 use super::colour_ranges::{self, ColourRanges};
 use super::field_arrays;
+use super::settling::is_about_equilibrium;
 use crate::engine::{Engine, Shown, Stepper};
-use crate::families::pictures::{CellValues, EnergyChart, ValueScale};
+use crate::families::pictures::{CellValues, ValueScale};
 use crate::families::{Checked, Model, PictureKind};
 use crate::gpu::{AdapterChoice, Gpu};
 use crate::numbers::grouped;
@@ -16,11 +17,12 @@ use crate::output::{
 use crate::plan::Options;
 use crate::plot::{
     Averages, CellPicture, Chart, ColorMap, FieldPicture, Mean, ParticlePicture, PeriodicCurve, PlotError, Plotter,
-    ShownValues, averages_note, energetic_cells_chart, energies_chart, mesh_energies_chart, missing_glyphs,
-    snapshot_size, vector_graphics,
+    ShownValues, energies_chart, means_note, missing_glyphs, snapshot_size, vector_graphics,
 };
 use crate::printable;
-use crate::scene::{AnalysisTable, PlotStyle, Scene, Snapshot, SnapshotColor, VectorFormat, WrittenScene};
+use crate::scene::{
+    AnalysisTable, PlotStyle, Scene, Snapshot, SnapshotColor, SnapshotSlice, VectorFormat, WrittenScene,
+};
 use crate::shaders::Array;
 use crate::state::{Reported, crossings};
 use crate::table::Table;
@@ -57,7 +59,7 @@ pub fn redraw(
     let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
     pictures.energies(&table, model, &summary)?;
     let mut written = vec![files::ENERGIES_PLOT];
-    written.extend(pictures.analyses(&summary, &|| Ok(()))?);
+    written.extend(pictures.analyses(model, &summary, &|| Ok(()))?);
     let plan = plan_for(&checkpoint.scene, &gpu, Options::default().with_room(model.particle_count()));
     let mut engine = Engine::new(&gpu, plan, &checkpoint.state)?;
     if model.picture() == PictureKind::Fields {
@@ -65,7 +67,7 @@ pub fn redraw(
         let depth = mesh_depth(&mut engine, model)?;
         let names = pictures.fields(None, &state, &depth, model)?;
         written.extend(files::all().filter(|name| names.iter().any(|written| written == name)));
-    } else {
+    } else if !scene.output.snapshot.is_off {
         let shown = engine.shown(most_shown(&scene))?;
         pictures.snapshot(files::SNAPSHOT, &shown, model)?;
         if model.units.dimension > 1 {
@@ -161,30 +163,24 @@ impl<'a> Pictures<'a> {
 
     /// Draws the table of energies with the means of a summary.
     pub(super) fn energies(&mut self, table: &Table, model: &Model, summary: &Summary) -> Result<(), RunError> {
-        let averages = averages(summary);
-        let (title, particles) = (&self.scene.title, model.particle_count());
-        let mut chart = match model.physics().energy_chart(model) {
-            EnergyChart::Mesh { subtitle, temperature } => {
-                Chart { subtitle, ..mesh_energies_chart(title, table, temperature, &averages) }
-            }
-            EnergyChart::EnergeticCells => {
-                let subtitle = format!("{} cells", grouped(particles));
-                Chart { subtitle, ..energetic_cells_chart(title, table, particles, &averages) }
-            }
-            EnergyChart::Particles => energies_chart(title, table, particles, model.temperature, &averages),
-        };
-        chart.subtitle = format!("{}, time step {}", chart.subtitle, model.time_step);
-        let note = averages_note(&averages);
-        if !note.is_empty() {
-            chart.subtitle = format!("{}; {note}", chart.subtitle);
-        }
+        let mut of = model.physics().energy_chart(model);
+        of.subtitle = format!("{}, time step {}", of.subtitle, model.time_step);
+        let averages = if self.has_means(model) { averages(summary) } else { Averages::default() };
+        let chart = energies_chart(&self.scene.title, table, &of, &averages);
         self.chart(files::ENERGIES_PLOT, &chart)
+    }
+
+    /// True if means over time with errors say something: of a stationary random process, not of a flow or of motion
+    /// that is exact.
+    fn has_means(&self, model: &Model) -> bool {
+        is_about_equilibrium(self.scene, model) && !model.physics().is_conservative(model)
     }
 
     /// Draws the plots of all analyses whose tables are there and not empty, with the results of a summary, and returns their names;
     /// `proceed` says before each whether to.
     pub(super) fn analyses(
         &mut self,
+        model: &Model,
         summary: &Summary,
         proceed: &dyn Fn() -> Result<(), RunError>,
     ) -> Result<Vec<&'static str>, RunError> {
@@ -199,7 +195,7 @@ impl<'a> Pictures<'a> {
             if table.rows.is_empty() {
                 continue;
             }
-            let chart = analyses::chart(id, place, &table, self.scene, &summary.results);
+            let mut chart = analyses::chart(id, place, &table, self.scene, model, &summary.results);
             // Nothing, if its columns are not those that the run wrote.
             if chart.panels.iter().flat_map(|panel| &panel.series).all(|series| series.points.is_empty()) {
                 let problem = format!(
@@ -208,10 +204,24 @@ impl<'a> Pictures<'a> {
                 );
                 return Err(OutputError::Line { path, line: 1, problem }.into());
             }
+            self.note_means(&mut chart, model);
             self.chart(plot, &chart)?;
             drawn.push(plot);
         }
         Ok(drawn)
+    }
+
+    /// Says below the title of a chart what its means are of, or leaves them out.
+    fn note_means(&self, chart: &mut Chart, model: &Model) {
+        let mut series = chart.panels.iter_mut().flat_map(|panel| &mut panel.series);
+        if !self.has_means(model) {
+            series.for_each(|series| series.mean = None);
+            return;
+        }
+        let means: Vec<Mean> = series.by_ref().filter_map(|series| series.mean).collect();
+        let part = if self.scene.time.equilibration > 0 { "after equilibration" } else { "of the whole run" };
+        let notes = [std::mem::take(&mut chart.subtitle), means_note(means, part)];
+        chart.subtitle = notes.into_iter().filter(|note| !note.is_empty()).collect::<Vec<_>>().join("; ");
     }
 
     pub(super) fn snapshot(&mut self, name: &str, shown: &Shown, model: &Model) -> Result<(), RunError> {
@@ -232,8 +242,15 @@ impl<'a> Pictures<'a> {
         let asked = &self.scene.output.snapshot;
         let is_shown = |name: &String| asked.species.is_empty() || asked.species.contains(name);
         let of_species: Vec<bool> = model.species.iter().map(|species| is_shown(&species.name)).collect();
-        let particles: Vec<usize> =
+        let mut particles: Vec<usize> =
             (0..state.len()).filter(|&index| of_species.get(state.species[index] as usize) == Some(&true)).collect();
+        let sampled = particles.len() as u64;
+        if let Some(slice) = asked.slice {
+            let axis = slice.axis as usize;
+            let is_walled = model.particles().walls.iter().any(|walls| walls.axis == axis);
+            let period = (!is_walled).then_some(edges[axis]);
+            particles.retain(|&index| slice.holds(units.position(state.positions[index])[axis], period));
+        }
         let positions: Vec<[f64; 3]> = particles.iter().map(|&index| place(&state.positions[index])).collect();
         let species: Vec<u32> = particles.iter().map(|&index| state.species[index]).collect();
         let by_speed = self.scene.output.snapshot.color == SnapshotColor::Speed;
@@ -248,8 +265,11 @@ impl<'a> Pictures<'a> {
         if shown.numbers.is_some() {
             let all: u64 =
                 model.species.iter().filter(|species| is_shown(&species.name)).map(|species| species.count).sum();
-            let [some, all] = [particles.len() as u64, all].map(grouped);
+            let [some, all] = [sampled, all].map(grouped);
             subtitle = format!("{subtitle}; {some} of {all} particles");
+        }
+        if let Some(SnapshotSlice { axis, position, thickness }) = asked.slice {
+            subtitle = format!("{subtitle}; slice at {} = {position} ± {}", axis.name(), rounded(0.5 * thickness));
         }
         if !asked.species.is_empty() {
             let names: Vec<_> = asked.species.iter().map(|name| printable::name(name)).collect();
@@ -349,18 +369,19 @@ impl<'a> Pictures<'a> {
             let field = &shown.field;
             let subtitle = at_time(state, model);
             let given = asked.ranges.of(shown.quantity);
+            let extrema = field.extrema();
             let range = if asked.every > 0 {
-                Some(
-                    self.ranges
-                        .of(shown.described.name, given, || colour_ranges::of_field(field.extrema(), shown.from_zero)),
-                )
+                Some(self.ranges.of(shown.described.name, given, || colour_ranges::of_field(extrema, shown.from_zero)))
             } else {
                 given
             };
+            // Pictures of one range have one map.
+            let [low, high] = range.or(extrema).unwrap_or_default();
+            let centre = shown.centre.filter(|centre| low < *centre && *centre < high);
             let picture = FieldPicture {
                 title: &self.scene.title,
                 subtitle: &subtitle,
-                map: shown.centre.map_or(ColorMap::Sequential, |centre| ColorMap::Diverging { centre }),
+                map: centre.map_or(ColorMap::Sequential, |centre| ColorMap::Diverging { centre }),
                 range,
                 curves: &curves,
                 ..FieldPicture::new(field)

@@ -1,15 +1,15 @@
 //! Which means of a run include the way to equilibrium, and what to do about it.
 
-use crate::families::Checked;
+use crate::families::Model;
 use crate::measure::equilibration::transient;
 use crate::output::summary::{Unequilibrated, UnsettledMean};
 use crate::quantity::{QUANTITIES, Quantity};
+use crate::scene::Scene;
 use crate::table::Table;
 
 /// Whether the means of a scene are meant to be those of equilibrium: where it says how long to wait for that, and for
 /// thermal particles anyway. Flows of water, cells that warm up or slow down and chains with a pulse are about the way.
-pub(super) fn is_about_equilibrium(scene: &Checked) -> bool {
-    let model = scene.model();
+pub(super) fn is_about_equilibrium(scene: &Scene, model: &Model) -> bool {
     let particles = model.physics().reaches_equilibrium();
     scene.time.equilibration > 0 || particles && model.temperature > 0.0
 }
@@ -109,7 +109,7 @@ mod tests {
             ("harmonic-chain", "seed=1", false),
         ] {
             let scene = crate::scene::load(name, &[overrides.to_owned()]).unwrap();
-            assert_eq!(is_about_equilibrium(&scene), expected, "{name} {overrides}");
+            assert_eq!(is_about_equilibrium(&scene, scene.model()), expected, "{name} {overrides}");
         }
     }
 }

@@ -77,7 +77,7 @@ impl Sizes {
                 let numbered = count.saturating_mul(times(fields.every));
                 (field as u64 + 8 * model.physics().nodes() + 128, count, numbered, plot_pixels)
             }
-            _ if model.units.dimension == 1 => (0, 0, 0, 0.0),
+            _ if model.units.dimension == 1 || output.snapshot.is_off => (0, 0, 0, 0.0),
             PictureKind::Particles | PictureKind::Cells => {
                 let [width, height] =
                     snapshot_size(&output.snapshot, model.units.dimension as u32, model.edges_with_layers());

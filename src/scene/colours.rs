@@ -1,8 +1,9 @@
-//! What pictures show by colour: ranges that have a length, of quantities that have a scale.
+//! What pictures show: ranges of colours that have a length, of quantities that have a scale, and slices within the
+//! box.
 
-use super::{Problems, Scene, SnapshotColor};
+use super::{Problems, Scene, SnapshotColor, SnapshotSlice, SnapshotView};
 
-/// Finds ranges of colours that cannot be shown.
+/// Finds ranges of colours and parts of the box that cannot be shown.
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
     let snapshot = &scene.output.snapshot;
     if let Some(range) = snapshot.range {
@@ -12,6 +13,13 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
             problems.refuse(path, "a range of colours", accepted);
         }
         check_range(path, range, problems);
+    }
+    if let Some(slice) = snapshot.slice {
+        check_slice(slice, scene, problems);
+    }
+    if snapshot.view != SnapshotView::Corner && scene.space.lengths.len() != 3 {
+        let accepted = "no `view` of a box that has not three dimensions, which is seen from above";
+        problems.refuse("output.snapshot.view", "a side of the box", accepted);
     }
     let ranges = scene.output.fields.as_ref().map(|fields| &fields.ranges);
     for (name, range) in ranges.into_iter().flat_map(|ranges| {
@@ -27,6 +35,24 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         if let Some(range) = range {
             check_range(&format!("output.fields.ranges.{name}"), range, problems);
         }
+    }
+}
+
+/// A slice lies in a box of three dimensions and is no thicker than that.
+fn check_slice(slice: SnapshotSlice, scene: &Scene, problems: &mut Problems) {
+    let path = "output.snapshot.slice";
+    let [_, _, _] = scene.space.lengths[..] else {
+        let accepted = "no `slice` of a box that has not three dimensions, whose particles are all seen";
+        return problems.refuse(path, "a part of the box", accepted);
+    };
+    let (axis, length) = (slice.axis.name(), scene.space.lengths[slice.axis as usize]);
+    if slice.position > length {
+        let accepted = format!("a place along {axis} in the box: 0 to {length}");
+        problems.refuse(format!("{path}.position"), slice.position, accepted);
+    }
+    if slice.thickness > length {
+        let accepted = format!("at most {length}, the length of the box along {axis}");
+        problems.refuse(format!("{path}.thickness"), slice.thickness, accepted);
     }
 }
 

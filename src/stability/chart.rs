@@ -6,13 +6,18 @@ use super::summary::{Row, StabilitySummary};
 use super::verdict::Verdict;
 use crate::numbers::short;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesInk, SeriesStyle};
-use crate::study::{each_once, readable};
+use crate::study::{each_once, parameter_label, readable};
 
 fn axis(label: &str, spacing: Spacing) -> Axis {
     match spacing {
         Spacing::Log => Axis::log(label),
         Spacing::Linear => Axis::linear(label),
     }
+}
+
+/// What an axis calls a key.
+fn name_of(key: &str, request: &Request) -> String {
+    parameter_label(key, key, &request.base)
 }
 
 /// The chart of a map.
@@ -28,13 +33,13 @@ pub(super) fn chart(summary: &StabilitySummary, request: &Request) -> Chart {
     let subtitle = [subtitle].into_iter().chain(super::page::laws_outside(summary)).collect::<Vec<_>>().join("; ");
     let has_errors = summary.rows.iter().flat_map(|row| &row.cells).any(|cell| !cell.errors.is_empty());
     let is_curve = summary.rows.len() == 1 && has_errors;
-    let panel = if is_curve { of_a_row(summary) } else { of_rows(summary, request, &percent) };
+    let panel = if is_curve { of_a_row(summary, request) } else { of_rows(summary, request, &percent) };
     Chart { title: format!("{}: stability", request.base.title), subtitle, panels: vec![panel] }
 }
 
 /// Verdicts, edges and bounds of all rows.
 fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Panel {
-    let key = request.row_key().unwrap_or_default();
+    let key = &name_of(request.row_key().unwrap_or_default(), request);
     let numbers = request.row_numbers();
     let y = if let Some((_, spacing)) = &numbers {
         axis(key, *spacing)
@@ -45,7 +50,7 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
     };
     let height = |row: usize| numbers.as_ref().map_or(row as f64, |(numbers, _)| numbers[row]);
     let rows = || summary.rows.iter().enumerate();
-    let mut panel = Panel { x: axis(&summary.key, summary.spacing), y, ..Panel::default() };
+    let mut panel = Panel { x: axis(&name_of(&summary.key, request), summary.spacing), y, ..Panel::default() };
     // Lines go from row to row; where a row has none they end.
     let line = |name: &str, place: &dyn Fn(&Row) -> Option<f64>, pattern: usize| {
         let points: Vec<[f64; 2]> =
@@ -89,8 +94,9 @@ fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Pane
 }
 
 /// Errors over the key, the tolerance, and where runs end.
-fn of_a_row(summary: &StabilitySummary) -> Panel {
-    let mut panel = Panel { x: axis(&summary.key, summary.spacing), y: Axis::log("error (%)"), ..Panel::default() };
+fn of_a_row(summary: &StabilitySummary, request: &Request) -> Panel {
+    let x = axis(&name_of(&summary.key, request), summary.spacing);
+    let mut panel = Panel { x, y: Axis::log("Error (%)"), ..Panel::default() };
     let Some(row) = summary.rows.first() else { return panel };
     let tolerance = 100.0 * summary.tolerance();
     let mut ends = [tolerance, tolerance];
@@ -140,7 +146,7 @@ mod tests {
         }
         let law = |law: &str, at: f64| Bound { law: law.to_owned(), is_of_stability: true, at };
         summary.rows[0].outside = vec![law("low", 0.05), law("high", 0.8)];
-        let panel = of_a_row(&summary);
+        let panel = of_a_row(&summary, &request);
         let line = panel.series.iter().find(|series| series.name == "first unstable").unwrap();
         assert!(line.points.iter().all(|[value, _]| *value == 0.4), "{line:?}");
         // Laws outside of the picture are in its words.

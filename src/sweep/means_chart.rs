@@ -6,7 +6,7 @@ use super::observables::Observable;
 use super::summary::SweepSummary;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesStyle, UNEQUILIBRATED, quantity_label};
 use crate::quantity::QUANTITIES;
-use crate::study::{Setting, ShortKeys, Sweep, Variation, by_key, each_once, numbers, readable};
+use crate::study::{Setting, ShortKeys, Sweep, Variation, by_key, each_once, numbers, parameter_label, readable};
 use serde_json::Value;
 
 /// Panels of one picture.
@@ -28,13 +28,19 @@ pub(super) fn charts(sweep: &Sweep, summary: &SweepSummary, look: &Look) -> Vec<
     let title = sweep.variants().first().map_or("", |variant| variant.scene.title.as_str());
     let seeds = found.iter().map(|(group, _)| group.finished.len()).max().unwrap_or(0);
     let subtitle = if seeds > 1 {
-        format!("means over {seeds} seeds, bars: standard errors from their scatter")
+        format!("means over {seeds} seeds, bars: standard errors from their scatter with Student's factor")
     } else {
         "means over time after equilibration, bars: standard errors".to_owned()
     };
+    let few = panels.iter().flat_map(|panel| &panel.series).any(|series| series.few.contains(&true));
+    let hollow = match (few, seeds > 1) {
+        (true, true) => ", hollow: error from few seeds",
+        (true, false) => ", hollow: error from few samples",
+        (false, _) => "",
+    };
     let marked = panels.iter().any(|panel| panel.y.label.ends_with(UNEQUILIBRATED));
     let mark = if marked { format!(", {UNEQUILIBRATED} some with the way to equilibrium") } else { String::new() };
-    let subtitle = subtitle + &mark;
+    let subtitle = subtitle + hollow + &mark;
     let chart =
         |panels: &[Panel]| Chart { title: title.to_owned(), subtitle: subtitle.clone(), panels: panels.to_vec() };
     panels.chunks(PANELS).map(chart).collect()
@@ -82,7 +88,10 @@ impl<'a> MeansAxis<'a> {
         // Of equals the first.
         let chosen = varied().rev().max_by_key(most)?;
         let short = ShortKeys::of(&[&chosen.key]);
-        let label = short.short(&chosen.key);
+        let scene = sweep.variants().first().map(|variant| &*variant.scene);
+        let short = short.short(&chosen.key);
+        let label = scene.map_or_else(|| short.to_owned(), |scene| parameter_label(&chosen.key, short, scene));
+        let label = label.as_str();
         let (axis, places) = if let Some(places) = numbers(&chosen.values) {
             (if is_geometric(&places) { Axis::log(label) } else { Axis::linear(label) }, places)
         } else {
@@ -115,20 +124,22 @@ impl<'a> MeansAxis<'a> {
                 panel = panel.with_reference(&name, observable.value);
                 continue;
             };
-            points.push((name, ([place, observable.value], observable.error.unwrap_or(f64::NAN))));
+            let error = (observable.error.unwrap_or(f64::NAN), observable.from_few_samples);
+            points.push((name, ([place, observable.value], error)));
         }
         let curves = by_key(points);
         let several = curves.len() + panel.references.len() > 1;
         for (name, mut points) in curves {
             points.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
-            let (points, errors): (Vec<[f64; 2]>, Vec<f64>) = points.into_iter().unzip();
+            let (points, errors): (Vec<[f64; 2]>, Vec<(f64, bool)>) = points.into_iter().unzip();
+            let (errors, few) = errors.into_iter().unzip();
             let name = match (several, name.is_empty()) {
                 (false, _) => "",
                 (true, true) => "variants",
                 (true, false) => &name,
             };
             let style = if self.axis.categories.is_empty() { SeriesStyle::LineMarkers } else { SeriesStyle::Markers };
-            panel.series.push(Series { style, ..Series::markers(name, points).with_errors(errors) });
+            panel.series.push(Series { style, ..Series::markers(name, points).with_errors(errors).with_few(few) });
         }
         let places: Vec<f64> = panel.series.iter().flat_map(|series| &series.points).map(|point| point[0]).collect();
         places.iter().any(|place| *place != places[0]).then_some(panel)
@@ -197,7 +208,7 @@ mod tests {
         let charts = drawn(&["interactions.0.friction=9,1,4.5"], &["temperature=0"], |number| number as f64);
         assert_eq!((charts.len(), charts[0].panels.len()), (1, 1), "the pressure is always the same");
         let panel = &charts[0].panels[0];
-        assert_eq!((panel.x.label.as_str(), panel.x.scale), ("friction", Scale::Linear));
+        assert_eq!((panel.x.label.as_str(), panel.x.scale), ("Friction (mass units/time unit)", Scale::Linear));
         assert_eq!(panel.y.label, "Temperature (energy units)");
         assert_eq!(panel.series[0].points, [[1.0, 1.0], [4.5, 2.0], [9.0, 0.0]]);
         assert_eq!(panel.series[0].errors.as_deref(), Some(&[0.125; 3][..]));
@@ -227,7 +238,7 @@ mod tests {
         let charts =
             drawn(&["integrator.type=splitting,cotter-reich", "time.step=0.01,0.02,0.03"], &[], |number| number as f64);
         let panel = &charts[0].panels[0];
-        assert_eq!(panel.x.label, "step");
+        assert_eq!(panel.x.label, "Time step (time units)");
         let curves: Vec<&str> = panel.series.iter().map(|series| series.name.as_str()).collect();
         assert_eq!(curves, ["type = splitting", "type = cotter-reich"]);
         assert_eq!(panel.series[1].points, [[0.01, 3.0], [0.02, 4.0], [0.03, 5.0]]);
@@ -246,7 +257,9 @@ mod tests {
         assert_eq!(panel.series[0].points, [[1.0, 0.5], [10.0, 6.5], [100.0, 20.5]]);
         let errors = [0.5, 2.5, 4.5].map(|error| error * student(1.0));
         assert_eq!(panel.series[0].errors.as_deref(), Some(&errors[..]));
-        assert!(charts[0].subtitle.contains("2 seeds"), "{}", charts[0].subtitle);
+        assert_eq!(panel.series[0].few, [true; 3]);
+        let subtitle = &charts[0].subtitle;
+        assert!(subtitle.contains("2 seeds") && subtitle.ends_with("hollow: error from few seeds"), "{subtitle}");
         assert!(drawn(&["seed=1,2,3"], &[], |number| number as f64).is_empty());
     }
 }

@@ -1,13 +1,16 @@
 //! One plot of all variants for every quantity.
 
+use super::averages::SEED;
 use super::files;
 use super::means_chart;
 use super::summary::SweepSummary;
 use super::variant::VariantState;
 use crate::output::{RunDirectory, Summary, files as run_files};
-use crate::plot::{Chart, Series, SeriesInk, overlay_chart};
+use crate::plot::{Chart, Series, SeriesInk, SeriesStyle, overlay_chart};
 use crate::run;
-use crate::study::{Charts, StudyError, Sweep, Variant, each_once, numbers};
+use crate::study::{
+    Charts, Setting, ShortKeys, StudyError, Sweep, Variant, by_key, each_once, numbers, parameter_name,
+};
 use crate::table::Table;
 
 /// A scale of colours says more than colours apart from more than this many values on.
@@ -36,20 +39,31 @@ pub(super) fn charts<'c>(
     };
     let quantities = each_once(finished.iter().flat_map(|(_, _, table)| &table.columns).filter(is_shown).cloned());
     let of_quantity = move |quantity: String| -> Option<(String, Chart)> {
-        let mut curves: Vec<Series> = Vec::new();
         let mut without: Vec<&str> = Vec::new();
-        for (variant, ink, table) in &finished {
-            let Some(points) = points(table, &quantity, look.relative) else {
+        let found = finished.iter().filter_map(|(variant, ink, table)| {
+            let found = points(table, &quantity, look.relative);
+            if found.is_none() {
                 without.push(&variant.label);
-                continue;
-            };
-            curves.push(Series::line(&variant.label, points).with_ink(*ink));
-        }
+            }
+            let (seeds, others) =
+                variant.settings.iter().cloned().partition::<Vec<_>, _>(|setting| setting.key == SEED);
+            Some(((others, seeds.is_empty()), Curve { variant, ink: *ink, points: found? }))
+        });
+        let groups = by_key(found);
+        let averaged = groups.iter().any(|(_, members)| members.len() > 1);
+        let curves: Vec<Series> = groups
+            .iter()
+            .enumerate()
+            .flat_map(|(number, ((settings, _), members))| curves_of_seeds(number, settings, members))
+            .collect();
         if curves.is_empty() || look.quantities.is_empty() && !changes(&curves) {
             return None;
         }
         let title = finished.first().map_or("", |(variant, _, _)| variant.scene.title.as_str());
         let mut subtitle = subtitle(sweep, summary);
+        if averaged {
+            subtitle.push_str("; thick: means over seeds, thin: single seeds");
+        }
         if !without.is_empty() {
             subtitle = format!("{subtitle}; without {}", without.join(", "));
         }
@@ -60,9 +74,48 @@ pub(super) fn charts<'c>(
     Ok(Box::new(means.chain(quantities.into_iter().filter_map(of_quantity))))
 }
 
+/// A quantity of a variant over time.
+#[derive(Clone)]
+struct Curve<'v> {
+    variant: &'v Variant,
+    ink: SeriesInk,
+    points: Vec<[f64; 2]>,
+}
+
+/// The curves of variants that differ in their seeds alone, with the number of their group and what they have in
+/// common: each of them, thin, behind their mean.
+fn curves_of_seeds(number: usize, settings: &[Setting], members: &[Curve<'_>]) -> Vec<Series> {
+    let ink = |ink: SeriesInk| if ink == SeriesInk::Own { SeriesInk::Numbered(number) } else { ink };
+    let mean = mean_curve(members).filter(|_| members.len() > 1);
+    let shown = |Curve { variant, ink: own, points }: &Curve<'_>| {
+        let (name, style) =
+            if mean.is_none() { (variant.label.as_str(), SeriesStyle::Line) } else { ("", SeriesStyle::Thin) };
+        Series { style, ..Series::line(name, points.clone()).with_ink(ink(*own)) }
+    };
+    let mut curves: Vec<Series> = members.iter().map(shown).collect();
+    if let (Some(mean), Some(first)) = (mean, members.first()) {
+        let label = if settings.is_empty() { "mean" } else { &ShortKeys::of_settings(settings).label(settings) };
+        curves.push(Series::line(label, mean).with_ink(ink(first.ink)));
+    }
+    curves
+}
+
+/// The mean of curves over their values at the same times; none where times differ.
+fn mean_curve(curves: &[Curve<'_>]) -> Option<Vec<[f64; 2]>> {
+    let first = &curves.first()?.points;
+    let is_alike = |Curve { points, .. }: &Curve<'_>| {
+        points.len() == first.len() && points.iter().zip(first).all(|(a, b)| a[0].total_cmp(&b[0]).is_eq())
+    };
+    let mean = |row: usize| curves.iter().map(|curve| curve.points[row][1]).sum::<f64>() / curves.len() as f64;
+    let means = || first.iter().enumerate().map(|(row, [time, _])| [*time, mean(row)]).collect();
+    curves.iter().all(is_alike).then(means)
+}
+
 /// What is varied, and what is not in the picture.
 fn subtitle(sweep: &Sweep, summary: &SweepSummary) -> String {
-    let keys: Vec<&str> = sweep.variations().iter().map(|variation| variation.key.as_str()).collect();
+    let scene = sweep.variants().first().map(|variant| &variant.scene);
+    let name = |key: &str| scene.map_or_else(|| key.to_owned(), |scene| parameter_name(key, scene));
+    let keys: Vec<String> = sweep.variations().iter().map(|variation| name(&variation.key)).collect();
     let mut text = format!("{} varied", keys.join(", "));
     for (state, words) in [(VariantState::Failed, "failed"), (VariantState::Waiting, "not finished")] {
         let names: Vec<&str> =
@@ -95,7 +148,9 @@ fn changes(curves: &[Series]) -> bool {
 /// a scale in the order of these numbers, and dashes for the other keys; variants that are none of their combinations in the ink of the axes.
 fn inks(sweep: &Sweep) -> Vec<SeriesInk> {
     let varied = sweep.variations();
-    let many: Vec<usize> = (0..varied.len()).filter(|place| varied[*place].values.len() > FEW).collect();
+    // Seeds are averaged.
+    let many = (0..varied.len()).filter(|place| varied[*place].values.len() > FEW && varied[*place].key != SEED);
+    let many: Vec<usize> = many.collect();
     let only = if let [only] = many[..] { numbers(&varied[only].values).map(|values| (only, values)) } else { None };
     let Some((scaled, values)) = only else { return vec![SeriesInk::Own; sweep.variants().len()] };
     let last = (values.len() - 1) as f64;
@@ -107,7 +162,7 @@ fn inks(sweep: &Sweep) -> Vec<SeriesInk> {
             return SeriesInk::Ink { pattern: further };
         };
         // Dashes count through the combinations of the other keys.
-        let others = (0..variant.places.len()).filter(|place| *place != scaled);
+        let others = (0..variant.places.len()).filter(|place| *place != scaled && varied[*place].key != SEED);
         let pattern = others.fold(0, |pattern, place| pattern * varied[place].values.len() + variant.places[place]);
         SeriesInk::Scale { place: place_on_scale(*index), pattern }
     };
@@ -138,13 +193,34 @@ mod tests {
     fn few_values_and_words_have_colours_of_their_own() {
         assert_eq!(inks_of(&["seed=1,2,3,4,5"], &["seed=6"]), [SeriesInk::Own; 6]);
         assert_eq!(inks_of(&["title=a,b,c,d,e,f"], &[]), [SeriesInk::Own; 6]);
+        assert_eq!(inks_of(&["seed=1,2,3,4,5,6"], &[]), [SeriesInk::Own; 6]);
     }
 
     #[test]
     fn a_second_key_is_told_by_dashes() {
-        let found = inks_of(&["seed=1,2", "temperature=1,2,3,4,5,6"], &[]);
+        let found = inks_of(&["time.step=0.01,0.02", "temperature=1,2,3,4,5,6"], &[]);
         assert_eq!(found[0], SeriesInk::Scale { place: 0.0, pattern: 0 });
         assert_eq!(found[11], SeriesInk::Scale { place: 1.0, pattern: 1 });
+    }
+
+    #[test]
+    fn single_seeds_are_thin_behind_their_mean() {
+        let arguments = ["temperature=1,2", "seed=1,2"].map(str::to_owned);
+        let sweep = Sweep::load("dpd-fluid", &[], None, &arguments, &[]).unwrap();
+        let [one, other] = [&sweep.variants()[0], &sweep.variants()[1]];
+        let settings = vec![one.settings[0].clone()];
+        let own = SeriesInk::Own;
+        let curve = |variant, points: [[f64; 2]; 2]| Curve { variant, ink: own, points: points.to_vec() };
+        let members = [curve(one, [[0.0, 1.0], [1.0, 3.0]]), curve(other, [[0.0, 2.0], [1.0, 5.0]])];
+        let curves = curves_of_seeds(3, &settings, &members);
+        let seen: Vec<(SeriesStyle, &str)> = curves.iter().map(|curve| (curve.style, curve.name.as_str())).collect();
+        assert_eq!(seen, [(SeriesStyle::Thin, ""), (SeriesStyle::Thin, ""), (SeriesStyle::Line, "temperature = 1")]);
+        assert_eq!(curves[2].points, [[0.0, 1.5], [1.0, 4.0]]);
+        assert!(curves.iter().all(|curve| curve.ink == SeriesInk::Numbered(3)));
+        let mut unlike = members;
+        unlike[1].points[1][0] = 1.5;
+        let curves = curves_of_seeds(0, &settings, &unlike);
+        assert!(curves.len() == 2 && curves.iter().all(|curve| !curve.name.is_empty()), "no mean of unlike times");
     }
 
     #[test]

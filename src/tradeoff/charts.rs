@@ -33,8 +33,8 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     let what = measure.replace('_', " ");
     let unit = if is_part { " (%)" } else { "" };
     let mut panel = Panel {
-        x: Axis::log("seconds of steps a unit of simulated time (s)"),
-        y: Axis::log(&format!("error of {what}{unit}")),
+        x: Axis::log("Time to compute a time unit (s)"),
+        y: Axis::log(&format!("Error of {what}{unit}")),
         ..Panel::default()
     };
     let (on_front, dominated): (Vec<_>, Vec<_>) = points.iter().partition(|point| point.error.on_front);
@@ -63,7 +63,7 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     }
     let few = points.iter().any(|point| point.error.from_few_samples);
     let bars = match (points.iter().any(|point| point.bar > 0.0), few) {
-        (true, true) => ", bars: standard errors, of few samples three times",
+        (true, true) => ", bars: standard errors, of few samples (hollow) three times",
         (true, false) => ", bars: standard errors",
         (false, _) => "",
     };
@@ -74,7 +74,8 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
 fn series(name: &str, points: &[&Point<'_>], groups: &Groups<'_>) -> Series {
     let labels = points.iter().map(|point| groups.label(point.choice)).collect();
     let series = Series::markers(name, points.iter().map(|point| point.place).collect()).with_labels(labels);
-    series.with_errors(points.iter().map(|point| point.bar).collect())
+    let few = points.iter().map(|point| point.error.from_few_samples).collect();
+    series.with_errors(points.iter().map(|point| point.bar).collect()).with_few(few)
 }
 
 /// Choices that differ in one key of numbers alone are of one colour, and labelled by their numbers.
@@ -132,7 +133,7 @@ mod tests {
         assert_eq!(chart.panels.len(), 1, "{chart:?}");
         let panel = &chart.panels[0];
         assert_eq!((panel.x.scale, panel.y.scale), (Scale::Log, Scale::Log));
-        assert!(panel.y.label == "error of pressure (%)" && panel.x.label.ends_with("(s)"), "{panel:?}");
+        assert!(panel.y.label == "Error of pressure (%)" && panel.x.label.ends_with("(s)"), "{panel:?}");
         let series = |name: &str| panel.series.iter().find(|series| series.name == name).unwrap();
         let places = |found: &Series| -> Vec<[f64; 2]> {
             found.points.iter().map(|point| point.map(|number| (1e6 * number).round() / 1e6)).collect()

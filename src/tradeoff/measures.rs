@@ -3,6 +3,7 @@
 use super::fields;
 use crate::families::{Checked, column};
 use crate::output::{RunDirectory, Summary, files as run_files};
+use crate::quantity::Quantity;
 use crate::run;
 use crate::scene::{did_you_mean, nearest};
 use crate::study::StudyError;
@@ -25,10 +26,6 @@ const FEW_SAMPLES: f64 = 3.0;
 
 /// Faces of a cell in a periodic plane, each shared by two.
 const FACES_A_CELL: f64 = 3.0;
-
-/// Columns that are assessed where nobody says which, if a run has them.
-const USUAL: [&str; 5] =
-    ["temperature", "configurational_temperature", "internal_temperature", "pressure", "potential_energy"];
 
 /// A number that was measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -153,7 +150,8 @@ pub(super) fn is_part(measure: &str) -> bool {
 pub(super) fn usual(measured: &[Measured]) -> Vec<String> {
     let known = |name: &str| measured.iter().any(|found| found.measure == name);
     let drift_alone = known(ENERGY_DRIFT);
-    let columns = USUAL.into_iter().filter(|name| !drift_alone && known(name)).map(str::to_owned);
+    let columns =
+        Quantity::usual().map(|usual| usual.name).filter(|name| !drift_alone && known(name)).map(str::to_owned);
     let others = measured.iter().filter(|found| {
         let of_analysis = found.measure.contains('.') && found.standard_error.is_some();
         of_analysis || !found.fluctuates

@@ -2,6 +2,7 @@
 //! `target/tmp` for the eye.
 
 use image::RgbaImage;
+use mesoscope::families::EnergyChart;
 use mesoscope::measure::statistics::Estimate;
 use mesoscope::plot::{
     Averages, CellPicture, Chart, Panel, ParticlePicture, PlotError, Plotter, Scale, Series, SeriesStyle, ShownValues,
@@ -100,13 +101,16 @@ fn energies() -> Table {
     Table::new(columns.split(','), rows)
 }
 
+fn of_fluid() -> EnergyChart {
+    EnergyChart { temperature: Some(1.0), ..EnergyChart::of("particle", 24_000, 3) }
+}
+
 #[test]
 fn energies_are_drawn_the_same_twice_and_on_both_papers() {
     let mut chart = energies_chart(
         "DPD fluid at density 3: energies of a standard run",
         &energies(),
-        24_000,
-        1.0,
+        &of_fluid(),
         &Averages::default(),
     );
     chart.subtitle.push_str(", ρ = 3, a = 25, γ = 4.5, Δt = 0.04");
@@ -126,7 +130,7 @@ fn energies_are_drawn_the_same_twice_and_on_both_papers() {
 
 #[test]
 fn small_wide_and_enlarged_pictures() {
-    let chart = energies_chart("DPD fluid", &energies(), 24_000, 1.0, &Averages::default());
+    let chart = energies_chart("DPD fluid", &energies(), &of_fluid(), &Averages::default());
     for (width, height, scale) in
         [(320, 240, 1.0), (1600, 400, 1.0), (800, 2000, 1.0), (1600, 1200, 1.6), (640, 480, 8.0)]
     {

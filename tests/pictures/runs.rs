@@ -96,6 +96,91 @@ fn a_picture_shows_the_species_that_are_asked_for() {
     fails(&["plot", &directory, "--set", r#"output.snapshot.species=["C"]"#], 2, &[refusal]);
 }
 
+/// Two layers of particles, of which a slice holds one, seen from all sides; and no picture at all.
+#[test]
+fn a_slice_and_a_side_of_a_box_are_drawn_or_nothing_is() {
+    let layer = |species: &str, z: f64| {
+        let places: Vec<[f64; 3]> = (0..64).map(|i| [f64::from(i % 8) + 0.5, f64::from(i / 8) + 0.5, z]).collect();
+        json!({"species": species, "placement": {"type": "listed", "positions": places}, "velocities": {"type": "rest"}})
+    };
+    let place = Place::of(json!({
+        "title": "two layers",
+        "space": {"box": [8, 8, 4]},
+        "time": {"step": 0.01, "steps": 1},
+        "temperature": 0,
+        "particles": [layer("low", 0.25), layer("high", 2.5)],
+        "interactions": [{"type": "dpd", "repulsion": 0, "friction": 1}],
+        "output": {"energies": {"every": 1}, "plot": {"width": 320, "height": 240}, "snapshot": null},
+    }));
+    let directory = place.argument("out");
+    succeeds(&["run", &place.scene(), "--out", &directory, "--quiet"]);
+    assert!(!place.path("out/snapshot.png").exists(), "null is no picture");
+    let coloured = |settings: &[&str]| {
+        let sets = settings.iter().flat_map(|setting| ["--set", setting]);
+        let arguments: Vec<&str> =
+            ["plot", &directory, "--set", "output.snapshot.width=300"].into_iter().chain(sets).collect();
+        succeeds(&arguments);
+        let picture = picture(&place.path("out/snapshot.png"));
+        let mut counts = [0, 0];
+        // Blue and orange above the legend.
+        for (_, _, pixel) in picture.enumerate_pixels().filter(|(_, y, _)| *y < picture.height() * 3 / 4) {
+            let (red, blue) = (i32::from(pixel[0]), i32::from(pixel[2]));
+            counts[0] += i32::from(blue > red + 40);
+            counts[1] += i32::from(red > blue + 40);
+        }
+        (picture.dimensions(), counts)
+    };
+    let (_, both) = coloured(&[]);
+    assert!(both[0] > 300 && both[1] > 300, "{both:?}");
+    let slice = |z: f64| format!(r#"output.snapshot.slice={{"axis":"z","position":{z},"thickness":1}}"#);
+    let (_, high) = coloured(&[&slice(2.25)]);
+    assert!(high[0] == 0 && high[1] > 300, "{high:?}");
+    // The box repeats itself: its top is next to its bottom.
+    let (_, low) = coloured(&[&slice(3.9)]);
+    assert!(low[0] > 300 && low[1] == 0, "{low:?}");
+    // From above the upper layer hides the lower one; from the side both are rows, on a wider page.
+    let (square, above) = coloured(&["output.snapshot.view=z"]);
+    assert!(above[0] == 0 && above[1] > 300, "{above:?}");
+    let (wide, aside) = coloured(&["output.snapshot.view=y"]);
+    assert!(aside[0] > 100 && aside[1] > 100 && wide.1 < square.1, "{aside:?} {wide:?} {square:?}");
+    assert_eq!(coloured(&["output.snapshot.view=x"]).0, wide);
+}
+
+#[test]
+fn slices_and_views_are_checked() {
+    let slice = |position: f64, thickness: f64| {
+        format!(r#"output.snapshot.slice={{"axis":"y","position":{position},"thickness":{thickness}}}"#)
+    };
+    let bounds = [
+        "output.snapshot.slice.position: found 21; accepted: a place along y in the box: 0 to 20",
+        "output.snapshot.slice.thickness: found 30; accepted: at most 20",
+    ];
+    fails(&["check", "dpd-fluid", "--set", &slice(21.0, 30.0)], 2, &bounds);
+    fails(
+        &["check", "dpd-fluid", "--set", &slice(-1.0, 0.0)],
+        2,
+        &["slice.position: found -1", "slice.thickness: found 0"],
+    );
+    fails(&["check", "dpd-fluid", "--set", "output.snapshot.view=front"], 2, &["corner, x, y"]);
+    for flat in ["dpd-fluid-2d", "voronoi-dpd"] {
+        fails(&["check", flat, "--set", &slice(1.0, 1.0)], 2, &["no `slice` of a box that has not three dimensions"]);
+        fails(
+            &["check", flat, "--set", "output.snapshot.view=x"],
+            2,
+            &["no `view` of a box that has not three dimensions"],
+        );
+    }
+    fails(
+        &["check", "shallow-water", "--set", "output.snapshot.view=x"],
+        2,
+        &["no `output.snapshot` in shallow water"],
+    );
+    for name in ["shallow-water", "voronoi-dpd", "dpd-fluid"] {
+        let output = mesoscope(&["check", name, "--set", "output.snapshot=null"]);
+        assert!(output.status.success() && !text(&output.stdout).contains("snapshot.png"), "{}", text(&output.stderr));
+    }
+}
+
 #[test]
 fn a_run_that_paused_has_the_same_pictures() {
     let whole = cooling();

@@ -31,7 +31,7 @@ pub fn outputs(scene: &Checked, sizes: &Sizes) -> String {
                 rows.push((names, "at the end".to_owned()));
             }
         }
-    } else if model.units.dimension > 1 {
+    } else if model.units.dimension > 1 && !output.snapshot.is_off {
         rows.push((files::SNAPSHOT.to_owned(), "at the end".to_owned()));
         if output.snapshot.every > 0 {
             rows.push(("snapshot-….png".to_owned(), sized(&interval(0, output.snapshot.every), sizes.numbered)));

@@ -61,7 +61,8 @@ fn field(asked: FieldQuantity, flow: &MeshFlow, depth: &[f64], model: &Model, wa
     let described = described(asked);
     let (centre, values) = match asked {
         FieldQuantity::Depth => (None, depth.to_vec()),
-        FieldQuantity::PotentialVorticity => (None, flow.potential_vorticity(depth)),
+        // At rest it is f/H, of a mean depth H = 1.
+        FieldQuantity::PotentialVorticity => (Some(water.rotation), flow.potential_vorticity(depth)),
         FieldQuantity::Vorticity => (Some(0.0), flow.vorticity()),
         FieldQuantity::Speed => (None, flow.speed()),
         FieldQuantity::VelocityX => {

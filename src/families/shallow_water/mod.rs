@@ -206,7 +206,15 @@ impl Physics for ShallowWater {
             with_error(self.wave_speed, None),
             with_error(self.rotation, None)
         );
-        EnergyChart::Mesh { subtitle, temperature: self.bath.is_some().then_some(model.temperature) }
+        EnergyChart {
+            subtitle,
+            unit: Some("mass of a node × (length units/time unit)²"),
+            dimension: 2,
+            is_athermal: !self.has_thermostat(model),
+            temperature: Some(model.temperature),
+            is_conserved: self.is_conservative(model),
+            ..EnergyChart::default()
+        }
     }
 
     fn mesh_pictures(

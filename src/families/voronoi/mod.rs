@@ -124,8 +124,9 @@ impl Physics for Voronoi {
         Some(self)
     }
 
-    fn energy_chart(&self, _: &Model) -> EnergyChart {
-        if self.keeps_energy() { EnergyChart::EnergeticCells } else { EnergyChart::Particles }
+    fn energy_chart(&self, model: &Model) -> EnergyChart {
+        let temperature = Some(model.temperature).filter(|_| !self.keeps_energy());
+        EnergyChart { temperature, ..EnergyChart::of("cell", model.particle_count(), model.units.dimension) }
     }
 
     fn cell_values(

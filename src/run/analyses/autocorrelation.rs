@@ -130,7 +130,8 @@ impl Descriptor for Autocorrelation {
         let [lags, values, errors, fit] =
             ["time", "autocorrelation", "autocorrelation_error", "fit"].map(|name| drawn.column(name));
         let fitted = (formula(&drawn.result["fit"]), fit);
-        autocorrelation_chart(drawn.title(), self.0.name(), (&lags, &values, &errors), (&fitted.0, &fitted.1))
+        let measured = (&lags[..], &values[..], &errors[..]);
+        drawn.of_species(autocorrelation_chart(drawn.title(), self.0.name(), measured, (&fitted.0, &fitted.1)))
     }
 
     fn finds(&self, _: &Checked) -> Vec<&'static str> {

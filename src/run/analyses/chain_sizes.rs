@@ -8,7 +8,7 @@ use crate::engine::Sample;
 use crate::families::{ChainGroup, Checked, Walks};
 use crate::measure::statistics::estimate;
 use crate::plan::Words;
-use crate::plot::{ChainKind, Chart, chain_sizes_chart};
+use crate::plot::{ChainKind, Chart, SeriesInk, chain_sizes_chart};
 use crate::scene::AnalysisId;
 use crate::shaders::analyses::Walk;
 use crate::shaders::{Array, Choices, Constant, Entry};
@@ -96,7 +96,12 @@ impl Descriptor for ChainSizes {
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let kinds = drawn.result.as_array().map(Vec::as_slice).unwrap_or_default();
-        chain_sizes_chart(drawn.title(), drawn.table, &kinds.iter().map(chain_kind).collect::<Vec<_>>())
+        let mut kinds: Vec<ChainKind> = kinds.iter().map(chain_kind).collect();
+        let numbers: Option<Vec<usize>> = kinds.iter().map(|kind| drawn.model.species_named(&kind.species)).collect();
+        for (kind, number) in kinds.iter_mut().zip(numbers.into_iter().flatten()) {
+            kind.ink = SeriesInk::Species([number; 2]);
+        }
+        chain_sizes_chart(drawn.title(), drawn.table, &kinds)
     }
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
@@ -165,6 +170,7 @@ fn chain_kind(result: &Value) -> ChainKind {
     ChainKind {
         species: result["species"].as_str().unwrap_or_default().to_owned(),
         beads: result["beads"].as_u64().unwrap_or_default(),
+        ink: SeriesInk::Own,
         end_to_end: mean(&result[END_TO_END]),
         gyration: mean(&result[GYRATION]),
     }

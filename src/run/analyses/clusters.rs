@@ -87,19 +87,20 @@ impl Descriptor for Clusters {
             let panel = Panel { x: Axis::log("Particles in a cluster"), y: Axis::log("Clusters"), ..Panel::default() };
             let points = drawn.column("size").into_iter().zip(drawn.column("clusters"));
             let panel = panel.with(Series::markers("", points.map(|(size, count)| [size, count]).collect()));
-            return Chart { title: drawn.title().to_owned(), subtitle, panels: vec![panel] };
+            return drawn.of_species(Chart { title: drawn.title().to_owned(), subtitle, panels: vec![panel] });
         }
-        let series = |column: &str, name: &str, ink: usize| {
+        let series = |column: &str, name: &str, ink: SeriesInk| {
             let mean = mean(&drawn.result[column]);
             let points = drawn.table.over_time(column, 1.0).unwrap_or_default();
-            Series { mean, ..Series::line(name, points).with_ink(SeriesInk::Numbered(ink)) }
+            Series { mean, ..Series::line(name, points).with_ink(ink) }
         };
         let time = "Time (time units)";
-        let number = Panel::new(time, "Clusters").with(series("clusters", "clusters", 0));
+        let number = Panel::new(time, "Clusters").with(series("clusters", "clusters", drawn.ink(drawn.result)));
         let sizes =
             [("mean_size", "mean of clusters"), ("weighted_size", "mean of particles"), ("largest_size", "largest")];
         let mut size = Panel::new(time, "Particles in a cluster");
-        size.series = sizes.iter().zip(1..).map(|((column, name), ink)| series(column, name, ink)).collect();
+        size.series =
+            sizes.iter().zip(1..).map(|((column, name), ink)| series(column, name, SeriesInk::Numbered(ink))).collect();
         Chart { title: drawn.title().to_owned(), subtitle, panels: vec![number, size] }
     }
 

@@ -4,10 +4,10 @@ use super::Planner;
 use super::gathered::{Gathered, Part};
 use super::results::printed_estimate;
 use crate::engine::Sample;
-use crate::families::Checked;
+use crate::families::{Checked, Model};
 use crate::numbers::grouped;
 use crate::plan::{Need, Plan};
-use crate::plot::Chart;
+use crate::plot::{Chart, SeriesInk};
 use crate::scene::{Output, Scene};
 use crate::state::Reported;
 use crate::table::Table;
@@ -121,6 +121,7 @@ pub(in crate::run) struct Setting<'a> {
 /// What a chart is drawn from.
 pub(super) struct Drawn<'a> {
     pub(super) scene: &'a Scene,
+    pub(super) model: &'a Model,
     pub(super) table: &'a Table,
     /// Place of the table among those of its analysis.
     pub(super) place: usize,
@@ -131,6 +132,27 @@ pub(super) struct Drawn<'a> {
 impl Drawn<'_> {
     pub(super) fn title(&self) -> &str {
         &self.scene.title
+    }
+
+    /// The ink of what belongs to the species that a result names: one, a pair, or all of them. Where there is only
+    /// one, all are of it.
+    pub(super) fn ink(&self, result: &Value) -> SeriesInk {
+        let named = &result["species"];
+        let names = named.as_array().map_or(std::slice::from_ref(named), Vec::as_slice);
+        let numbers = names.iter().filter_map(|name| self.model.species_named(name.as_str()?));
+        match numbers.collect::<Vec<usize>>()[..] {
+            [one] => SeriesInk::Species([one; 2]),
+            [one, other] => SeriesInk::Species([one.min(other), one.max(other)]),
+            _ if self.model.species.len() == 1 => SeriesInk::Species([0; 2]),
+            _ => SeriesInk::AllSpecies,
+        }
+    }
+
+    /// The chart with this ink for series that have none of their own.
+    pub(super) fn of_species(&self, mut chart: Chart) -> Chart {
+        let series = chart.panels.iter_mut().flat_map(|panel| &mut panel.series);
+        series.filter(|series| series.ink == SeriesInk::Own).for_each(|series| series.ink = self.ink(self.result));
+        chart
     }
 
     /// A column; nothing where there is none of this name.

@@ -107,7 +107,7 @@ impl Descriptor for Diffusion {
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let [einstein, green_kubo] = [EINSTEIN, GREEN_KUBO].map(|key| found(&drawn.result[key]));
         let dimension = drawn.scene.space.lengths.len();
-        diffusion_chart(drawn.title(), drawn.table, dimension, einstein, green_kubo)
+        drawn.of_species(diffusion_chart(drawn.title(), drawn.table, dimension, einstein, green_kubo))
     }
 
     fn labels(&self) -> &'static [(&'static str, &'static str)] {

@@ -165,7 +165,7 @@ impl Descriptor for Histogram {
     }
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
-        density_chart(drawn.title(), drawn.table)
+        drawn.of_species(density_chart(drawn.title(), drawn.table))
     }
 
     fn finds(&self, _: &Checked) -> Vec<&'static str> {

@@ -164,9 +164,16 @@ pub(super) fn tables() -> impl Iterator<Item = (AnalysisId, usize, AnalysisTable
 }
 
 /// The chart of a table, with the results of a run that belong to it.
-pub(super) fn chart(id: AnalysisId, place: usize, table: &Table, scene: &Scene, results: &Map<String, Value>) -> Chart {
+pub(super) fn chart(
+    id: AnalysisId,
+    place: usize,
+    table: &Table,
+    scene: &Scene,
+    model: &Model,
+    results: &Map<String, Value>,
+) -> Chart {
     let result = results.get(id.name()).unwrap_or(&Value::Null);
-    let mut chart = describe(id).chart(&Drawn { scene, table, place, result });
+    let mut chart = describe(id).chart(&Drawn { scene, model, table, place, result });
     let parts = [whose(result).map(|name| format!("species {name}")), Some(chart.subtitle)];
     chart.subtitle = parts.into_iter().flatten().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ");
     chart
@@ -189,7 +196,8 @@ mod tests {
         let table = |columns: &[&str]| {
             Table::new(columns.to_vec(), (0..8).map(|row| vec![1.0 + f64::from(row); columns.len()]).collect())
         };
-        let drawn = |id: AnalysisId, columns: &[&str], results| chart(id, 0, &table(columns), &scene, results);
+        let drawn =
+            |id: AnalysisId, columns: &[&str], results| chart(id, 0, &table(columns), &scene, scene.model(), results);
         let found = drawn(AnalysisId::Diffusion, &["time", "mean_squared_displacement"], results);
         assert_eq!(found.panels[0].series[1].name, "6 D t + b, D = 0.300 ± 0.010");
         let found = drawn(AnalysisId::ShearWave, &["time", "amplitude", "fit"], results);

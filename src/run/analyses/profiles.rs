@@ -16,7 +16,7 @@ use crate::scene::{self, AnalysisId, Frame, Output, ProfiledQuantity};
 use crate::shaders::analyses::{self, InLayers, Layered, LayeredStress};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
-use serde_json::json;
+use serde_json::{Value, json};
 
 /// Names of columns, and of the mean in the result.
 const POSITION: &str = "position";
@@ -153,17 +153,18 @@ impl Descriptor for Profiles {
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let names = drawn.result["species"].as_array().map(Vec::as_slice).unwrap_or_default();
-        let species: Vec<ProfiledSpecies> = names
-            .iter()
-            .enumerate()
-            .map(|(number, name)| ProfiledSpecies {
-                name: name.as_str().unwrap_or_default().to_owned(),
-                column: density_of(number),
-            })
-            .collect();
+        let density = |name: &str, column: String, species: &Value| ProfiledSpecies {
+            name: name.to_owned(),
+            column,
+            ink: drawn.ink(&json!({ "species": species })),
+        };
+        let mut densities = vec![density("all particles", DENSITY.to_owned(), &Value::Null)];
+        let of_species =
+            |(number, name): (usize, &Value)| density(name.as_str().unwrap_or_default(), density_of(number), name);
+        densities.extend(names.iter().enumerate().map(of_species));
         let axis = drawn.scene.output.profiles.as_ref().map_or("x", |asked| asked.axis.name());
         let temperature = Some(drawn.scene.temperature).filter(|temperature| *temperature > 0.0);
-        profiles_chart(drawn.title(), axis, drawn.table, &species, temperature)
+        profiles_chart(drawn.title(), axis, drawn.model.units.dimension, drawn.table, &densities, temperature)
     }
 
     fn labels(&self) -> &'static [(&'static str, &'static str)] {

@@ -145,7 +145,9 @@ impl Descriptor for RadialDistribution {
             let shown = values.iter().enumerate().map(|(row, value)| if is_shown(row) { *value } else { f64::NAN });
             let points = drawn.column(DISTANCE).into_iter().zip(shown).map(|(distance, value)| [distance, value]);
             let name = pair_in_words(names(result)).unwrap_or_else(|| "g(r)".to_owned());
-            Series::line(&name, points.collect()).with_band(drawn.column(&format!("{column}_error")))
+            Series::line(&name, points.collect())
+                .with_band(drawn.column(&format!("{column}_error")))
+                .with_ink(drawn.ink(result))
         };
         radial_distribution_chart(drawn.title(), columns.zip(results_of(drawn.result)).map(curve).collect())
     }

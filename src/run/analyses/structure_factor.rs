@@ -156,7 +156,7 @@ impl Descriptor for StructureFactor {
         let curve = |(column, result): (&String, &Value)| {
             let points = wave_numbers.iter().zip(drawn.column(column)).map(|(q, value)| [*q, value]).collect();
             let name = pair_in_words(names(result)).unwrap_or_else(|| "S(q)".to_owned());
-            Series::line(&name, points).with_band(drawn.column(&format!("{column}_error")))
+            Series::line(&name, points).with_band(drawn.column(&format!("{column}_error"))).with_ink(drawn.ink(result))
         };
         let mut panel = Panel::new("Wave number q (1/length unit)", "Structure factor S(q)");
         panel.x.range = wave_numbers.last().map(|last| [0.0, *last]);
