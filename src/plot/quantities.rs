@@ -236,7 +236,7 @@ mod tests {
     fn all_lines_of_energies_are_told_apart() {
         let names = QUANTITIES.iter().filter(|quantity| quantity.look.is_some()).map(|quantity| quantity.name);
         let columns: Vec<&str> = ["time"].into_iter().chain(names).collect();
-        let rows: Vec<Vec<f64>> = (0..2).map(|row| vec![f64::from(row); columns.len()]).collect();
+        let rows: Vec<Vec<f64>> = (0..2).map(|row| vec![1.0 + f64::from(row); columns.len()]).collect();
         let of = EnergyChart { temperature: Some(1.0), is_conserved: true, ..EnergyChart::of("particle", 1, 2) };
         let chart = energies_chart("a run", &Table::new(columns, rows), &of, &Averages::default());
         assert_eq!(chart.panels.len(), 4);
@@ -272,7 +272,7 @@ mod tests {
         assert!(chart.subtitle.ends_with(marks), "{}", chart.subtitle);
     }
 
-    /// Lines at 1.5 and 4.5 that vary by 0.1 are flat, and by 1 are not.
+    /// Lines at 1.5 and 4.5 that vary by a quarter are flat, and by 1 are not.
     #[test]
     fn flat_energies_are_drawn_relative_to_their_levels() {
         let columns = ["time", "kinetic_energy", "potential_energy"];
@@ -283,16 +283,16 @@ mod tests {
         let averages = Averages { from: None, means };
         let absolute = chart(&rows(1.0), 1, &averages);
         assert_eq!(absolute.panels[0].series[0].points[1], [1.0, 2.5]);
-        let deviations = &chart(&rows(0.5), 1, &averages).panels[0];
+        let deviations = &chart(&rows(0.25), 1, &averages).panels[0];
         assert_eq!(deviations.y.label, "Energy per particle less its mean (energy units)");
-        assert_eq!(deviations.series[0].points, [[0.0, -0.25], [1.0, 0.25]]);
+        assert_eq!(deviations.series[0].points, [[0.0, -0.25], [1.0, 0.0]]);
         assert_eq!(deviations.series[1].name, "potential, mean 4.25 ± 0.10");
         assert!(deviations.series.iter().all(|series| series.mean.is_none()), "a bar would lie elsewhere");
-        let changes = &chart(&rows(0.5), 1, &Averages::default()).panels[0];
+        let changes = &chart(&rows(0.25), 1, &Averages::default()).panels[0];
         assert!(changes.y.label.starts_with("Change of energy per particle ("), "{}", changes.y.label);
         assert_eq!(
             (changes.series[1].points[1], changes.series[1].name.as_str()),
-            ([1.0, -0.5], "potential, from 4.5")
+            ([1.0, -0.25], "potential, from 4.5")
         );
     }
 

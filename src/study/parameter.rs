@@ -31,7 +31,7 @@ const UNITS: [(&str, Unit); 16] = [
 const LISTS: [&str; 6] = ["space", "time", "interactions", "particles", "pairs", "species"];
 
 /// Interactions and their parts whose keys of the same names have other units, which no axis gives.
-const OTHERWISE: [&str; 5] = ["harmonic-chain", "shallow-water", "voronoi", "angles", "many_body"];
+const OTHERWISE: [&str; 3] = ["harmonic-chain", "angles", "many_body"];
 
 /// The name of a key for an axis: `Repulsion of A–B (energy units/length unit)` for `interactions.0.pairs.0.repulsion`,
 /// where the scene says whose it is. Where the quantity of the key is not known it is the key, as short as `short`.
