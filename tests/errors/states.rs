@@ -1013,14 +1013,17 @@ fn what_does_not_go_with_a_file() {
              `rest` for all particles",
         ],
     );
-    for interaction in [
-        json!({"type": "voronoi", "form": "paper"}),
-        json!({"type": "shallow-water", "mesh": [16, 16], "wave_speed": 1, "rotation": 1}),
+    for (interaction, refusal) in [
+        (json!({"type": "voronoi", "form": "paper"}), "state: found in a scene of Voronoi DPD"),
+        (
+            json!({"type": "shallow-water", "mesh": [16, 16], "wave_speed": 1, "rotation": 1}),
+            "state.file: `init`: it has no format that is known; accepted: an `.npz` file",
+        ),
     ] {
         let place = Place::of("init", XYZ);
         let found =
             place.problems("init", &[("/interactions", json!([interaction])), ("/space", json!({"box": [4, 5]}))]);
-        assert!(found.iter().any(|problem| problem.starts_with("state: found in a scene of ")), "{found:?}");
+        assert!(found.iter().any(|problem| problem.starts_with(refusal)), "{found:?}");
     }
     refused(
         XYZ,
