@@ -614,7 +614,7 @@ fn errors_from_few_samples_decide_nothing() {
     let said = succeeds(&borrowed(&arguments(&place, &few[..few.len() - 2])));
     assert!(said.contains("‡ from few samples") && said.contains(" % ‡"), "{said}");
     let page = fs::read_to_string(place.path("out").join(files::PAGE)).unwrap();
-    assert!(page.contains(" % ‡ |") && page.contains("‡ from few samples"), "{page}");
+    assert!(page.contains(" % ‡ ") && page.contains("‡ from few samples"), "{page}");
 }
 
 /// An error that takes longer runs than are allowed is announced after the first ones, whose tables are there, and begun when that is said to be

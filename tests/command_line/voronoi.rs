@@ -200,7 +200,10 @@ fn wrong_scenes_run_nothing() {
     let output = mesoscope(&["run", "voronoi-dpd", "--out", "/nowhere", "--set", "particles.0.fixed=true"]);
     assert_eq!(output.status.code(), Some(2));
     let message = text(&output.stderr);
-    assert!(message.contains("particles[0].fixed: found true; accepted: cells that move"), "{message}");
+    assert!(
+        message.contains("particles[0].fixed: found in a scene of Voronoi DPD; accepted: cells that move"),
+        "{message}"
+    );
 }
 
 #[test]

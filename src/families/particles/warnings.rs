@@ -176,21 +176,18 @@ fn warn_of_friction(scene: &Checked, force: &PairForce, warnings: &mut Vec<Warni
     let (rate, index) = model.largest_friction_rate(force);
     let (relaxed, limit) = (rate * step, model.friction_limit());
     let one_stage = model.relaxation().filter(|errors| errors.rule == PairRelaxation::MeanField);
-    let (exceeds, effect) = match one_stage {
-        Some(errors) => (
-            model.advisable_relaxation() == PairRelaxation::TwoStages || relaxed > limit,
-            format!(
-                "one stage leaves the temperature about {:.1} % low by that and the viscosity up to {:.1} %{}",
-                100.0 * errors.missing_temperature(),
-                100.0 * errors.viscosity,
-                if relaxed < MOST_RELAXATION { ", which `integrator.relaxation=two-stages` does not" } else { "" }
-            ),
-        ),
-        None => {
-            let staged = model.particles().relaxes_in_two_stages();
-            let what = if staged { "viscosity and diffusion" } else { "temperatures" };
-            (relaxed > limit, format!("{what} are reliable up to {limit}, a step of {:.2e}", limit / rate))
-        }
+    let (exceeds, effect) = if let Some(errors) = one_stage {
+        let effect = format!(
+            "one stage leaves the temperature about {:.1} % low by that and the viscosity up to {:.1} %{}",
+            100.0 * errors.missing_temperature(),
+            100.0 * errors.viscosity,
+            if relaxed < MOST_RELAXATION { ", which `integrator.relaxation=two-stages` does not" } else { "" }
+        );
+        (model.advisable_relaxation() == PairRelaxation::TwoStages || relaxed > limit, effect)
+    } else {
+        let staged = model.particles().relaxes_in_two_stages();
+        let what = if staged { "viscosity and diffusion" } else { "temperatures" };
+        (relaxed > limit, format!("{what} are reliable up to {limit}, a step of {:.2e}", limit / rate))
     };
     if exceeds {
         let message = format!(

@@ -525,7 +525,7 @@ mod tests {
         let doubled: Vec<f64> = h.iter().map(|depth| 2.0 * depth).collect();
         // Finer than any mass of particles can have it.
         let rough: Vec<f64> =
-            (0..h.len()).map(|index| if (index / ROWS + index) % 2 == 0 { 1.9 } else { 0.1 }).collect();
+            (0..h.len()).map(|index| if (index / ROWS + index).is_multiple_of(2) { 1.9 } else { 0.1 }).collect();
         for (shape, depth, expected) in [
             (&[ROWS, COLUMNS][..], &h, "array `h`: found 8 × 16 nodes; accepted: 16 × 8 nodes along x and y"),
             (&[COLUMNS * ROWS], &h, "array `h`: found 1 dimension; accepted: two dimensions of 16 and 8 nodes"),
