@@ -161,7 +161,7 @@ fn slices_and_views_are_checked() {
         2,
         &["slice.position: found -1", "slice.thickness: found 0"],
     );
-    fails(&["check", "dpd-fluid", "--set", "output.snapshot.view=front"], 2, &["corner, x, y"]);
+    fails(&["check", "dpd-fluid", "--set", "output.snapshot.view=front"], 2, &[r#"accepted: "corner", "x", "y", "z""#]);
     for flat in ["dpd-fluid-2d", "voronoi-dpd"] {
         fails(&["check", flat, "--set", &slice(1.0, 1.0)], 2, &["no `slice` of a box that has not three dimensions"]);
         fails(
