@@ -231,7 +231,6 @@ fn the_rule_that_no_scene_names_follows_friction_and_step() {
         ("dpd-fluid-2d", &[], two),
         ("dpd-fluid", &["interactions.0.friction=3000"], two),
         ("dpd-fluid", &["interactions.0.friction=0"], None),
-        ("voronoi-dpd", &["integrator.type=splitting"], None),
     ] {
         assert_eq!(rule(name, set), Integrator::Splitting { relaxation }, "{name} {set:?}");
     }
