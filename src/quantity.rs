@@ -24,7 +24,7 @@ pub struct Quantity {
     pub meaning: &'static str,
     /// Its look in the panel of its unit in the chart of energies, if it is there.
     pub look: Option<Look>,
-    /// True if it is reported and assessed where nobody says which quantities are.
+    /// True if studies report and assess it by default.
     pub is_usual: bool,
     /// True if it fluctuates about a constant in equilibrium; false if it is conserved, wanders or counts.
     pub settles: bool,

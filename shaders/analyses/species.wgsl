@@ -1,4 +1,4 @@
-// What is measured of one species.
+// Measurements of one species.
 
 // == analyses/measured/of_species
 // Particles of one species, all of which can move.

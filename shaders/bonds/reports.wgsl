@@ -1,4 +1,4 @@
-// What bonds, angles, tethers and excluded pairs add to reports.
+// Contributions of bonds, angles, tethers and excluded pairs to reports.
 
 // == bonds/bond_report/observed
 // A report of bonds: motion and configuration.

@@ -1,4 +1,4 @@
-// What pairs in a list and baths with memory add to reports.
+// Contributions of pairs in a list and of baths with memory to reports.
 
 // == couplings/pair_report/observed
 // A report of pairs: energy, virials, curvature, and the conservative forces themselves.

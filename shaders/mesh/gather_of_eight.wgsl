@@ -104,7 +104,7 @@ fn store_column(place: u32, column: Column) {
     contributions[2u * place + 1u] = stored_four(bitcast<vec4<u32>>(outside));
 }
 
-// What another lane brings to this lane's column.
+// The share of another lane in this lane's column.
 fn from_lane(share: IntegerPowers, lane: u32, inside: bool) -> IntegerPowers {
     return select(IntegerPowers(0), subgroupShuffle(share, lane & 7u), inside);
 }
@@ -246,7 +246,7 @@ fn store_moved_of_eight(eight: Eight, bin: Bin, cell: u32, owner: u32, first: u3
     if (inside) { store_water(place, particle); }
 }
 fn end_moving_eight(eight: Eight, bin: Bin, cell: u32) {
-    // What begins or ends with the end of the eight may have no number there.
+    // Cells that begin or end with the end of the eight may have no number there.
     let at_begin = select(stayed_at_begin, stayed_so_far, eight.begin == eight.count);
     kept_in_bin = select(stayed_at_end, stayed_so_far, eight.end == eight.count) - at_begin;
     failures_of_motion |= select(0u, FAILURE_FRAMES, kept_in_bin > CAPACITY);

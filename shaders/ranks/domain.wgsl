@@ -73,7 +73,7 @@ fn mark_of(row: u32, index: u32, own: bool) -> u32 {
 fn is_inner(slot: u32) -> bool { return slot < sorted_count() && owned_slots[slot] == INNER; }
 
 // == grid/stored/of_rank
-// Of several ranks: as many as are stored, without those that were forgotten, which get no rank in any cell.
+// Several ranks: the particles that are stored, without those that were removed, which get no rank in any cell.
 const NO_RANK: u32 = 0xffffffffu;
 
 fn stored_count() -> u32 { return stored_number; }

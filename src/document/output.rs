@@ -53,7 +53,7 @@ pub struct Output {
     /// Sizes of chains and molecules: squared distance of the ends and squared radius of gyration.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-of" = ["particles"]))]
-    pub chain_sizes: Option<SampleInterval>,
+    pub chain_sizes: Option<ChainSizes>,
     /// Shear viscosity from the decay of transverse momentum waves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-of" = ["particles", "voronoi"]))]
@@ -156,7 +156,11 @@ impl Output {
     pub(crate) fn placed_species(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let clusters = self.clusters.as_ref().map(|asked| ("output.clusters.species", &asked.species));
         let profiles = self.profiles.as_ref().map(|asked| ("output.profiles.species", &asked.species));
-        [clusters, profiles].into_iter().flatten().filter_map(|(path, species)| Some((path, species.as_deref()?)))
+        let chains = self.chain_sizes.as_ref().map(|asked| ("output.chain_sizes.species", &asked.species));
+        [clusters, profiles, chains]
+            .into_iter()
+            .flatten()
+            .filter_map(|(path, species)| Some((path, species.as_deref()?)))
     }
 
     /// Frames of velocities that analyses name, with the places of these in the scene and their quantities.
@@ -268,6 +272,18 @@ pub struct Clusters {
     #[schemars(range(min = 1))]
     pub least: u32,
     /// The species that clusters are made of; left out, all that is not frozen behind walls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub species: Option<String>,
+}
+
+/// Sizes of chains and molecules.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ChainSizes {
+    /// Steps between two samples.
+    #[schemars(range(min = 1))]
+    pub every: u64,
+    /// The species that chains and molecules have particles of; left out, all chains and molecules are measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub species: Option<String>,
 }

@@ -106,63 +106,53 @@ impl System {
     /// The integrator of particles, in a system of them.
     #[must_use]
     pub const fn particle_integrator(&self) -> Option<&Integrator> {
-        match self {
-            Self::Particles { integrator, .. } => Some(integrator),
-            _ => None,
-        }
+        if let Self::Particles { integrator, .. } = self { Some(integrator) } else { None }
     }
 
     /// The integrator of particles, in a system of them, to replace it.
     #[must_use]
     pub const fn particle_integrator_mut(&mut self) -> Option<&mut Integrator> {
-        match self {
-            Self::Particles { integrator, .. } => Some(integrator),
-            _ => None,
-        }
+        if let Self::Particles { integrator, .. } = self { Some(integrator) } else { None }
     }
 
     /// The interactions of particles, of which systems of other kinds have none.
     #[must_use]
     pub fn interactions(&self) -> &[Interaction] {
-        match self {
-            Self::Particles { interactions, .. } => interactions,
-            _ => &[],
-        }
+        if let Self::Particles { interactions, .. } = self { interactions } else { &[] }
     }
 
     /// The interactions of particles, in a system of them, to change them.
     #[must_use]
     pub const fn interactions_mut(&mut self) -> Option<&mut Vec<Interaction>> {
-        match self {
-            Self::Particles { interactions, .. } => Some(interactions),
-            _ => None,
-        }
+        if let Self::Particles { interactions, .. } = self { Some(interactions) } else { None }
     }
 
     /// Shallow water, in a system of it.
     #[must_use]
     pub fn shallow_water(&self) -> Option<&ShallowWaterInteraction> {
-        match self {
-            Self::ShallowWater { water, .. } => Some(water),
-            _ => None,
-        }
+        if let Self::ShallowWater { water, .. } = self { Some(water) } else { None }
     }
 
     /// Shallow water, in a system of it, to change it.
     #[must_use]
     pub fn shallow_water_mut(&mut self) -> Option<&mut ShallowWaterInteraction> {
-        match self {
-            Self::ShallowWater { water, .. } => Some(water),
-            _ => None,
-        }
+        if let Self::ShallowWater { water, .. } = self { Some(water) } else { None }
     }
 
     /// The fluid of Voronoi cells, in a system of them.
     #[must_use]
     pub fn voronoi(&self) -> Option<&VoronoiInteraction> {
+        if let Self::Voronoi { cells, .. } = self { Some(cells) } else { None }
+    }
+
+    /// The highest temperature kT of a bath, in a scene of a temperature; 0 without interactions.
+    pub(crate) fn hottest(&self, scene: f64) -> f64 {
         match self {
-            Self::Voronoi { cells, .. } => Some(cells),
-            _ => None,
+            Self::Particles { interactions, .. } => {
+                interactions.iter().map(|interaction| interaction.bath_temperature(scene)).fold(0.0, f64::max)
+            }
+            Self::ShallowWater { .. } => scene,
+            Self::Voronoi { cells, .. } => cells.hottest(scene),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::particles::terms::random_momenta;
 use super::{Checked, Model, Physics, Species};
-use crate::document::{ParticleGroup, Problems, Scene, System, Velocities, brief};
+use crate::document::{ParticleGroup, Problems, Scene, Velocities, brief};
 
 /// Times that the fastest of many particles may exceed the velocities expected here: for Maxwell's distribution five are enough
 /// for a million, and forces add to it.
@@ -41,14 +41,7 @@ fn thermal(temperature: f64, mass: f64) -> f64 {
 
 /// The highest temperature of a bath.
 pub(super) fn hottest(scene: &Scene) -> f64 {
-    if let System::ShallowWater { .. } = scene.system {
-        return scene.temperature;
-    }
-    if let Some(cells) = scene.system.voronoi() {
-        return cells.hottest(scene.temperature);
-    }
-    let baths = scene.interactions().iter().map(|interaction| interaction.bath_temperature(scene.temperature));
-    baths.fold(0.0, f64::max)
+    scene.system.hottest(scene.temperature)
 }
 
 /// Groups of particles that move, with their places.

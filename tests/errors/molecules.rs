@@ -182,6 +182,13 @@ fn what_does_not_go_together() {
         &[sizes, r#"interactions=[{"type":"dpd"}]"#],
         &["output.chain_sizes: found in a scene without chains", "or with `bonds` of `molecules` or of a file"],
     );
+    let of = |species: &str| format!(r#"output.chain_sizes={{"every":2,"species":"{species}"}}"#);
+    SURFACTANT.accepted(&[&of("head")]);
+    SURFACTANT.refused_with(
+        &[&of("water")],
+        &["output.chain_sizes.species: found `water`, of which no chain and no molecule has particles"],
+    );
+    SURFACTANT.refused_with(&[&of("heat")], &[r#"output.chain_sizes.species: found "heat""#, "did you mean `head`?"]);
     let chain = |beads: u32| {
         let bonds: Vec<[u32; 2]> = (1..beads).map(|bead| [bead - 1, bead]).collect();
         json!({"beads": vec!["tail"; beads as usize], "bonds": bonds, "count": 1})

@@ -3,8 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::document::{
-    Bath, Chain, Integrator, Interaction, LinkSource, Links, ParticleGroup, Placement, Problems, Scene, SpeciesNames,
-    Stress, SystemKind,
+    Bath, Chain, ChainSizes, Integrator, Interaction, LinkSource, Links, ParticleGroup, Placement, Problems, Scene,
+    SpeciesNames, Stress, SystemKind,
 };
 use crate::families::Particles;
 use crate::families::particles::combinations::{self, Feature};
@@ -54,9 +54,17 @@ fn check_chain_sizes(scene: &Scene, problems: &mut Problems) {
 }
 
 /// Molecules of a file may all differ.
-pub(super) fn check_kinds(particles: &Particles, problems: &mut Problems) {
+pub(super) fn check_kinds(asked: &ChainSizes, particles: &Particles, problems: &mut Problems) {
     const MOST: usize = 256;
     let kinds = particles.chain_groups.len();
+    if let Some(name) = asked.species.as_ref().filter(|_| kinds == 0) {
+        let found = format!("`{name}`, of which no chain and no molecule has particles");
+        problems.refuse(
+            "output.chain_sizes.species",
+            found,
+            "the species of a chain, or of a bead of a molecule with bonds",
+        );
+    }
     if kinds > MOST {
         let found = format!("{} kinds of molecules, which differ in their particles or bonds", grouped(kinds as u64));
         problems.refuse("output.chain_sizes", found, format!("at most {MOST}; `output.trajectory` has all of them"));

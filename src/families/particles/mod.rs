@@ -318,8 +318,8 @@ impl Physics for Particles {
         for term in self.terms() {
             term.check_capacity(scene, problems);
         }
-        if scene.output.chain_sizes.is_some() {
-            checks::check_kinds(self, problems);
+        if let Some(asked) = &scene.output.chain_sizes {
+            checks::check_kinds(asked, self, problems);
         }
     }
 

@@ -344,6 +344,25 @@ mod tests {
     }
 
     #[test]
+    fn a_species_without_particles_leaves_empty_frames() {
+        let directory = tempfile::tempdir().unwrap();
+        let none = r#"particles=[{"species":"A","count":8},{"species":"B","count":0}]"#;
+        let scene = scene::load("dpd-fluid", &[none.to_owned(), "output={}".to_owned()]).unwrap();
+        let state: Reported = initial_state(&scene).into();
+        for format in TrajectoryFormat::ALL {
+            let path = directory.path().join(trajectory(format));
+            let id = Id::of_run(&scene);
+            let mut writer =
+                TrajectoryWriter::create(&path, format, scene.model(), id).unwrap().of_species(&["B".to_owned()]);
+            writer.append(&state).unwrap();
+            writer.append(&state).unwrap();
+            writer.flush().unwrap();
+            let written = writer.extent();
+            TrajectoryWriter::resume(&path, format, scene.model(), id, written).unwrap();
+        }
+    }
+
+    #[test]
     fn particles_of_water_have_masses_of_their_own_and_tracers_none() {
         let scene = scene::load("jet-instability", &[]).unwrap();
         let state: Reported = initial_state(&scene).into();

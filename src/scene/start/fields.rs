@@ -5,7 +5,7 @@ use super::{
     checkpoint, shared,
 };
 use crate::document::{FilePlaces, MeshFields, OutsidePositions, ParticleGroup, Velocities, brief};
-use crate::numbers::counted;
+use crate::numbers::{counted, short};
 use crate::state::State;
 use crate::state_file::arrays::{Array, ArrayFile};
 use crate::state_file::{self, Mistake, quoted};
@@ -34,7 +34,7 @@ pub(super) fn read(
     check_scene(scene, state, &mut problems);
     let read = match checkpoint::of(path) {
         Some(checkpoint) => places_of_run(scene, &checkpoint, state, mesh).map_err(|mistake| vec![mistake]),
-        None => fields(path, state, mesh.map(|nodes| nodes as usize))
+        None => fields(path, state, mesh.map(|nodes| nodes as usize), &scene.space.lengths)
             .map(|fields| FilePlaces { fields: Some(Arc::new(fields)), ..FilePlaces::default() }),
     };
     let places = match read {
@@ -140,9 +140,9 @@ fn places_of_run(
 }
 
 /// The fields of a file, of which all mistakes are found.
-fn fields(path: &Path, state: &StateFile, mesh: [usize; 2]) -> Result<MeshFields, Vec<Mistake>> {
+fn fields(path: &Path, state: &StateFile, mesh: [usize; 2], lengths: &[f64]) -> Result<MeshFields, Vec<Mistake>> {
     let file = ArrayFile::open(path).map_err(|mistake| vec![mistake])?;
-    let mut mistakes = Vec::new();
+    let mut mistakes = wrong_box(&file, lengths);
     let names = file.names();
     let mut field = |known: [&str; 2]| {
         let read = if let Some(name) = known.iter().find(|name| names.contains(name)) {
@@ -172,6 +172,28 @@ fn fields(path: &Path, state: &StateFile, mesh: [usize; 2]) -> Result<MeshFields
         }
         _ => Err(mistakes),
     }
+}
+
+/// Part of an edge to which coordinates of nodes, in single precision perhaps, have to span it.
+const SPAN: f64 = 1e-5;
+
+/// Coordinates of nodes that span another box than that of the scene. Longitudes, latitudes and numbers of nodes are no lengths.
+fn wrong_box(file: &ArrayFile, lengths: &[f64]) -> Vec<Mistake> {
+    let names = file.names().into_iter();
+    let wrong = names.filter_map(|name| {
+        let length = *lengths.get(axis(name).filter(|_| name.starts_with(['x', 'X', 'y', 'Y']))?)?;
+        let Array { values, .. } = file.read(name).ok().filter(|array| array.dimensions == [name])?;
+        let (first, last) = (values.first()?, values.last()?);
+        let span = (last - first).abs() * values.len() as f64 / values.len().checked_sub(1)? as f64;
+        // NaN is no length.
+        let fits = (span / length - 1.0).abs() <= SPAN;
+        let accepted =
+            format!("nodes that span {length}, the edge of the box of the scene; or a file without coordinates");
+        (!fits).then(|| {
+            Mistake::new(format!("array `{name}`"), format!("found nodes that span {}", short(span)), accepted)
+        })
+    });
+    wrong.collect()
 }
 
 /// The place of a node in words.
@@ -431,6 +453,54 @@ mod tests {
         // Another frame of the same file.
         let error = scene(&text("y.nc"), &["state.frame=0"]).unwrap_err().to_string();
         assert!(error.contains("the depth: found a mean of 7"), "{error}");
+    }
+
+    /// Coordinates of nodes say how large the box of fields is.
+    #[test]
+    fn fields_of_another_box_are_refused() {
+        let directory = tempfile::tempdir().unwrap();
+        let path = directory.path().join("f.nc");
+        let [depth, u, v] = flow().map(|field| transposed(&field, ROWS));
+        let variable = |name: &str, dimensions: &[usize], values: Vec<f64>| NetcdfVariable {
+            name: name.to_owned(),
+            dimensions: dimensions.to_vec(),
+            attributes: Vec::new(),
+            values,
+        };
+        for (edges, expected) in [
+            ([6.0, 3.0], None),
+            ([6.0, 3.01], Some("array `y`: found nodes that span 3.01; accepted: nodes that span 3, the edge")),
+            ([6000.0, 3.0], Some("array `x`: found nodes that span 6000; accepted: nodes that span 6, the edge")),
+            ([f64::NAN, 3.0], Some("array `x`: found nodes that span NaN")),
+        ] {
+            let along = |edge: f64, count: usize| (0..count).map(|node| node as f64 * edge / count as f64).collect();
+            let variables = vec![
+                variable("x", &[2], along(edges[0], COLUMNS)),
+                variable("y", &[1], along(edges[1], ROWS)),
+                variable("h", &[0, 1, 2], depth.clone()),
+                variable("u", &[0, 1, 2], u.clone()),
+                variable("v", &[0, 1, 2], v.clone()),
+            ];
+            let dimensions = [("time", 1), ("y", ROWS), ("x", COLUMNS)].map(|(name, length)| (name.to_owned(), length));
+            let file = NetcdfFile { dimensions: dimensions.to_vec(), attributes: Vec::new(), variables };
+            file.write_to(&mut std::fs::File::create(&path).unwrap()).unwrap();
+            let found = scene(&path.display().to_string(), &[]).err().map(|error| error.to_string());
+            match (expected, found) {
+                (None, None) => {}
+                (Some(expected), Some(found)) => assert!(found.contains(expected), "{found}"),
+                (expected, found) => assert_eq!(expected, found.as_deref()),
+            }
+        }
+        // Fields do not say how large the box is where the scene does not.
+        let (text, water) = (path.display().to_string(), r#"{"species":"water","count":2048,"placement":{"type":"lattice"}}"#);
+        let document = format!(
+            r#"{{"title":"t","time":{{"step":0.01,"steps":1}},"temperature":0,"particles":[{water}],"state":{{"file":"{text}"}},
+                "interactions":[{{"type":"shallow-water","mesh":[16,8],"spline_order":3,"wave_speed":1,"rotation":1,
+                    "smoothing":{{"length":0.8}}}}],
+                "integrator":{{"type":"gyro"}},"output":{{"energies":{{"every":1}}}}}}"#
+        );
+        let error = scene::parse("t", &document, &[]).unwrap_err().to_string();
+        assert!(error.contains("space.box: found 0 edges; accepted: two edges"), "{error}");
     }
 
     /// A run goes on without the file.

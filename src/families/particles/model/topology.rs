@@ -236,15 +236,20 @@ pub(crate) fn chain_groups(scene: &Scene, bonds: &Bonds) -> Vec<ChainGroup> {
             walks: Walks::Consecutive(numbered.first as u32),
         }
     };
-    let chained: Vec<ChainGroup> = scene.chained_groups(None).map(group).collect();
-    if chained.is_empty() { molecule_groups(scene, bonds) } else { chained }
+    if scene.chained_groups(None).next().is_none() {
+        return molecule_groups(scene, bonds);
+    }
+    let wanted = scene.output.chain_sizes.as_ref().and_then(|asked| asked.species.as_ref()).map(std::slice::from_ref);
+    scene.chained_groups(wanted).map(group).collect()
 }
 
 /// All kinds of molecules, where a scene measures them: nothing else needs to know them.
 fn molecule_groups(scene: &Scene, bonds: &Bonds) -> Vec<ChainGroup> {
-    let Some(start) = scene.start().filter(|_| scene.output.chain_sizes.is_some()) else { return Vec::new() };
+    let Some((start, asked)) = scene.start().zip(scene.output.chain_sizes.as_ref()) else { return Vec::new() };
     let species = |particle: u32| start.species_of(particle).unwrap_or(0);
-    let kinds = molecules(bonds.iter().map(|bond| bond.ends), start.particles() as u32, species);
+    let wanted = asked.species.as_ref().and_then(|name| SpeciesNames::of(scene).place(name));
+    let mut kinds = molecules(bonds.iter().map(|bond| bond.ends), start.particles() as u32, species);
+    kinds.retain(|kind| wanted.is_none_or(|wanted| kind.composition.contains_key(&wanted)));
     let mut groups: Vec<ChainGroup> = Vec::with_capacity(kinds.len());
     let mut known: HashMap<String, u32> = HashMap::new();
     for kind in kinds {
