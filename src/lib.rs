@@ -68,6 +68,8 @@ pub mod table;
 pub mod tessellation;
 pub mod tradeoff;
 
+pub use run::Simulation;
+
 /// The examples of the documentation compile.
 #[cfg(doctest)]
 #[doc = include_str!("../docs/guide/library.md")]

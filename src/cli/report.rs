@@ -11,7 +11,7 @@ use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
 use mesoscope::quantity::{Quantity, Unit};
 use mesoscope::ranks::Processes;
-use mesoscope::run::{self, Event, Outcome, Progress, Simulation};
+use mesoscope::run::{self, Event, Outcome, Progress, Run};
 
 use super::event_lines::{EventLines, Form, WritingArguments};
 use super::progress::{bar, say};
@@ -42,7 +42,7 @@ impl Telling {
 
 /// Executes a run on its ranks and reports on it, with warnings of what they cost before.
 pub fn execute(
-    simulation: Simulation,
+    simulation: Run,
     processes: Option<&dyn Processes>,
     ranks: &RanksArgument,
     directory: &str,
@@ -121,7 +121,7 @@ struct Reporter {
 }
 
 impl Reporter {
-    fn new(simulation: &Simulation) -> Self {
+    fn new(simulation: &Run) -> Self {
         let (model, scene) = (simulation.scene().model(), simulation.scene());
         let particles = model.particle_count();
         let noun = if particles == 1 { "particle" } else { "particles" };

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use mesoscope::output::files;
 use mesoscope::printable;
 use mesoscope::ranks::Processes;
-use mesoscope::run::Simulation;
+use mesoscope::run::Run;
 use mesoscope::study::Kind;
 
 use super::event_lines::WritingArguments;
@@ -64,7 +64,7 @@ fn resume(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<()
             kind.noun, kind.resumed
         )));
     }
-    let resumed = Simulation::resume(&arguments.directory, arguments.steps)?;
+    let resumed = Run::resume(&arguments.directory, arguments.steps)?;
     if resumed.is_finished() {
         let step = resumed.first_step();
         let state = if step > resumed.scene().time.steps { "has reached" } else { "is finished at" };

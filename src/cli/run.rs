@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use mesoscope::printable;
 use mesoscope::ranks::Processes;
-use mesoscope::run::Simulation;
+use mesoscope::run::Run;
 
 use super::event_lines::WritingArguments;
 use super::report::{self, Telling};
@@ -49,7 +49,7 @@ fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<
     let scene = arguments.ranks.load(&arguments.scene, processes.map(Processes::count))?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::stem(&arguments.scene.scene).into());
     let shown = printable::path(&directory);
-    let started = Simulation::start(scene, directory, arguments.how.force);
+    let started = Run::start(scene, directory, arguments.how.force);
     let simulation = if arguments.writing.no_pictures { started.without_pictures() } else { started };
     report::execute(
         simulation,

@@ -52,6 +52,13 @@ pub struct Trajectory {
     pub species: Vec<String>,
 }
 
+impl Trajectory {
+    /// Frames of all species every so many steps.
+    pub(crate) fn every(every: u64) -> Self {
+        Self { every, format: TrajectoryFormat::default(), species: Vec::new() }
+    }
+}
+
 /// The format of a trajectory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

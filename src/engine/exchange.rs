@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 const NOBODY: u32 = u32::MAX;
 
 /// How a rank passes on what its peers need, and learns what it needs of them.
-pub trait Swap {
+pub trait Swap: Send {
     /// Gives every peer its bytes, and returns theirs in the same order.
     ///
     /// # Errors
@@ -47,7 +47,7 @@ pub struct Traffic {
 
 /// The exchange of one rank.
 pub(super) struct Exchange<'a> {
-    gpu: &'a Gpu,
+    gpu: Gpu,
     pub part: PlannedPart,
     swap: Box<dyn Swap + 'a>,
     particles: wgpu::Buffer,
@@ -76,7 +76,7 @@ pub(super) struct Exchange<'a> {
 
 impl<'a> Exchange<'a> {
     pub(super) fn new(
-        gpu: &'a Gpu,
+        gpu: &Gpu,
         part: PlannedPart,
         swap: Box<dyn Swap + 'a>,
         buffers: &HashMap<Array, wgpu::Buffer>,
@@ -85,7 +85,7 @@ impl<'a> Exchange<'a> {
         let guesses = vec![0; part.peers.len()];
         let summed = part.sum.as_ref().map(|sum| of(sum.array));
         Self {
-            gpu,
+            gpu: gpu.clone(),
             part,
             swap,
             particles: of(Array::Particles),
@@ -109,12 +109,7 @@ impl<'a> Exchange<'a> {
     ///
     /// # Errors
     /// [`EngineError`] if the device or a peer fails.
-    pub(super) fn follow(
-        &mut self,
-        kernel: usize,
-        recording: &mut Recording<'_>,
-        step: u64,
-    ) -> Result<(), EngineError> {
+    pub(super) fn follow(&mut self, kernel: usize, recording: &mut Recording, step: u64) -> Result<(), EngineError> {
         if self.part.passages.iter().any(|passage| passage.after == kernel) {
             self.send(recording)?;
         }
@@ -207,14 +202,14 @@ impl<'a> Exchange<'a> {
     }
 
     /// Runs what is recorded, and begins to read the particles that other ranks need.
-    fn send(&mut self, recording: &mut Recording<'_>) -> Result<(), EngineError> {
+    fn send(&mut self, recording: &mut Recording) -> Result<(), EngineError> {
         let particle = 4 * self.part.particle.count as u64;
         let stretch = particle * self.part.room;
         let head = self.head();
         let (outgoing, counts) = (&self.outgoing, &self.outgoing_counts);
         let guessed = head + particle * self.guesses.iter().sum::<u64>();
         let submitted = Instant::now();
-        let reading = Reading::begin(self.gpu, recording.take(), guessed, |encoder, staging| {
+        let reading = Reading::begin(&self.gpu, recording.take(), guessed, |encoder, staging| {
             encoder.copy_buffer_to_buffer(counts, 0, staging, 0, head);
             let mut at = head;
             for (peer, guess) in self.guesses.iter().enumerate().filter(|(_, guess)| **guess > 0) {
@@ -235,7 +230,7 @@ impl<'a> Exchange<'a> {
         let Some((reading, submitted)) = self.outgoing_read.take() else { return Ok(()) };
         let particle = 4 * self.part.particle.count as u64;
         let head = self.head();
-        let read = reading.finish(self.gpu)?;
+        let read = reading.finish(&self.gpu)?;
         self.traffic.computing += submitted.elapsed();
         let computed = Instant::now();
         let head_words: Vec<u32> = bytemuck::pod_collect_to_vec(&read[..head as usize]);
@@ -277,26 +272,21 @@ impl<'a> Exchange<'a> {
     }
 
     /// Runs what is recorded, and adds what the other ranks have to an array that all of them add to.
-    fn add_up(
-        &mut self,
-        recording: &mut Recording<'_>,
-        sum: &SharedSum,
-        buffer: &wgpu::Buffer,
-    ) -> Result<(), EngineError> {
+    fn add_up(&mut self, recording: &mut Recording, sum: &SharedSum, buffer: &wgpu::Buffer) -> Result<(), EngineError> {
         let lost = |reason: String| EngineError::Ranks { reason };
         let rank = self.part.part.rank as usize;
         let none = Stretch { first: 0, count: 0 };
         let stretch_of = |rank: usize| sum.stretches.get(rank).copied().unwrap_or(none);
         let own = stretch_of(rank);
         let submitted = Instant::now();
-        let read = Reading::begin(self.gpu, recording.take(), 4 * own.count, |encoder, staging| {
+        let read = Reading::begin(&self.gpu, recording.take(), 4 * own.count, |encoder, staging| {
             let mut at = 0;
             for piece in sum.pieces(own).into_iter().filter(|piece| piece.count > 0) {
                 encoder.copy_buffer_to_buffer(buffer, 4 * piece.first, staging, at, 4 * piece.count);
                 at += 4 * piece.count;
             }
         })?;
-        let read = read.finish(self.gpu)?;
+        let read = read.finish(&self.gpu)?;
         self.traffic.computing += submitted.elapsed();
         let computed = Instant::now();
         let others = self.part.others();
@@ -337,7 +327,7 @@ impl<'a> Exchange<'a> {
         }
         let stretch = particle * self.part.room;
         let encoder = self.gpu.encoder("exchange");
-        let read = Reading::begin(self.gpu, encoder, particle * all, |encoder, staging| {
+        let read = Reading::begin(&self.gpu, encoder, particle * all, |encoder, staging| {
             let mut at = 0;
             for (peer, rest) in rests.iter().enumerate().filter(|(_, rest)| **rest > 0) {
                 let from = stretch * peer as u64 + particle * self.guesses[peer];
@@ -345,7 +335,7 @@ impl<'a> Exchange<'a> {
                 at += particle * rest;
             }
         })?;
-        let read = read.finish(self.gpu)?;
+        let read = read.finish(&self.gpu)?;
         let mut at = 0;
         for (parcel, rest) in parcels.iter_mut().zip(&rests) {
             let bytes = (particle * rest) as usize;

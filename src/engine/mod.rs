@@ -120,7 +120,7 @@ enum Phase {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Engine<'a> {
-    gpu: &'a Gpu,
+    gpu: Gpu,
     plan: Plan,
     buffers: HashMap<Array, wgpu::Buffer>,
     textures: HashMap<Array, Texels>,
@@ -167,7 +167,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// [`EngineError`] if the device has too little memory, a shader is not valid or the state does not fit.
-    pub fn new(gpu: &'a Gpu, plan: Plan, state: &State) -> Result<Self, EngineError> {
+    pub fn new(gpu: &Gpu, plan: Plan, state: &State) -> Result<Self, EngineError> {
         let mut engine = Self::without_state(gpu, plan)?;
         engine.upload(state)?;
         Ok(engine)
@@ -177,7 +177,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// [`EngineError`] as for [`Self::new`], or if the plan is not of a part.
-    pub fn of_part(gpu: &'a Gpu, plan: Plan, swap: Box<dyn Swap + 'a>) -> Result<Self, EngineError> {
+    pub fn of_part(gpu: &Gpu, plan: Plan, swap: Box<dyn Swap + 'a>) -> Result<Self, EngineError> {
         let part = plan.part.clone().ok_or_else(no_part)?;
         let mut engine = Self::without_state(gpu, plan)?;
         engine.exchange = Some(Exchange::new(gpu, part, swap, &engine.buffers));
@@ -188,12 +188,12 @@ impl<'a> Engine<'a> {
     /// them in the driver's cache.
     pub(crate) fn compile(&self) -> Result<(), EngineError> {
         if self.gpu.serial_memory() {
-            pipeline::run_without_workgroups(self.gpu, &self.stages)?;
+            pipeline::run_without_workgroups(&self.gpu, &self.stages)?;
         }
         Ok(())
     }
 
-    fn without_state(gpu: &'a Gpu, plan: Plan) -> Result<Self, EngineError> {
+    fn without_state(gpu: &Gpu, plan: Plan) -> Result<Self, EngineError> {
         let mut buffers = HashMap::new();
         for buffer in &plan.buffers {
             let doing = format!("creating buffer `{}`", buffer.array.name());
@@ -223,7 +223,7 @@ impl<'a> Engine<'a> {
         let stages = pipeline::stages(gpu, &plan, &buffers, &textures)?;
         let pending_rows = vec![0; plan.samplers.len()];
         Ok(Self {
-            gpu,
+            gpu: gpu.clone(),
             plan,
             buffers,
             textures,
@@ -282,7 +282,7 @@ impl<'a> Engine<'a> {
         let contents = self.pack(state, order)?;
         for (array, words) in self.plan.layout.buffers().into_iter().zip(&contents) {
             match self.textures.get(&array) {
-                Some(texels) => texels.write(self.gpu, words),
+                Some(texels) => texels.write(&self.gpu, words),
                 None => self.gpu.queue.write_buffer(&self.buffers[&array], 0, bytemuck::cast_slice(words)),
             }
         }
@@ -411,7 +411,7 @@ impl<'a> Engine<'a> {
         let mut left = steps;
         while left > 0 {
             let now = left.min(batch.max(1));
-            let mut recording = Recording::new(self.gpu, "batch");
+            let mut recording = Recording::new(&self.gpu, "batch");
             let mut done = 0;
             while done < now && self.room_for_samples() {
                 self.record_sample(&mut recording)?;
@@ -435,9 +435,84 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device failed or the run became unstable.
     pub fn finish(&mut self) -> Result<Vec<Sample>, EngineError> {
-        let mut recording = Recording::new(self.gpu, "samples at the end");
+        let mut recording = Recording::new(&self.gpu, "samples at the end");
         if self.plan.samplers.iter().any(|sampler| sampler.due(self.step) && !sampler.gathered) {
             self.record_sample(&mut recording)?;
+        }
+        self.submit(recording.finish())?;
+        self.wait_all()?;
+        Ok(std::mem::take(&mut self.collected))
+    }
+
+    /// Goes on from a state by another plan, which differs in numbers only: in constants that kernels load from buffers, and in tables.
+    /// False if it differs in more, and nothing has changed.
+    ///
+    /// # Errors
+    /// As [`Self::upload`].
+    pub fn renumber(&mut self, plan: &Plan, state: &State) -> Result<bool, EngineError> {
+        let bytes = |plan: &Plan| plan.buffers.iter().map(|buffer| (buffer.array, buffer.bytes)).collect::<Vec<_>>();
+        let kernels = || self.plan.kernels.iter().zip(&plan.kernels).zip(&self.stages);
+        let is_alike = plan.kernels.len() == self.plan.kernels.len()
+            && (plan.constants_in, &plan.samplers, &plan.textures)
+                == (self.plan.constants_in, &self.plan.samplers, &self.plan.textures)
+            && [&plan.sort, &plan.advance, &plan.report] == [&self.plan.sort, &self.plan.advance, &self.plan.report]
+            && bytes(plan) == bytes(&self.plan)
+            && kernels().all(|((own, new), stage)| stage.suits([own, new], [&self.plan, plan]));
+        if !is_alike {
+            return Ok(false);
+        }
+        self.wait_all()?;
+        for (stage, kernel) in self.stages.iter().zip(&plan.kernels) {
+            stage.load(&self.gpu, kernel, plan);
+        }
+        for (own, new) in self.plan.buffers.iter().zip(&plan.buffers) {
+            if let Some(bytes) = new.contents.bytes().filter(|_| own.contents != new.contents) {
+                self.gpu.queue.write_buffer(&self.buffers[&new.array], 0, &bytes);
+            }
+        }
+        self.plan = plan.clone();
+        self.upload(state)?;
+        Ok(true)
+    }
+
+    /// Waits until the device has taken all steps.
+    ///
+    /// # Errors
+    /// [`EngineError`] if the device fails or the run becomes unstable.
+    pub fn wait(&mut self) -> Result<(), EngineError> {
+        self.wait_all()
+    }
+
+    /// The particles as a report of this step finds them, whose state is known.
+    ///
+    /// # Errors
+    /// As [`Self::reported`].
+    pub fn report_of(&mut self, state: &State) -> Result<Reported, EngineError> {
+        if self.plan.reported.is_some() && !self.plan.has_buffer(Array::ReportedMomenta) {
+            return self.reported();
+        }
+        self.report_now()?;
+        if !self.plan.has_buffer(Array::ReportedMomenta) {
+            return Ok(state.clone().into());
+        }
+        let words = self.words(Array::ReportedMomenta)?;
+        let momenta = words.chunks_exact(4).map(|word| [word[0], word[1], word[2]].map(u32::cast_signed)).collect();
+        Ok(Reported { momenta, ..state.clone().into() })
+    }
+
+    /// Samples of this step by some samplers, due or not: what they take at the steps at which they are due does not depend on it.
+    ///
+    /// # Errors
+    /// As [`Self::reported`].
+    pub fn measure(&mut self, samplers: &[usize]) -> Result<Vec<Sample>, EngineError> {
+        self.report_now()?;
+        let mut recording = Recording::new(&self.gpu, "samples");
+        for &number in samplers {
+            let sampler = &self.plan.samplers[number];
+            if !sampler.due(self.step) {
+                recording.dispatch_all(&self.stages, &sampler.kernels);
+                self.pending_rows[number] += 1;
+            }
         }
         self.submit(recording.finish())?;
         self.wait_all()?;
@@ -539,10 +614,7 @@ impl<'a> Engine<'a> {
             return self.reported();
         }
         let before = self.state()?;
-        self.report_now()?;
-        let words = self.words(Array::ReportedMomenta)?;
-        let momenta = words.chunks_exact(4).map(|word| [word[0], word[1], word[2]].map(u32::cast_signed)).collect();
-        Ok(Reported { momenta, ..before.into() })
+        self.report_of(&before)
     }
 
     /// The momenta of [`Self::frame`] that one of several ranks knows, two words an axis, and zero for the particles of others.
@@ -585,7 +657,7 @@ impl<'a> Engine<'a> {
         if self.plan.has_buffer(Array::GatheredPaths) {
             write(Array::GatheredPaths, &paths)?;
         }
-        let mut recording = Recording::new(self.gpu, "samples of all ranks");
+        let mut recording = Recording::new(&self.gpu, "samples of all ranks");
         for (number, sampler) in self.plan.samplers.iter().enumerate() {
             if sampler.gathered && sampler.due(self.step) {
                 recording.dispatch_all(&self.stages, &sampler.kernels);
@@ -596,7 +668,7 @@ impl<'a> Engine<'a> {
     }
 
     fn report_now(&mut self) -> Result<(), EngineError> {
-        let mut recording = Recording::new(self.gpu, "report");
+        let mut recording = Recording::new(&self.gpu, "report");
         self.record_sample(&mut recording)?;
         self.record_report(&mut recording)?;
         self.submit(recording.finish())
@@ -613,10 +685,10 @@ impl<'a> Engine<'a> {
 
     fn read(&self, array: Array) -> Result<Vec<u8>, EngineError> {
         let bytes = match (self.buffers.get(&array), self.textures.get(&array)) {
-            (Some(buffer), _) => readback::read(self.gpu, buffer.size(), |encoder, staging| {
+            (Some(buffer), _) => readback::read(&self.gpu, buffer.size(), |encoder, staging| {
                 encoder.copy_buffer_to_buffer(buffer, 0, staging, 0, buffer.size());
             }),
-            (None, Some(texels)) => readback::read(self.gpu, texels.bytes(), |encoder, staging| {
+            (None, Some(texels)) => readback::read(&self.gpu, texels.bytes(), |encoder, staging| {
                 texels.copy_to(encoder, staging);
             }),
             (None, None) => {
@@ -665,7 +737,7 @@ impl<'a> Engine<'a> {
     }
 
     /// Sorts, unless that has been done, and takes the samples that are due.
-    fn record_sample(&mut self, recording: &mut Recording<'_>) -> Result<(), EngineError> {
+    fn record_sample(&mut self, recording: &mut Recording) -> Result<(), EngineError> {
         if self.phase != Phase::Advanced {
             // Already sorted: the samples of this step have been taken.
             return Ok(());
@@ -693,7 +765,7 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    fn record_report(&mut self, recording: &mut Recording<'_>) -> Result<(), EngineError> {
+    fn record_report(&mut self, recording: &mut Recording) -> Result<(), EngineError> {
         if self.phase == (Phase::Sorted { reported: false }) {
             self.look_ahead(self.step, true);
             if self.exchange.is_some()
@@ -726,7 +798,7 @@ impl<'a> Engine<'a> {
 
     /// Submits a batch with the readback of its samples, and collects older batches if too many wait.
     fn submit(&mut self, encoder: wgpu::CommandEncoder) -> Result<(), EngineError> {
-        let readback = Readback::begin(self.gpu, encoder, &self.plan, &self.buffers, &self.pending_rows)?;
+        let readback = Readback::begin(&self.gpu, encoder, &self.plan, &self.buffers, &self.pending_rows)?;
         self.pending_rows.fill(0);
         self.in_flight.push_back(readback);
         while self.in_flight.len() > BATCHES_IN_FLIGHT {
@@ -744,7 +816,7 @@ impl<'a> Engine<'a> {
 
     fn collect_oldest(&mut self) -> Result<(), EngineError> {
         let Some(readback) = self.in_flight.pop_front() else { return Ok(()) };
-        let (control, samples) = readback.collect(self.gpu, &self.plan)?;
+        let (control, samples) = readback.collect(&self.gpu, &self.plan)?;
         self.check(&control)?;
         self.collected.extend(samples);
         Ok(())
@@ -786,7 +858,7 @@ fn record(
     stages: &[Stage],
     exchange: &mut Option<Exchange<'_>>,
     step: u64,
-    recording: &mut Recording<'_>,
+    recording: &mut Recording,
 ) -> Result<(), EngineError> {
     for &kernel in kernels {
         recording.dispatch(&stages[kernel]);

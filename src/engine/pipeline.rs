@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::iter;
 use std::num::NonZero;
 use std::panic::resume_unwind;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use super::texels::Texels;
-use crate::gpu::{Gpu, GpuError, compute_pass};
+use crate::gpu::{CompiledKernel, Gpu, GpuError, LOADED_CONSTANTS, compute_pass, constants_in_bytes};
 use crate::plan::{Kernel, Plan, folded};
 use crate::shaders::{Array, Constant};
 
@@ -19,6 +20,8 @@ pub(super) struct Stage {
     size: Size,
     /// As [`Kernel::takes_long`].
     pub takes_long: bool,
+    /// Constants that it loads, if it does.
+    loaded: Option<Loaded>,
 }
 
 enum Size {
@@ -85,7 +88,11 @@ fn stage(
     // By which kernels of a folded dispatch number their workgroups.
     let fold = (height > 1).then_some((Constant::Fold, f64::from(width)));
     let constants = kernel.constants_in(plan).chain(fold);
-    let (pipeline, bindings) = gpu.compile(kernel.name, kernel.entry, &kernel.choices, constants)?;
+    let values: HashMap<Constant, f64> = constants.collect();
+    let compiled =
+        gpu.compile(kernel.name, kernel.entry, &kernel.choices, values.clone().into_iter(), plan.constants_in)?;
+    let CompiledKernel { pipeline, bindings, loaded } = compiled;
+    let loaded = Loaded::new(gpu, kernel, loaded, &values);
     let bound = bindings.iter().map(|binding| {
         let array = kernel.array_of(binding.array);
         let buffer = buffers.get(&array).map(wgpu::Buffer::as_entire_binding);
@@ -96,7 +103,13 @@ fn stage(
         })?;
         Ok(wgpu::BindGroupEntry { binding: binding.number, resource })
     });
-    let entries = bound.collect::<Result<Vec<_>, GpuError>>()?;
+    let mut entries = bound.collect::<Result<Vec<_>, GpuError>>()?;
+    entries.extend(
+        loaded.as_ref().map(|loaded| wgpu::BindGroupEntry {
+            binding: LOADED_CONSTANTS,
+            resource: loaded.buffer.as_entire_binding(),
+        }),
+    );
     let group = gpu.scoped(&format!("binding kernel `{}`", kernel.name), 0, || {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(kernel.name),
@@ -108,5 +121,51 @@ fn stage(
         (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),
         _ => Size::Fixed([width, height]),
     };
-    Ok(Stage { pipeline, bindings: group, size, takes_long: kernel.takes_long })
+    Ok(Stage { pipeline, bindings: group, size, takes_long: kernel.takes_long, loaded })
+}
+
+/// Constants that a kernel loads.
+pub(super) struct Loaded {
+    buffer: wgpu::Buffer,
+    constants: Arc<[Constant]>,
+}
+
+impl Loaded {
+    fn new(gpu: &Gpu, kernel: &Kernel, constants: Arc<[Constant]>, values: &HashMap<Constant, f64>) -> Option<Self> {
+        let bytes = constants_in_bytes(&constants, values);
+        let buffer = (!bytes.is_empty()).then(|| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(kernel.name),
+                size: bytes.len() as u64,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        })?;
+        gpu.queue.write_buffer(&buffer, 0, &bytes);
+        Some(Self { buffer, constants })
+    }
+}
+
+impl Stage {
+    /// True if the kernel of a plan differs from that of another at most in constants that this one loads.
+    pub(super) fn suits(&self, kernels: [&Kernel; 2], plans: [&Plan; 2]) -> bool {
+        let [one, other] = kernels.map(|kernel| Kernel { constants: Vec::new(), ..kernel.clone() });
+        let [mut one_has, mut other_has] = [0, 1].map(|side| {
+            let loaded = self.loaded.iter().flat_map(|loaded| loaded.constants.iter());
+            let loaded: Vec<&Constant> = loaded.collect();
+            let all = kernels[side].constants_in(plans[side]).filter(|(constant, _)| !loaded.contains(&constant));
+            all.map(|(constant, value)| (constant.name(), value.to_bits())).collect::<Vec<_>>()
+        });
+        one_has.sort_unstable();
+        other_has.sort_unstable();
+        one == other && one_has == other_has
+    }
+
+    /// Loads the constants of a plan from now on.
+    pub(super) fn load(&self, gpu: &Gpu, kernel: &Kernel, plan: &Plan) {
+        if let Some(loaded) = &self.loaded {
+            let values: HashMap<Constant, f64> = kernel.constants_in(plan).collect();
+            gpu.queue.write_buffer(&loaded.buffer, 0, &constants_in_bytes(&loaded.constants, &values));
+        }
+    }
 }

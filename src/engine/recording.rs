@@ -4,16 +4,16 @@ use super::pipeline::Stage;
 use crate::gpu::{Gpu, compute_pass};
 
 /// Kernels of a batch, recorded and not yet submitted.
-pub(super) struct Recording<'a> {
-    gpu: &'a Gpu,
+pub(super) struct Recording {
+    gpu: Gpu,
     label: &'static str,
     encoder: wgpu::CommandEncoder,
     pass: Option<wgpu::ComputePass<'static>>,
 }
 
-impl<'a> Recording<'a> {
-    pub(super) fn new(gpu: &'a Gpu, label: &'static str) -> Self {
-        Self { gpu, label, encoder: gpu.encoder(label), pass: None }
+impl Recording {
+    pub(super) fn new(gpu: &Gpu, label: &'static str) -> Self {
+        Self { gpu: gpu.clone(), label, encoder: gpu.encoder(label), pass: None }
     }
 
     /// Records a kernel; after one that takes long, submits what has been recorded. A system's watchdog times a whole submission.

@@ -128,7 +128,7 @@ impl Engine<'_> {
         encoder.resolve_query_set(&queries, 0..count, &ticks, 0);
         self.submit(encoder)?;
         self.wait_all()?;
-        let bytes = readback::read(self.gpu, bytes, |encoder, staging| {
+        let bytes = readback::read(&self.gpu, bytes, |encoder, staging| {
             encoder.copy_buffer_to_buffer(&ticks, 0, staging, 0, bytes);
         })?;
         let ticks: Vec<u64> = bytes.chunks_exact(8).map(bytemuck::pod_read_unaligned).collect();

@@ -19,7 +19,27 @@ pub type Rewriting = Arc<dyn Fn(&mut naga::Module, wgpu::Features) + Send + Sync
 /// What a device has compiled.
 pub(super) struct Compiled {
     rewriting: Option<Rewriting>,
-    pipelines: Kept<Ingredients, (wgpu::ComputePipeline, Arc<[Binding]>)>,
+    pipelines: Kept<Ingredients, CompiledKernel>,
+}
+
+/// A kernel that a device has compiled.
+#[derive(Clone)]
+pub(crate) struct CompiledKernel {
+    pub pipeline: wgpu::ComputePipeline,
+    /// The arrays that it binds.
+    pub bindings: Arc<[Binding]>,
+    /// Constants that it loads from a buffer at [`LOADED_CONSTANTS`].
+    pub loaded: Arc<[Constant]>,
+}
+
+/// Where constants of a kernel are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ConstantsIn {
+    /// Compiled into it.
+    #[default]
+    Code,
+    /// Real ones in a buffer, so that they can change between steps; others compiled into it.
+    Buffer,
 }
 
 impl Compiled {
@@ -43,13 +63,14 @@ impl Gpu {
         entry: Entry,
         choices: &Choices,
         constants: impl Iterator<Item = (Constant, f64)>,
-    ) -> Result<(wgpu::ComputePipeline, Arc<[Binding]>), GpuError> {
-        let (text, linked) = link_once(name, entry, choices)?;
+        place: ConstantsIn,
+    ) -> Result<CompiledKernel, GpuError> {
+        let (text, linked) = link_once(name, entry, choices, place)?;
         let used = constants.filter(|(constant, _)| linked.constants.contains(constant));
         let constants: Vec<(Constant, f64)> = used.collect();
         let bits = constants.iter().map(|(constant, value)| (*constant, value.to_bits())).collect();
         self.compiled.pipelines.get_or_make((text, bits), || {
-            let LinkedShader { mut module, bindings, constants: used, .. } = linked.specialized(&constants);
+            let LinkedShader { mut module, bindings, constants: used, loaded, .. } = linked.specialized(&constants);
             let constants: Vec<(&str, f64)> = (constants.iter())
                 .filter(|(constant, _)| used.contains(constant))
                 .map(|(constant, value)| (constant.name(), *value))
@@ -75,7 +96,7 @@ impl Gpu {
                     cache: None,
                 })
             })?;
-            Ok((pipeline, bindings.into()))
+            Ok(CompiledKernel { pipeline, bindings: bindings.into(), loaded: loaded.into() })
         })
     }
 }

@@ -65,16 +65,17 @@ const SERIAL_FEATURES: wgpu::Features =
 /// The most textures that one kernel binds there.
 const STORAGE_TEXTURES: u32 = 8;
 
-/// An opened device with its queue.
+/// An opened device with its queue. A clone is another handle of the same device, which closes with the last of them.
+#[derive(Clone)]
 pub struct Gpu {
     adapter: wgpu::Adapter,
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
-    description: AdapterDescription,
+    description: Arc<AdapterDescription>,
     subgroup_size: Option<u32>,
     serial_memory: bool,
     portable: bool,
-    pub(super) compiled: Compiled,
+    pub(super) compiled: Arc<Compiled>,
     trouble: Arc<Mutex<Option<String>>>,
 }
 
@@ -223,12 +224,12 @@ impl Gpu {
             adapter,
             device,
             queue,
-            description: AdapterDescription::new(&info),
+            description: Arc::new(AdapterDescription::new(&info)),
             subgroup_size: (subgroups && info.subgroup_min_size == info.subgroup_max_size)
                 .then_some(info.subgroup_min_size),
             serial_memory,
             portable,
-            compiled: Compiled::new(rewriting),
+            compiled: Arc::new(Compiled::new(rewriting)),
             trouble,
         })
     }

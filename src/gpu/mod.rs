@@ -6,13 +6,16 @@ mod device;
 mod environment;
 mod error;
 mod kept;
+mod loaded;
 mod pruning;
 mod shader;
 
 pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, adapters_by_turns, list_adapters};
-pub use compiled::Rewriting;
+pub(crate) use compiled::CompiledKernel;
+pub use compiled::{ConstantsIn, Rewriting};
 pub(crate) use device::compute_pass;
 pub use device::{Gpu, Requirements};
 pub use environment::{prepare_environment, prepare_environment_among};
 pub use error::GpuError;
-pub use shader::{Binding, LinkedShader, Switched, link, storage_buffers, validate};
+pub(crate) use loaded::{BINDING as LOADED_CONSTANTS, bytes as constants_in_bytes};
+pub use shader::{Binding, LinkedShader, Switched, link, link_loading, storage_buffers, validate};

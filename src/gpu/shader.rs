@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use super::GpuError;
+use super::compiled::ConstantsIn;
 use super::kept::Kept;
+use super::loaded;
 use super::pruning::{prune, switches};
 use crate::shaders::{Array, Choices, Constant, Entry, LinkedText, linked_text};
 
@@ -30,6 +32,8 @@ pub struct LinkedShader {
     pub constants: Vec<Constant>,
     /// Those of them on which branches depend: with other values another kernel is left, see [`LinkedShader::specialized`].
     pub switches: Vec<Constant>,
+    /// Constants that it loads from a buffer.
+    pub loaded: Vec<Constant>,
     /// Size of each struct and offset of each member: `(struct, member) -> offset`, with member `""` for the size.
     pub layout: BTreeMap<(String, String), u32>,
 }
@@ -65,7 +69,9 @@ impl LinkedShader {
         };
         let bindings = self.bindings.iter().filter(is_bound).cloned().collect();
         let constants = constants_of(&module);
-        Self { module, bindings, constants, switches: Vec::new(), layout: self.layout.clone() }
+        let loads = module.global_variables.iter().any(|(_, variable)| is_of_constants(variable));
+        let loaded = if loads { self.loaded.clone() } else { Vec::new() };
+        Self { module, bindings, constants, switches: Vec::new(), loaded, layout: self.layout.clone() }
     }
 
     /// Bits of the values of its switches, in their order; nothing where a default holds. Equal ones leave the same kernel.
@@ -101,12 +107,37 @@ pub fn link(name: &str, entry: Entry, choices: &Choices) -> Result<LinkedShader,
 ///
 /// # Errors
 /// As [`link`].
-pub(super) fn link_once(name: &str, entry: Entry, choices: &Choices) -> Result<(String, Arc<LinkedShader>), GpuError> {
+pub(super) fn link_once(
+    name: &str,
+    entry: Entry,
+    choices: &Choices,
+    place: ConstantsIn,
+) -> Result<(String, Arc<LinkedShader>), GpuError> {
     static LINKED: LazyLock<Kept<String, Arc<LinkedShader>>> = LazyLock::new(Kept::default);
     let linked = linked_text(entry, choices).map_err(|unlinked| GpuError::unlinked(name, unlinked))?;
     let text = linked.text.clone();
     let shader = LINKED.get_or_make(text.clone(), || Ok(Arc::new(validate(name, entry.name(), &linked)?)))?;
+    if place == ConstantsIn::Code {
+        return Ok((text, shader));
+    }
+    let (text, loaded) = loaded::load(&text, |constant| shader.switches.contains(&constant));
+    let shader = LINKED.get_or_make(text.clone(), || {
+        let linked = LinkedText { text: text.clone(), parts: linked.parts };
+        Ok(Arc::new(LinkedShader { loaded, ..validate(name, entry.name(), &linked)? }))
+    })?;
     Ok((text, shader))
+}
+
+/// Parses and validates a kernel whose real constants lie in a buffer, but for those that decide which code there is.
+///
+/// # Errors
+/// As [`link`].
+pub fn link_loading(name: &str, entry: Entry, choices: &Choices) -> Result<Arc<LinkedShader>, GpuError> {
+    Ok(link_once(name, entry, choices, ConstantsIn::Buffer)?.1)
+}
+
+fn is_of_constants(variable: &naga::GlobalVariable) -> bool {
+    variable.binding.is_some_and(|binding| binding.binding == loaded::BINDING)
 }
 
 /// The number of buffers that a kernel binds with these constants, if all arrays of which its choices say nothing are in
@@ -132,7 +163,7 @@ pub fn storage_buffers(entry: Entry, choices: &Choices, constants: &[(Constant, 
             return *count;
         }
     }
-    let Ok((_, shader)) = link_once(entry.name(), entry, choices) else { return 0 };
+    let Ok((_, shader)) = link_once(entry.name(), entry, choices, ConstantsIn::Code) else { return 0 };
     let bindings = shader.specialized(constants).bindings;
     let count = bindings.iter().filter(|binding| !binding.texture).count();
     let key = (kernel.clone(), shader.switched(constants));
@@ -191,7 +222,7 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
     let used = info.get_entry_point(index);
     let mut bindings = Vec::new();
     for (_, variable) in module.global_variables.iter().filter(|(handle, _)| !used[*handle].is_empty()) {
-        let Some(binding) = &variable.binding else { continue };
+        let Some(binding) = variable.binding.as_ref().filter(|_| !is_of_constants(variable)) else { continue };
         let name = variable.name.as_deref().unwrap_or_default();
         let array = Array::named(name).ok_or_else(|| failure(place(1), format!("there is no array `{name}`")))?;
         let texture = matches!(module.types[variable.ty].inner, naga::TypeInner::Image { .. });
@@ -209,7 +240,7 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
             }
         }
     }
-    Ok(LinkedShader { module, bindings, constants, switches, layout })
+    Ok(LinkedShader { module, bindings, constants, switches, loaded: Vec::new(), layout })
 }
 
 fn chain(error: &dyn std::error::Error) -> String {

@@ -38,7 +38,7 @@ pub use sums::{ReportRow, Sums};
 pub use table::{Table, Words};
 pub use texture::Texture;
 
-use crate::gpu::storage_buffers;
+use crate::gpu::{ConstantsIn, storage_buffers};
 use crate::shaders::{Array, Constant, declared_buffers};
 use crate::state::Units;
 
@@ -141,6 +141,8 @@ pub struct Plan {
     pub reported: Option<(Array, Layout)>,
     /// Arithmetic operations a particle and step, an estimate from the density.
     pub operations_per_particle: f64,
+    /// Where the constants of kernels are.
+    pub constants_in: ConstantsIn,
     /// What it has of a run that several ranks share, if it is the plan of one of them.
     pub part: Option<PlannedPart>,
 }
@@ -176,6 +178,7 @@ impl Plan {
             storage_buffers: 8,
             reported: None,
             operations_per_particle: 0.0,
+            constants_in: ConstantsIn::Code,
             part: None,
         }
     }

@@ -1,6 +1,7 @@
 //! What may be chosen of a plan, by the adapter and by who asks for it, without changing a bit of its results.
 
 use super::Part;
+use crate::gpu::ConstantsIn;
 
 /// What the plan may use of the adapter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -57,6 +58,8 @@ pub struct Options {
     pub many_level_scan: bool,
     /// Particles of a message between ranks that passes on a state; a million if `None`.
     pub particles_in_message: Option<u64>,
+    /// Where the constants of kernels are.
+    pub constants_in: ConstantsIn,
     /// The part of one of several ranks; all of the box if `None`.
     pub part: Option<Part>,
 }

@@ -30,9 +30,27 @@ pub enum RunError {
         /// Its step.
         checkpoint_step: u64,
     },
-    /// Already the steps that were to be timed left that range.
+    /// Steps in memory left that range: those that were to be timed, or of a simulation that writes no checkpoint by itself.
     #[error(transparent)]
     UnstableTrial(Instability),
+    /// A simulation was asked to stop. It can go on.
+    #[error("interrupted at step {step}: the simulation can go on from there")]
+    Paused {
+        /// The step it has come to.
+        step: u64,
+    },
+    /// A simulation has ended by an error, and can be looked at no more.
+    #[error("this simulation has ended: {reason}; begin another one, from its scene or from a checkpoint of it")]
+    Ended {
+        /// The error.
+        reason: String,
+    },
+    /// Arrays or numbers that do not fit a simulation.
+    #[error("{}", .mistakes.join("\n"))]
+    Arrays {
+        /// All mistakes.
+        mistakes: Vec<String>,
+    },
     /// The adapter left a loop before its end.
     #[error(
         "{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`",

@@ -1,8 +1,9 @@
 //! A run under way: from one event to the next, and its files.
 
-use super::analyses::{Analyses, Setting, needs};
+use super::analyses::{Analyses, Setting};
 use super::conservation::{conserved, not_conserved};
 use super::energies::{self, EnergyRecorder};
+use super::frame::with_flow;
 use super::kept_sums::{KeptSums, Sharing};
 use super::pace::Pace;
 use super::pictures::{Pictures, mesh_depth, most_shown};
@@ -19,9 +20,8 @@ use crate::output::summary::{AdapterSummary, ColumnSummary, MeshSummary, Numbere
 use crate::output::{
     Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files, own_file,
 };
-use crate::plan::Need;
 use crate::ranks::{computes_alike, remedy};
-use crate::state::{Reported, State};
+use crate::state::State;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -38,7 +38,7 @@ pub struct Outcome {
 }
 
 /// A run under way: its open files and what it has gathered.
-pub(super) struct Run<'a> {
+pub(super) struct Execution<'a> {
     task: &'a Task,
     scene: &'a Checked,
     gpu: &'a Gpu,
@@ -60,7 +60,7 @@ pub(super) struct Run<'a> {
     saved_at: Instant,
 }
 
-impl<'a> Run<'a> {
+impl<'a> Execution<'a> {
     /// Creates the files of a run at step 0, or cuts them back to what was there before the step of `start`.
     pub(super) fn open(
         task: &'a Task,
@@ -382,20 +382,6 @@ impl<'a> Run<'a> {
         summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
         summary.save(&path)?;
         Ok(Outcome { summary, files: written, snapshots: self.directory.snapshots()? })
-    }
-}
-
-/// Adds the momenta of the linear profile that analyses of a sheared box leave out of those of split steps.
-fn with_flow(frame: &mut Reported, scene: &Checked) {
-    let model = scene.model();
-    let particles = model.particles();
-    let Some(shear) =
-        particles.shear.as_ref().filter(|_| particles.splits() && needs(&scene.output).contains(&Need::Momenta))
-    else {
-        return;
-    };
-    for ((momentum, position), species) in frame.momenta.iter_mut().zip(&frame.positions).zip(&frame.species) {
-        momentum[0] += shear.flow(*species as usize, position[shear.gradient], model).round_ties_even() as i32;
     }
 }
 

@@ -7,14 +7,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 ///
 /// ```
 /// use mesoscope::gpu::AdapterChoice;
-/// use mesoscope::run::{Event, Interrupt, RunError, Simulation};
+/// use mesoscope::run::{Event, Interrupt, RunError, Run};
 ///
 /// # let directory = tempfile::tempdir()?;
 /// # let results = directory.path().join("results");
 /// let small = ["space.box=[4,4,4]", "time.equilibration=0", "time.steps=4000", "output={}"].map(str::to_owned);
 /// let scene = mesoscope::scene::load("dpd-fluid", &small)?;
 /// let interrupt = Interrupt::default();
-/// let run = Simulation::start(scene, &results, false).until(&interrupt);
+/// let run = Run::start(scene, &results, false).until(&interrupt);
 /// let stopped = run.execute(&AdapterChoice::Best, &mut |event: Event<'_>| {
 ///     if matches!(event, Event::Advanced(_)) {
 ///         interrupt.ask();
@@ -23,7 +23,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// let Err(RunError::Interrupted { checkpoint_step, .. }) = stopped else { panic!("{stopped:?}") };
 ///
 /// // Nothing that was computed is lost.
-/// let rest = Simulation::resume(&results, None)?;
+/// let rest = Run::resume(&results, None)?;
 /// assert!(checkpoint_step > 0 && rest.first_step() == checkpoint_step);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

@@ -1,19 +1,19 @@
 //! Runs: from a checked scene to the files it leaves.
 //!
-//! A [`Simulation`] is started from a scene or resumed from a directory. It opens an adapter, advances the engine from
+//! A [`Run`] is started from a scene or resumed from a directory. It opens an adapter, advances the engine from
 //! one event to the next (a checkpoint, a snapshot, a frame, the end), and writes what the scene asks for. It prints
 //! nothing: an observer learns how far it is.
 //!
 //! ```
 //! use mesoscope::gpu::AdapterChoice;
 //! use mesoscope::output::RunDirectory;
-//! use mesoscope::run::{self, Event, Simulation};
+//! use mesoscope::run::{self, Event, Run};
 //!
 //! # let directory = tempfile::tempdir()?;
 //! # let results = directory.path().join("results");
 //! let small = ["space.box=[4,4,4]", "time.equilibration=0", "time.steps=40", "output={}"].map(str::to_owned);
 //! let scene = mesoscope::scene::load("dpd-fluid", &small)?;
-//! let simulation = Simulation::start(scene, &results, false);
+//! let simulation = Run::start(scene, &results, false);
 //! let outcome = simulation.execute(&AdapterChoice::Best, &mut |event: Event<'_>| {
 //!     if let Event::Advanced(progress) = event {
 //!         println!("step {} of {}", progress.step, progress.last_step);
@@ -23,7 +23,7 @@
 //! assert!(outcome.files.contains(&"energies.csv") && results.join("run.json").exists());
 //!
 //! // Its directory is enough to continue it.
-//! let longer = Simulation::resume(&results, Some(80))?;
+//! let longer = Run::resume(&results, Some(80))?;
 //! assert_eq!((longer.first_step(), longer.is_finished()), (40, false));
 //!
 //! // Or to draw its pictures again, larger.
@@ -35,6 +35,7 @@
 
 mod adapter;
 mod analyses;
+mod change;
 mod colour_ranges;
 mod conservation;
 mod division;
@@ -43,12 +44,14 @@ mod energy_rows;
 mod error;
 mod execution;
 mod field_arrays;
+mod frame;
 mod interrupt;
 mod kept_sums;
 mod pace;
 mod pictures;
 mod pilot;
 mod plan;
+mod runs;
 mod schedule;
 mod sections;
 mod settling;
@@ -57,25 +60,28 @@ mod sizes;
 mod tally;
 mod task;
 mod team;
-mod trial;
+mod views;
 
 pub use adapter::{adapter_for, adapter_for_rank};
 pub(crate) use analyses::circulation_change;
 pub use analyses::{AskedAnalysis, asked_analyses, printed_estimate, printed_results};
+pub use change::{Change, Rounding};
 pub(crate) use conservation::kept;
 pub use division::{Ranks, Share, divide, share_of};
 pub(crate) use energies::{quantities, read as read_energies};
 pub use error::RunError;
 pub use execution::Outcome;
+pub use frame::Frame;
 pub use interrupt::Interrupt;
 pub use pictures::{lettering, redraw};
 pub(crate) use pictures::{save, save_vector};
 pub use pilot::{ExpectedTime, expected_time};
 pub use plan::plan;
-pub use simulation::Simulation;
+pub use runs::Run;
+pub use simulation::{Frames, Simulation};
+pub(crate) use simulation::{Sight, Stop};
 pub use sizes::Sizes;
 pub use team::{dismiss, follow, team};
-pub(crate) use trial::{Stop, Trial};
 
 use crate::gpu::AdapterDescription;
 use std::time::Duration;

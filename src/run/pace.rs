@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 
 /// Time a batch should take: long enough that submitting costs nothing, short enough to see a failure soon.
 const TARGET: f64 = 0.15;
+/// The same where each call has to return soon, with two more batches on their way.
+const SOON: f64 = 0.03;
 const LARGEST: u64 = 512;
 /// Operations in a first batch that the slowest adapters finish within seconds, and of a particle at least.
 const CAUTION: f64 = 2e10;
@@ -15,6 +17,8 @@ const IN_FLIGHT: usize = 2;
 /// Measures the rate and sets the size of the batches; results never depend on it.
 #[derive(Debug)]
 pub(super) struct Pace {
+    /// Time a batch should take.
+    target: f64,
     batch: u64,
     /// Sizes of the batches that the device may not have finished, the oldest first.
     waiting: VecDeque<u64>,
@@ -35,6 +39,7 @@ impl Pace {
         let now = Instant::now();
         let operations = particles as f64 * operations.max(FEWEST);
         Self {
+            target: TARGET,
             batch: ((CAUTION / operations) as u64).clamp(1, 8),
             waiting: VecDeque::new(),
             since_idle: 0,
@@ -44,6 +49,11 @@ impl Pace {
             spent: Duration::ZERO,
             warm: None,
         }
+    }
+
+    /// The same for calls that return soon.
+    pub(super) fn for_looking(particles: u64, operations: f64) -> Self {
+        Self { target: SOON, ..Self::new(particles, operations) }
     }
 
     /// Steps to submit next.
@@ -108,7 +118,7 @@ impl Pace {
 
     fn adapt(&mut self, steps: u64, time: Duration) {
         if steps > 0 {
-            let wanted = TARGET * steps as f64 / time.as_secs_f64().max(1e-9);
+            let wanted = self.target * steps as f64 / time.as_secs_f64().max(1e-9);
             self.batch = (wanted as u64).clamp(1, (2 * self.batch).min(LARGEST));
         }
     }

@@ -33,6 +33,7 @@ pub fn plan(scene: &Checked, hardware: Hardware, options: Options) -> Plan {
     if follows {
         plan.follow(physics.followers, physics.stride);
     }
+    plan.constants_in = options.constants_in;
     plan.count_storage_buffers();
     if options.suits_serial_memory(hardware) {
         plan.suit_serial_memory(&physics.texture_candidates);

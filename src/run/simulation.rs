@@ -1,370 +1,597 @@
-//! Runs that are started, resumed, and executed from their first step to their summary.
+//! A scene on a device, advanced step by step.
 
-use super::adapter::open_adapter;
-use super::conservation::warning_of_mixed_ranks;
-use super::execution::{NOTICES, Outcome, Run};
-use super::interrupt::Interrupt;
+use super::RunError;
+use super::adapter::{open_adapter, plan_for};
+use super::analyses::stress_of_sample;
+use super::colour_ranges::ColourRanges;
+use super::energy_rows::EnergyRows;
+use super::frame::{Frame, Here, with_flow};
 use super::pace::Pace;
-use super::pictures;
-use super::plan::plan;
-use super::task::Task;
-use super::team;
-use super::{Event, RunError};
-use crate::engine::{Engine, EngineError, RankReport, Stepper};
-use crate::families::{self, Checked, Instability};
-use crate::gpu::{AdapterChoice, Gpu};
-use crate::output::checkpoint::CheckpointError;
-use crate::output::summary::{RankSummary, RanksSummary};
-use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
-use crate::plan::{Division, Hardware, Options, Part, Plan};
-use crate::ranks::{Processes, computes_alike, sharing_anywhere};
-use std::path::PathBuf;
+use super::pictures::{mesh_depth, most_shown};
+use super::sections::Sections;
+use super::tally::Carried;
+use super::views::Views;
+use crate::engine::{Engine, EngineError, Sample, Shown};
+use crate::families::pictures::MeshPictures;
+use crate::families::{self, Checked, Instability, Kinematics, PictureKind};
+use crate::gpu::{AdapterChoice, AdapterDescription, ConstantsIn, Gpu};
+use crate::measure::statistics::Estimate;
+use crate::measure::{Field, observables_of};
+use crate::output::{Checkpoint, Id, TrajectoryWriter, checkpoint, files};
+use crate::plan::{Options, SamplerId};
+use crate::run::Interrupt;
+use crate::scene::{AnalysisId, FieldQuantity, Output, Trajectory, TrajectoryFormat};
+use crate::state::State;
+use crate::table::Table;
+use crate::tessellation::Tessellation;
+use image::RgbaImage;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
-/// A run to be executed: a scene, where it begins and where its files go.
-#[derive(Debug, Clone)]
+/// Steps that are repeated at most where an array turns out too small.
+const STEPS_BETWEEN_STATES: u64 = 4096;
+
+/// A scene on a device, which advances as many steps as it is told and can be looked at and changed between them.
+///
+/// It writes no file by itself, and makes none of the analyses of a [`Run`](super::Run) but the rows of the table of energies. Looking at it
+/// changes no bit of what follows. The device closes when the last simulation on it is dropped.
+///
+/// ```
+/// use mesoscope::gpu::AdapterChoice;
+/// use mesoscope::{Simulation, scene};
+///
+/// let small = ["space.box=[4,4,4]", r#"output={"energies": {"every": 10}}"#].map(str::to_owned);
+/// let mut simulation = Simulation::new(&scene::load("dpd-fluid", &small)?, &AdapterChoice::Best)?;
+/// simulation.advance(200)?;
+/// let speeds = simulation.frames(100, 20).map(|frame| {
+///     let fastest = frame?.velocities.iter().map(|[x, y, z]| (x * x + y * y + z * z).sqrt()).fold(0.0, f64::max);
+///     Ok(fastest)
+/// });
+/// let speeds = speeds.collect::<Result<Vec<f64>, mesoscope::run::RunError>>()?;
+/// assert_eq!((speeds.len(), simulation.step()), (5, 300));
+/// assert!(simulation.observable("temperature")?.is_some_and(|temperature| temperature > 0.5));
+/// // Rows of the table of energies are kept, every ten steps.
+/// assert_eq!(simulation.energies().rows.len(), 31);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Simulation {
-    scene: Checked,
-    beginning: Beginning,
+    pub(super) scene: Checked,
+    /// The scene as it is planned: with what can be looked at, and no analysis besides.
+    planned: Checked,
+    gpu: Gpu,
+    options: Options,
+    pub(super) engine: Engine<'static>,
+    /// What the device had counted when the engine began.
+    carried: Carried,
+    rows: EnergyRows,
+    /// Where to begin again if an array turns out too small.
+    saved: Arc<State>,
+    pace: Pace,
     interrupt: Interrupt,
-    /// What was done to the scene before the run, for its summary.
-    notices: Vec<String>,
-    id: Id,
-    /// How the box is divided among several ranks, if it is.
-    division: Option<Division>,
-    /// Whether ranks may compute differently.
-    mixed: bool,
-    /// True if pictures are drawn.
-    draws: bool,
+    /// Samples of the last step that was sampled.
+    sampled: Vec<Sample>,
+    /// What is known of the current step.
+    here: Option<Here>,
+    pub(super) changes: Vec<super::change::Change>,
+    /// Why no further step can be taken.
+    end: Option<String>,
 }
 
-#[derive(Debug, Clone)]
-enum Beginning {
-    New {
-        directory: PathBuf,
-        force: bool,
-    },
-    Checkpoint {
-        directory: RunDirectory,
-        checkpoint: Box<Checkpoint>,
-        /// What `run.json` says of the same run.
-        earlier: Option<Box<Summary>>,
-    },
+/// The end of an advance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stop {
+    /// At the step that was requested.
+    Reached,
+    /// It was asked to stop, or its time was up.
+    Interrupted,
+}
+
+/// What can be looked at besides the rows of the table of energies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Sight {
+    /// Frames with velocities and images.
+    Frames,
+    /// Nothing.
+    EnergiesAlone,
+}
+
+impl Sight {
+    /// The scene with what a plan needs for it.
+    fn planned(self, scene: &Checked) -> Checked {
+        scene.clone().changed(|scene| {
+            let Output { energies, stress, .. } = std::mem::take(&mut scene.output);
+            scene.output.energies = energies;
+            if self == Self::Frames {
+                scene.output.stress = stress;
+                scene.output.trajectory = Some(Trajectory::every(u64::MAX));
+            }
+        })
+    }
 }
 
 impl Simulation {
-    /// A run of a checked scene from step 0 into a directory, which is created. With `force` the files of an earlier
-    /// run there are replaced.
-    #[must_use]
-    pub fn start(scene: Checked, directory: impl Into<PathBuf>, force: bool) -> Self {
-        let beginning = Beginning::New { directory: directory.into(), force };
-        let id = Id::of_run(&scene);
-        let notices = scene.notices().iter().map(ToString::to_string).collect();
-        Self::new(scene, beginning, notices, id)
-    }
-
-    /// Continues the run in a directory from its last checkpoint, up to step `steps` where that is given. The directory
-    /// belongs to this process from now on, until the simulation is dropped or executed.
+    /// A simulation of a scene at its start, on an adapter.
     ///
     /// # Errors
-    /// [`RunError::Checkpoint`] when there is no checkpoint or it is damaged; [`RunError::Output`] when another process
-    /// writes there, or when a file there belongs to another run; [`RunError::Scene`] when the scene cannot do with as few
-    /// steps.
-    pub fn resume(directory: impl Into<PathBuf>, steps: Option<u64>) -> Result<Self, RunError> {
-        let directory = directory.into();
-        if !directory.join(files::CHECKPOINT).exists() {
-            // Nothing is written where there is no run, no lock either.
-            if RunDirectory::open(&directory).and_then(|found| found.has_results()).unwrap_or(false) {
-                return Err(OutputError::NothingSaved { directory }.into());
-            }
-            checkpoint::load(&directory.join(files::CHECKPOINT))?;
+    /// [`RunError`] if there is no usable adapter, or the start cannot be.
+    pub fn new(scene: &Checked, choice: &AdapterChoice) -> Result<Self, RunError> {
+        let (gpu, _) = open_adapter(&Sight::Frames.planned(scene), choice, Options::default())?;
+        Self::on(&gpu, scene)
+    }
+
+    /// The same on a device that is open, which several simulations may share.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn on(gpu: &Gpu, scene: &Checked) -> Result<Self, RunError> {
+        Self::seeing(Sight::Frames, gpu, scene)
+    }
+
+    /// The same, of which only this can be seen.
+    pub(crate) fn seeing(sight: Sight, gpu: &Gpu, scene: &Checked) -> Result<Self, RunError> {
+        let state = families::initial_state(scene);
+        families::check_start(scene, &state)?;
+        let carried = Carried::default();
+        Self::from_state(sight, gpu, scene, state, carried)
+    }
+
+    /// A simulation that goes on from a checkpoint: of another one, or of a run. Rows of the table of energies begin there.
+    ///
+    /// # Errors
+    /// [`RunError::Checkpoint`] where there is no checkpoint or it is damaged, and as [`Self::new`].
+    pub fn from_checkpoint(path: impl AsRef<Path>, choice: &AdapterChoice) -> Result<Self, RunError> {
+        let path = path.as_ref();
+        let Checkpoint { scene, state, sections, .. } = checkpoint::load(path)?;
+        let planned = Sight::Frames.planned(&scene);
+        let (gpu, plan) = open_adapter(&planned, choice, Options::default())?;
+        if let Some(problem) = plan.misfit(&state, scene.model()) {
+            return Err(checkpoint::CheckpointError::malformed(path, problem).into());
         }
-        let directory = RunDirectory::claim(directory)?;
-        let path = directory.file(files::CHECKPOINT);
-        let checkpoint = checkpoint::load(&path)?;
-        let mut scene = checkpoint.scene.clone();
-        let notices = checkpoint.sections.iter().find(|(name, _)| name == NOTICES);
-        let notices = notices.and_then(|(_, bytes)| serde_json::from_slice(bytes).ok()).unwrap_or_default();
-        if let Some(steps) = steps.filter(|steps| *steps != scene.time.steps) {
-            scene = scene.changed(|scene| scene.time.steps = steps);
-            if steps > checkpoint.state.step {
-                scene = scene.check_kept(&path.display().to_string())?;
-            }
+        let carried = Carried::new(scene.model(), &Sections::new(path, state.step, &sections))?;
+        let mut simulation = Self::from_state(Sight::Frames, &gpu, &scene, state, carried)?;
+        simulation.changes = super::change::kept(&sections);
+        Ok(simulation)
+    }
+
+    fn from_state(
+        sight: Sight,
+        gpu: &Gpu,
+        scene: &Checked,
+        mut state: State,
+        carried: Carried,
+    ) -> Result<Self, RunError> {
+        let planned = sight.planned(scene);
+        if planned.model().follows_paths(&planned.output) && state.images.is_empty() {
+            // The state of a run that followed no particle.
+            state.images = vec![[0; 3]; state.len()];
         }
-        // What a state has to have is the same on every adapter.
-        let (hardware, options) = (Hardware::default(), Options::default());
-        if let Some(problem) = plan(&scene, hardware, options).misfit(&checkpoint.state, scene.model()) {
-            return Err(CheckpointError::malformed(&path, problem).into());
-        }
-        let summary = directory.file(files::SUMMARY);
-        let earlier = match Summary::load(&summary) {
-            Ok(summary) => Some(Box::new(summary)),
-            // It will be written again.
-            Err(OutputError::Unfinished { .. } | OutputError::Line { .. }) => None,
-            Err(error) => return Err(error.into()),
-        };
-        if let Some(earlier) = &earlier {
-            earlier.check_run(checkpoint.run_id, &scene, &summary)?;
-        }
-        directory.check_run(checkpoint.run_id, files::CHECKPOINT)?;
-        let id = checkpoint.run_id;
-        let beginning = Beginning::Checkpoint { directory, checkpoint: Box::new(checkpoint), earlier };
-        Ok(Self::new(scene, beginning, notices, id))
+        let (engine, options) = open(gpu, &planned, &state, Options::default())?;
+        let pace = Pace::for_looking(scene.model().particle_count(), engine.plan().operations_per_particle);
+        Ok(Self {
+            rows: EnergyRows::new(scene),
+            scene: scene.clone(),
+            planned,
+            gpu: gpu.clone(),
+            options,
+            engine,
+            carried,
+            saved: Arc::new(state),
+            pace,
+            interrupt: Interrupt::default(),
+            sampled: Vec::new(),
+            here: None,
+            changes: Vec::new(),
+            end: None,
+        })
     }
 
-    fn new(scene: Checked, beginning: Beginning, notices: Vec<String>, id: Id) -> Self {
-        let interrupt = Interrupt::default();
-        Self { scene, beginning, interrupt, notices, id, division: None, mixed: false, draws: true }
-    }
-
-    /// The same run without pictures; arrays of fields are written. [`redraw`](super::redraw) draws those of its end, and those of an earlier
-    /// end are removed.
-    #[must_use]
-    pub fn without_pictures(self) -> Self {
-        Self { draws: false, ..self }
-    }
-
-    /// The same run as part of a sweep, whose summary has its id.
-    pub(crate) fn with_id(self, id: Id) -> Self {
-        Self { id, ..self }
-    }
-
-    /// What was done to the scene before the run.
-    #[must_use]
-    pub fn notices(&self) -> &[String] {
-        &self.notices
-    }
-
-    /// The same run, which saves a checkpoint and stops when it is asked to.
+    /// The same, which stops advancing when it is asked to.
     #[must_use]
     pub fn until(self, interrupt: &Interrupt) -> Self {
         Self { interrupt: interrupt.clone(), ..self }
     }
 
-    /// The same run on several ranks, threads of this process with an adapter each, which divide the box: with the results of one.
-    #[must_use]
-    pub fn on_ranks(self, division: Option<Division>) -> Self {
-        Self { division: division.filter(|division| division.ranks() > 1), ..self }
-    }
-
-    /// The same with ranks that need not compute alike: momentum is conserved to rounding only where they do not.
-    #[must_use]
-    pub fn mixed(self, mixed: bool) -> Self {
-        Self { mixed, ..self }
-    }
-
-    /// The scene, with every default filled in.
+    /// The scene, as changes have left it.
     #[must_use]
     pub fn scene(&self) -> &Checked {
         &self.scene
     }
 
-    /// The step the run begins with.
+    /// The adapter.
     #[must_use]
-    pub fn first_step(&self) -> u64 {
-        match &self.beginning {
-            Beginning::New { .. } => 0,
-            Beginning::Checkpoint { checkpoint, .. } => checkpoint.state.step,
+    pub fn adapter(&self) -> &AdapterDescription {
+        self.gpu.description()
+    }
+
+    /// The device, on which further simulations may run.
+    #[must_use]
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// The current step.
+    #[must_use]
+    pub fn step(&self) -> u64 {
+        self.engine.step()
+    }
+
+    /// The time of the current step, in units of the scene.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.step() as f64 * self.scene.time.step
+    }
+
+    /// Takes steps, and returns when the device has done them. It may go beyond the steps of the scene.
+    ///
+    /// # Errors
+    /// [`RunError`] if the device fails, the simulation becomes unstable, or it is asked to stop: then it can go on.
+    pub fn advance(&mut self, steps: u64) -> Result<(), RunError> {
+        let last = self.step().saturating_add(steps);
+        match self.advance_to(last, None)? {
+            Stop::Reached => Ok(()),
+            Stop::Interrupted => Err(RunError::Paused { step: self.step() }),
         }
     }
 
-    /// Whether nothing is left to do: the last step is behind, and everything that the run was to leave is there.
-    #[must_use]
-    pub fn is_finished(&self) -> bool {
-        let step = self.first_step();
-        let complete = match &self.beginning {
-            Beginning::Checkpoint { directory, earlier: Some(earlier), .. } => {
-                earlier.steps == step && earlier.is_complete(directory)
-            }
-            _ => false,
-        };
-        step > self.scene.time.steps || step == self.scene.time.steps && complete
-    }
-
-    /// Runs to the end and writes everything the scene asks for.
-    ///
-    /// The trajectory of states depends on scene, adapter and driver only: how often it was interrupted and resumed,
-    /// snapshots, checkpoints and the size of batches change no bit of it.
+    /// Takes at most so many steps within about this time, at least one, and returns how many.
     ///
     /// # Errors
-    /// [`RunError`]: no usable adapter, a run that became unstable or was interrupted, files that cannot be written. What was measured
-    /// until then and the last good checkpoint are on disk.
-    pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
-        self.execute_among(None, choice, observer)
+    /// As [`Self::advance`].
+    pub fn advance_within(&mut self, steps: u64, time: Duration) -> Result<u64, RunError> {
+        let first = self.step();
+        self.advance_to(first.saturating_add(steps), Some(Instant::now() + time))?;
+        Ok(self.step() - first)
     }
 
-    /// The same as the first of several processes, which are the ranks that share the run; the others [`follow`](super::follow).
-    ///
-    /// # Errors
-    /// As [`Self::execute`].
-    pub fn execute_among(
-        self,
-        processes: Option<&dyn Processes>,
-        choice: &AdapterChoice,
-        observer: &mut dyn FnMut(Event<'_>),
-    ) -> Result<Outcome, RunError> {
-        let Self { scene, beginning, interrupt, notices, id, division, mixed, draws } = self;
-        let part = division.map(|division| Part { division, rank: 0 });
-        let mut options = Options { part, ..Options::default() };
-        // Whatever takes long before the first step can be left; until then nothing is written, or there is a checkpoint already.
-        let is_new = matches!(beginning, Beginning::New { .. });
-        let asked = interrupt.clone();
-        let proceed = move || if is_new && asked.is_asked() { Err(RunError::NotBegun) } else { Ok(()) };
-        let keep_alive = || processes.iter().for_each(|processes| processes.channel().keep_alive());
-        let (mut gpu, mut plan) = open_adapter(&scene, choice, options)?;
-        keep_alive();
-        proceed()?;
-        let (directory, mut start, earlier, replaces) = match beginning {
-            Beginning::New { directory, force } => {
-                let state = families::initial_state(&scene);
-                proceed()?;
-                families::check_start(&scene, &state)?;
-                proceed()?;
-                let directory = RunDirectory::make(directory)?;
-                directory.in_the_way(force)?;
-                let start =
-                    Checkpoint { run_id: id, scene: scene.clone(), state, files: Vec::new(), sections: Vec::new() };
-                (directory, start, None, Some(force))
-            }
-            Beginning::Checkpoint { directory, checkpoint, earlier } => (directory, *checkpoint, earlier, None),
-        };
-        keep_alive();
-        let (first_step, last_step) = (start.state.step, scene.time.steps);
-        let mut pace = Pace::new(scene.model().particle_count(), plan.operations_per_particle);
-        let task = Task { id, scene, directory, interrupt, notices, mixed, draws, earlier };
-        let mut begun = false;
+    /// Frames of the next steps, every so many of them; the last step has one.
+    pub fn frames(&mut self, steps: u64, every: u64) -> Frames<'_> {
+        let last = self.step().saturating_add(steps);
+        Frames { simulation: self, last, every: every.max(1) }
+    }
+
+    /// Goes on until a step, or until the time is up.
+    pub(crate) fn advance_to(&mut self, last: u64, deadline: Option<Instant>) -> Result<Stop, RunError> {
+        self.check_end()?;
+        if self.step() < last {
+            self.here = None;
+        }
         loop {
-            let opened = open(&task, &gpu, plan, (choice, processes), options, &start);
-            let ended = opened.and_then(|mut engine| {
-                if !std::mem::replace(&mut begun, true) {
-                    proceed()?;
-                    observer(Event::Started { adapter: gpu.description(), first_step, last_step });
-                    if let Some(force) = replaces {
-                        // Only now: an adapter or a rank that is not there should not cost an earlier run its files, nor a signal that is
-                        // answered with "nothing was written".
-                        task.directory.clear(force)?;
-                    }
-                    // Of ranks on this machine alone it is known before.
-                    for warning in processes.iter().flat_map(|_| sharing_anywhere(engine.ranks())) {
-                        observer(Event::Warned { warning: &warning });
-                    }
-                    if !computes_alike(engine.ranks()) {
-                        observer(Event::Warned { warning: &warning_of_mixed_ranks(task.scene.model()) });
-                    }
+            match self.submit(last, deadline) {
+                Ok(()) if self.step() >= last => return Ok(Stop::Reached),
+                Ok(()) => return Ok(Stop::Interrupted),
+                Err(EngineError::Crowded { .. }) if self.options.has_room_left() => {
+                    // From where it was, with more room, as a run does.
+                    let options = self.options.with_room(self.scene.model().particle_count());
+                    (self.engine, self.options) = open(&self.gpu, &self.planned, &self.saved, options)?;
                 }
-                attempt(&task, &gpu, engine.as_mut(), &mut start, &mut pace, observer)
-            });
-            match ended {
-                Err(RunError::Engine(error)) => {
-                    let particles = task.scene.model().particle_count();
-                    let (reason, with);
-                    // Too rare for every run to pay for it in memory or time.
-                    (options, reason, with) = match error {
-                        EngineError::Crowded { .. } if options.has_room_left() => (
-                            options.with_room(particles),
-                            task.scene.model().physics().crowd(task.scene.model()),
-                            "more memory",
-                        ),
-                        EngineError::Overreached { .. } if options.may_lengthen() => {
-                            (options.with_longer_bonds(), "a bond is longer than expected", "wider halos")
-                        }
-                        error => return Err(error.into()),
-                    };
-                    if begun {
-                        start = task.last_checkpoint(start)?;
-                    }
-                    observer(Event::Repeating { from: start.state.step, reason, with });
-                    (gpu, plan) = open_adapter(&task.scene, choice, options)?;
-                    keep_alive();
-                }
-                ended => return ended,
+                Err(error) => return Err(self.ended(error)),
             }
         }
     }
-}
 
-/// The engine that advances a run, or the ranks that do so together.
-fn open<'a>(
-    task: &Task,
-    gpu: &'a Gpu,
-    plan: Plan,
-    (choice, processes): (&AdapterChoice, Option<&'a dyn Processes>),
-    options: Options,
-    start: &Checkpoint,
-) -> Result<Box<dyn Stepper + 'a>, RunError> {
-    let (scene, mixed) = ((&task.scene), task.mixed);
-    Ok(match (options.part, processes) {
-        (Some(Part { division, .. }), Some(processes)) => {
-            Box::new(team::team_of_processes(scene, gpu, choice, (division, mixed), options, &start.state, processes)?)
+    /// Submits batches until a step or a time, and waits for them.
+    fn submit(&mut self, last: u64, deadline: Option<Instant>) -> Result<(), EngineError> {
+        let first = self.engine.step();
+        self.pace.begin();
+        while self.engine.step() < last {
+            let steps = self.pace.batch().min(last - self.engine.step());
+            self.engine.advance(steps, steps)?;
+            self.pace.submitted(steps);
+            self.take_samples();
+            if self.engine.step() - self.saved.step >= STEPS_BETWEEN_STATES {
+                self.saved = Arc::new(self.engine.state()?);
+            }
+            if self.interrupt.is_asked() || deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+                break;
+            }
         }
-        (Some(Part { division, .. }), None) => {
-            Box::new(team::team(scene, gpu, choice, (division, mixed), options, &start.state)?)
+        self.engine.wait()?;
+        if self.engine.step() > first && self.engine.plan().samplers[0].due(self.engine.step()) {
+            // A sample moves the particles of split steps on, whose state is needed to look at them.
+            self.saved = Arc::new(self.engine.state()?);
+            self.take_samples();
+            let samples = self.engine.finish()?;
+            self.add_samples(samples);
         }
-        (None, _) => Box::new(Engine::new(gpu, plan, &start.state)?),
-    })
-}
-
-/// Runs from `start` to the end.
-fn attempt(
-    task: &Task,
-    gpu: &Gpu,
-    engine: &mut (dyn Stepper + '_),
-    start: &mut Checkpoint,
-    pace: &mut Pace,
-    observer: &mut dyn FnMut(Event<'_>),
-) -> Result<Outcome, RunError> {
-    let mut run = Run::open(task, gpu, engine, start)?;
-    run.notices = &task.notices;
-    match run.advance_to_end(engine, start, pace, observer) {
-        Err(RunError::Engine(source @ (EngineError::Unstable(_) | EngineError::GaveUp { .. }))) => {
-            run.energies.file.flush()?;
-            let (checkpoint, checkpoint_step) = (task.directory.file(files::CHECKPOINT), run.saved_step);
-            return Err(match source {
-                EngineError::Unstable(failure) => {
-                    let source = Instability::new(&failure, engine.plan(), task.scene.model());
-                    RunError::Unstable { source, checkpoint, checkpoint_step }
-                }
-                source => RunError::GaveUp { source, checkpoint, checkpoint_step },
-            });
-        }
-        Err(error) => return Err(task.stopped(error, run.saved_step)),
-        Ok(()) => {}
+        self.pace.finished();
+        self.take_samples();
+        Ok(())
     }
-    run.ranks = ranks(engine);
-    observer(Event::Finishing);
-    let mut warnings = task.notices.clone();
-    warnings.extend(families::warnings(&task.scene).iter().map(ToString::to_string));
-    warnings.extend(run.kept_sums.is_mixed().then(|| warning_of_mixed_ranks(task.scene.model())));
-    warnings.extend(run.kept_sums.warning());
-    warnings.extend(pictures::lettering(&task.scene));
-    let saved_step = run.saved_step;
-    run.conclude(engine, warnings, pace.done()).map_err(|error| task.stopped(error, saved_step))
+
+    /// Takes samples that have come in.
+    fn take_samples(&mut self) {
+        let samples = self.engine.take_samples();
+        self.add_samples(samples);
+    }
+
+    /// Adds rows to the table of energies; what is repeated has some already.
+    fn add_samples(&mut self, samples: Vec<Sample>) {
+        for sample in samples {
+            let is_new = self.rows.last_step().is_none_or(|step| sample.step > step);
+            if sample.sampler == 0 && is_new && self.engine.plan().samplers[0].due(sample.step) {
+                let observables = self.observables_in(&sample);
+                self.rows.add(&observables);
+            }
+            self.sampled.retain(|known| known.step == sample.step && known.sampler != sample.sampler);
+            self.sampled.push(sample);
+        }
+    }
+
+    fn observables_in(&self, sample: &Sample) -> families::Observables {
+        let model = self.scene.model();
+        let mut observables = observables_of(sample, self.engine.plan(), model);
+        self.carried.complete(model, &mut observables);
+        observables
+    }
+
+    /// What becomes of a simulation whose engine failed.
+    fn ended(&mut self, error: EngineError) -> RunError {
+        let error = match error {
+            EngineError::Unstable(failure) => {
+                RunError::UnstableTrial(Instability::new(&failure, self.engine.plan(), self.scene.model()))
+            }
+            error => error.into(),
+        };
+        self.end = Some(error.to_string());
+        error
+    }
+
+    fn check_end(&self) -> Result<(), RunError> {
+        match &self.end {
+            Some(reason) => Err(RunError::Ended { reason: reason.clone() }),
+            None => Ok(()),
+        }
+    }
+
+    /// Looks at the current step, once.
+    pub(super) fn here(&mut self) -> Result<&Here, RunError> {
+        self.check_end()?;
+        if self.here.is_none() {
+            let here = self.look();
+            self.here = Some(here.map_err(|error| self.ended(error))?);
+        }
+        self.here.as_ref().ok_or_else(|| RunError::Ended { reason: "nothing was seen".to_owned() })
+    }
+
+    fn look(&mut self) -> Result<Here, EngineError> {
+        let is_shown = |id: SamplerId| [SamplerId::Observables, SamplerId::Analysis(AnalysisId::Stress)].contains(&id);
+        let samplers = self.engine.plan().samplers.iter().enumerate();
+        let shown: Vec<usize> =
+            samplers.filter(|(_, sampler)| is_shown(sampler.id)).map(|(number, _)| number).collect();
+        let state =
+            if self.saved.step == self.step() { Arc::clone(&self.saved) } else { Arc::new(self.engine.state()?) };
+        let mut reported = self.engine.report_of(&state)?;
+        with_flow(&mut reported, &self.planned);
+        let samples = self.engine.measure(&shown)?;
+        self.add_samples(samples);
+        self.sampled.retain(|sample| sample.step == state.step);
+        self.saved = Arc::clone(&state);
+        Ok(Here { state, reported })
+    }
+
+    /// The particles at the current step: positions, velocities, species, images.
+    ///
+    /// # Errors
+    /// [`RunError`] if the device fails, or the simulation has ended.
+    pub fn frame(&mut self) -> Result<Frame, RunError> {
+        let kinematics = Kinematics::new(self.scene.model());
+        let model = self.scene.model().clone();
+        Ok(Frame::new(&self.here()?.reported, &model, &kinematics))
+    }
+
+    /// The exact state at the current step, from which the steps that follow are taken.
+    ///
+    /// # Errors
+    /// As [`Self::frame`].
+    pub fn state(&mut self) -> Result<Arc<State>, RunError> {
+        Ok(Arc::clone(&self.here()?.state))
+    }
+
+    /// The numbers of a row of the table of energies at the current step, name by name.
+    ///
+    /// # Errors
+    /// As [`Self::frame`].
+    pub fn observables(&mut self) -> Result<Vec<(&'static str, f64)>, RunError> {
+        self.here()?;
+        let Some(sample) = self.sampled.iter().find(|sample| sample.sampler == 0) else { return Ok(Vec::new()) };
+        let (row, model) = (self.observables_in(sample), self.scene.model());
+        let columns = model.physics().columns(model);
+        Ok(columns.iter().map(|column| (column.name, column.value(&row, self.scene.time.step))).collect())
+    }
+
+    /// One of these numbers; none of a name that no column has.
+    ///
+    /// # Errors
+    /// As [`Self::frame`].
+    pub fn observable(&mut self, name: &str) -> Result<Option<f64>, RunError> {
+        Ok(self.observables()?.into_iter().find(|(known, _)| *known == name).map(|(_, value)| value))
+    }
+
+    /// The pressure tensor at the current step, from its parts: motion, conservative forces, friction and noise, each as xx, yy, zz, xy, xz,
+    /// yz. None of a scene without `output.stress`, whose plan does not measure it.
+    ///
+    /// # Errors
+    /// As [`Self::frame`].
+    pub fn stress(&mut self) -> Result<Option<[[f64; 6]; 3]>, RunError> {
+        self.here()?;
+        Ok(self.sampled.iter().find_map(|sample| stress_of_sample(sample, self.engine.plan(), self.scene.model())))
+    }
+
+    /// The table of energies since the simulation began, every `output.energies.every` steps.
+    #[must_use]
+    pub fn energies(&self) -> Table {
+        self.rows.table()
+    }
+
+    /// The rows of that table after equilibration.
+    pub(crate) fn settled(&self) -> Table {
+        self.rows.settled()
+    }
+
+    /// The means of the columns of that table after equilibration, with their standard errors; none of a column without rows.
+    #[must_use]
+    pub fn means(&self) -> Vec<(&'static str, Option<Estimate>)> {
+        self.rows.means()
+    }
+
+    /// The fields of shallow water on the nodes of its mesh at the current step: depth, potential vorticity and all others that `output.fields`
+    /// can name. None of other scenes.
+    ///
+    /// # Errors
+    /// As [`Self::frame`].
+    pub fn fields(&mut self) -> Result<Vec<(FieldQuantity, Field)>, RunError> {
+        let found = self.mesh_pictures(&FieldQuantity::ALL)?;
+        let fields = found.into_iter().flat_map(|pictures| pictures.fields);
+        Ok(fields.map(|shown| (shown.quantity, shown.field)).collect())
+    }
+
+    fn mesh_pictures(&mut self, quantities: &[FieldQuantity]) -> Result<Option<MeshPictures>, RunError> {
+        if self.scene.model().picture() != PictureKind::Fields {
+            return Ok(None);
+        }
+        let reported = self.here()?.reported.clone();
+        let model = self.scene.model();
+        let depth = mesh_depth(&mut self.engine, model)?;
+        Ok(model.physics().mesh_pictures(quantities, &reported, &depth, model))
+    }
+
+    /// The Voronoi cells at the current step, with their areas, corners and faces; none of other scenes.
+    ///
+    /// # Errors
+    /// As [`Self::frame`].
+    pub fn cells(&mut self) -> Result<Option<Tessellation>, RunError> {
+        let [x, y, _] = self.scene.model().units.lengths;
+        let is_of_cells = self.scene.model().picture() == PictureKind::Cells;
+        let positions = &self.here()?.reported.positions;
+        Ok(is_of_cells.then(|| Tessellation::of_fractions([x, y], positions)))
+    }
+
+    /// A picture of the current step as `output.snapshot` asks for it; of shallow water the first field that `output.fields` names. None of
+    /// particles on a line.
+    ///
+    /// # Errors
+    /// [`RunError::Plot`] if it cannot be drawn, and as [`Self::frame`].
+    pub fn draw(&mut self) -> Result<Option<RgbaImage>, RunError> {
+        let asked = self.scene.output.fields.clone().unwrap_or_default();
+        let pictures = self.mesh_pictures(&asked.quantities)?;
+        let reported = self.here()?.reported.clone();
+        let (model, gpu) = (self.scene.model(), self.gpu.clone());
+        let mut views = Views::new(&gpu, &self.scene, ColourRanges::default());
+        let drawn = match pictures.as_ref().and_then(|pictures| Some((pictures, pictures.fields.first()?))) {
+            Some((pictures, shown)) => {
+                let range = asked.ranges.of(shown.quantity);
+                Some(views.field(shown, pictures, &reported, range, model))
+            }
+            None => views.snapshot(&Shown::of(reported, most_shown(&self.scene)), model),
+        };
+        drawn.transpose().map_err(|source| RunError::Plot { name: "the current step".to_owned(), source })
+    }
+
+    /// A trajectory file in the format of its extension, `gsd` or `xyz`, to which [`write`](Self::write) adds frames. One that exists is
+    /// replaced.
+    ///
+    /// # Errors
+    /// [`RunError::Arrays`] for another extension, [`RunError::Output`] if it cannot be created.
+    pub fn trajectory(&self, path: impl AsRef<Path>) -> Result<TrajectoryWriter, RunError> {
+        let path = path.as_ref();
+        let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        let format = TrajectoryFormat::ALL
+            .into_iter()
+            .find(|format| files::trajectory(*format).rsplit('.').next().is_some_and(|known| known == extension));
+        let Some(format) = format else {
+            let text =
+                format!("`{}`: found the extension `{extension}`; accepted: gsd, xyz", crate::printable::path(path));
+            return Err(RunError::Arrays { mistakes: vec![text] });
+        };
+        Ok(TrajectoryWriter::create(path, format, self.scene.model(), Id::of_run(&self.scene))?)
+    }
+
+    /// Adds the current step to a trajectory.
+    ///
+    /// # Errors
+    /// [`RunError::Output`] if it cannot be written, and as [`Self::frame`].
+    pub fn write(&mut self, trajectory: &mut TrajectoryWriter) -> Result<(), RunError> {
+        trajectory.append(&self.here()?.reported)?;
+        Ok(trajectory.flush()?)
+    }
+
+    /// Saves a checkpoint of the current step, from which a simulation [continues](Self::from_checkpoint) to the bit, and a scene may start.
+    ///
+    /// # Errors
+    /// [`RunError`] if it cannot be written, and as [`Self::frame`].
+    pub fn checkpoint(&mut self, path: impl AsRef<Path>) -> Result<(), RunError> {
+        let state = self.state()?;
+        let carried = self.carried.section(self.scene.model(), &mut self.engine)?;
+        let sections: Vec<_> = carried.into_iter().chain(super::change::section(&self.changes)).collect();
+        // A scene ends after its checkpoint.
+        let steps = self.scene.time.steps.max(state.step);
+        let scene = self.scene.clone().changed(|scene| scene.time.steps = steps);
+        Ok(checkpoint::save(path.as_ref(), Id::of_run(&scene), &scene, &state, &[], &sections)?)
+    }
+
+    /// Goes on from another state of the same step.
+    pub(super) fn restart(&mut self, state: State) -> Result<(), RunError> {
+        self.carried = self.carried.advanced(self.scene.model(), &mut self.engine)?;
+        self.engine.upload(&state)?;
+        self.saved = Arc::new(state);
+        (self.here, self.sampled) = (None, Vec::new());
+        Ok(())
+    }
+
+    /// Goes on with another scene, whose plan is for the same particles.
+    pub(super) fn replace(&mut self, scene: Checked, state: State) -> Result<(), RunError> {
+        self.carried = self.carried.advanced(self.scene.model(), &mut self.engine)?;
+        let planned = Sight::Frames.planned(&scene);
+        let plan = plan_for(&planned, &self.gpu, self.options);
+        if let Some(problem) = plan.misfit(&state, planned.model()) {
+            return Err(RunError::Arrays { mistakes: vec![problem] });
+        }
+        if !self.engine.renumber(&plan, &state)? {
+            // From now on numbers change without compiling kernels.
+            let options = Options { constants_in: ConstantsIn::Buffer, ..self.options };
+            (self.engine, self.options) = open(&self.gpu, &planned, &state, options)?;
+        }
+        (self.scene, self.planned) = (scene, planned);
+        (self.here, self.sampled) = (None, Vec::new());
+        self.saved = Arc::new(state);
+        Ok(())
+    }
 }
 
-/// The ranks that have shared a run, if there are several.
-fn ranks(engine: &dyn Stepper) -> Option<RanksSummary> {
-    let part = engine.plan().part.as_ref()?;
-    let of_rank = |RankReport { host, adapter, arithmetic, traffic, .. }: &RankReport| {
-        let steps = traffic.exchanges.max(1) as f64;
-        RankSummary {
-            host: host.clone(),
-            adapter: adapter.clone(),
-            arithmetic: format!("{arithmetic:08x}"),
-            copies: traffic.copies as f64 / steps,
-            bytes_per_step: traffic.bytes as f64 / steps,
-            seconds_computing: traffic.computing.as_secs_f64() / steps,
-            seconds_exchanging: traffic.exchanging.as_secs_f64() / steps,
-            seconds_waiting: traffic.waiting.as_secs_f64() / steps,
+/// Frames of a simulation, while it advances.
+pub struct Frames<'s> {
+    simulation: &'s mut Simulation,
+    last: u64,
+    every: u64,
+}
+
+impl Iterator for Frames<'_> {
+    type Item = Result<Frame, RunError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let left = self.last.checked_sub(self.simulation.step()).filter(|left| *left > 0)?;
+        let frame = self.simulation.advance(left.min(self.every)).and_then(|()| self.simulation.frame());
+        if frame.is_err() {
+            self.last = 0;
         }
-    };
-    let ranks: Vec<RankSummary> = engine.ranks().iter().map(of_rank).collect();
-    let computing = |rank: &RankSummary| rank.seconds_computing;
-    let mean = ranks.iter().map(computing).sum::<f64>() / ranks.len().max(1) as f64;
-    let slowest = ranks.iter().map(computing).fold(0.0, f64::max);
-    Some(RanksSummary {
-        parts: part.part.division.parts,
-        halo: part.halo,
-        alike: computes_alike(engine.ranks()),
-        slowest_over_mean: if mean > 0.0 { slowest / mean } else { 1.0 },
-        ranks,
-    })
+        Some(frame)
+    }
+}
+
+/// An engine with as much room as its first state needs.
+fn open(
+    gpu: &Gpu,
+    scene: &Checked,
+    state: &State,
+    mut options: Options,
+) -> Result<(Engine<'static>, Options), RunError> {
+    loop {
+        match Engine::new(gpu, plan_for(scene, gpu, options), state) {
+            Err(EngineError::Crowded { .. }) if options.has_room_left() => {
+                options = options.with_room(scene.model().particle_count());
+            }
+            opened => return Ok((opened?, options)),
+        }
+    }
 }

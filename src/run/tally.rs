@@ -34,12 +34,28 @@ impl Carried {
         }
     }
 
+    /// The numbers at the current step, for an engine that begins there.
+    pub(super) fn advanced(&self, model: &Model, engine: &mut dyn Stepper) -> Result<Self, RunError> {
+        let numbers = self.numbers_at(model, engine)?.map_or_else(Vec::new, |(_, numbers)| numbers);
+        Ok(Self { step: engine.step(), numbers })
+    }
+
     /// What a checkpoint of the current step has to keep, if anything.
     pub(super) fn section(
         &self,
         model: &Model,
         engine: &mut dyn Stepper,
     ) -> Result<Option<(String, Vec<u8>)>, RunError> {
+        let found = self.numbers_at(model, engine)?;
+        Ok(found.map(|(section, numbers)| (section.to_owned(), bytes(numbers.into_iter()))))
+    }
+
+    /// The section of the numbers at the current step, and these.
+    fn numbers_at(
+        &self,
+        model: &Model,
+        engine: &mut dyn Stepper,
+    ) -> Result<Option<(&'static str, Vec<f64>)>, RunError> {
         let Some(tally) = model.physics().tally() else { return Ok(None) };
         let limited = engine.limited_exchanges()?;
         let words = match tally.array(model) {
@@ -47,7 +63,6 @@ impl Carried {
             Some(array) => Some(engine.words(array)?),
             None => Some(Vec::new()),
         };
-        let numbers = tally.after(&self.numbers, &Counted { limited, words });
-        Ok(Some((tally.section().to_owned(), bytes(numbers.into_iter()))))
+        Ok(Some((tally.section(), tally.after(&self.numbers, &Counted { limited, words }))))
     }
 }

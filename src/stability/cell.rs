@@ -2,10 +2,11 @@
 
 use super::request::Arguments;
 use super::verdict::{Verdict, verdict};
+use crate::engine::EngineError;
 use crate::families::Checked;
 use crate::gpu::AdapterChoice;
 use crate::measure::equilibration::transient;
-use crate::run::{self, Interrupt, RunError, Stop, Trial};
+use crate::run::{self, Interrupt, RunError, Sight, Simulation, Stop};
 use crate::scene::SceneError;
 use crate::tradeoff::{self, Deviation, Measured, References, errors_in_words};
 use serde::{Deserialize, Serialize};
@@ -109,21 +110,22 @@ pub(super) fn evaluate(
     interrupt: &Interrupt,
 ) -> Result<Option<Cell>, RunError> {
     let gpu = run::adapter_for(scene, adapter)?;
-    let mut trial = Trial::new(&gpu, scene)?;
+    let mut trial = Simulation::seeing(Sight::EnergiesAlone, &gpu, scene)?.until(interrupt);
     let (equilibration, every) = (scene.time.equilibration, scene.output.energies.every.max(1));
     let averaged = scene.time.steps.saturating_sub(equilibration);
     let mut cell = Cell { value, time_step: Some(scene.time.step), ..Cell::default() };
     for part in PARTS {
         let more = ((part * averaged as f64 / every as f64).ceil() as u64).saturating_mul(every);
-        match trial.advance(equilibration.saturating_add(more), interrupt)? {
-            Stop::Interrupted => return Ok(None),
-            Stop::Unstable(reason) => {
+        match trial.advance_to(equilibration.saturating_add(more), None) {
+            Ok(Stop::Reached) => {}
+            Ok(Stop::Interrupted) => return Ok(None),
+            Err(error) => {
+                let Some(reason) = reason_of_instability(&error) else { return Err(error) };
                 (cell.verdict, cell.is_certain, cell.reason) = (Verdict::Unstable, true, Some(reason));
                 cell.steps = trial.step();
                 cell.errors.clear();
                 return Ok(Some(cell));
             }
-            Stop::Reached => {}
         }
         cell.steps = trial.step();
         let (errors, lost) = compare(&trial, scene, measures, &arguments.references);
@@ -147,6 +149,15 @@ pub(super) fn evaluate(
     Ok(Some(cell))
 }
 
+/// Why a simulation became unstable, if it did.
+fn reason_of_instability(error: &RunError) -> Option<String> {
+    match error {
+        RunError::UnstableTrial(reason) => Some(format!("{} at step {}", reason.quantity, reason.step)),
+        RunError::Engine(error @ EngineError::GaveUp { .. }) => Some(error.to_string()),
+        _ => None,
+    }
+}
+
 /// Names of measures in a sentence.
 pub(super) fn listed<'m>(measures: impl IntoIterator<Item = &'m String>) -> String {
     measures.into_iter().map(|measure| format!("`{measure}`")).collect::<Vec<_>>().join(", ")
@@ -154,12 +165,12 @@ pub(super) fn listed<'m>(measures: impl IntoIterator<Item = &'m String>) -> Stri
 
 /// How far measures are off, and which are not numbers.
 fn compare(
-    trial: &Trial<'_>,
+    trial: &Simulation,
     scene: &Checked,
     measures: &[String],
     given: &References,
 ) -> (Vec<Deviation>, Vec<String>) {
-    let (means, further) = (trial.means(), tradeoff::of_table(&trial.table(), scene));
+    let (means, further) = (trial.means(), tradeoff::of_table(&trial.energies(), scene));
     let (mut errors, mut lost) = (Vec::new(), Vec::new());
     for measure in measures {
         let Some(reference) = given.known(measure, scene) else { continue };
@@ -177,7 +188,7 @@ fn compare(
 }
 
 /// Measures whose rows after equilibration begin with a transient.
-fn unequilibrated(trial: &Trial<'_>, errors: &[Deviation]) -> Vec<String> {
+fn unequilibrated(trial: &Simulation, errors: &[Deviation]) -> Vec<String> {
     let settled = trial.settled();
     let begins = |error: &&Deviation| settled.column(&error.measure).is_some_and(|rows| transient(&rows).is_some());
     errors.iter().filter(begins).map(|error| error.measure.clone()).collect()

@@ -7,7 +7,7 @@ use super::run::{Observer, StudyEvent, StudyRun};
 use crate::families::Checked;
 use crate::gpu::AdapterChoice;
 use crate::output::{Id, OutputError, RunDirectory, Summary, files, of_one_run};
-use crate::run::{Event, Progress, RunError, Simulation};
+use crate::run::{Event, Progress, Run, RunError};
 use crate::scene::Scene;
 use std::path::Path;
 
@@ -41,7 +41,7 @@ pub(crate) fn finished(directory: &Path, scene: &Scene, id: Id, reference: &'sta
 
 impl Member {
     /// The run in its directory: from its checkpoint if there is one, else from the beginning.
-    fn simulation(&self, directory: &Path, summary: &'static str) -> Result<Simulation, RunError> {
+    fn simulation(&self, directory: &Path, summary: &'static str) -> Result<Run, RunError> {
         let steps = self.scene.time.steps;
         if directory.is_dir() {
             // The run of another scene is not to be continued, nor to be overwritten.
@@ -49,9 +49,9 @@ impl Member {
         }
         if !directory.join(files::CHECKPOINT).exists() {
             // What is found without a checkpoint is the beginning of this very run.
-            return Ok(Simulation::start(self.scene.clone(), directory, true).with_id(self.id));
+            return Ok(Run::start(self.scene.clone(), directory, true).with_id(self.id));
         }
-        let simulation = Simulation::resume(directory, Some(steps))?;
+        let simulation = Run::resume(directory, Some(steps))?;
         if simulation.first_step() > steps {
             return Err(OutputError::Continued { directory: directory.to_path_buf(), finished: steps }.into());
         }

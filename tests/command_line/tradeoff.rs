@@ -708,7 +708,7 @@ fn analyses_find_what_they_say_beforehand() {
         let scene = mesoscope::scene::load(scene, &set).unwrap();
         let asked = mesoscope::run::asked_analyses(&scene);
         let place = place();
-        let run = mesoscope::run::Simulation::start(scene.clone(), place.path("run"), false);
+        let run = mesoscope::run::Run::start(scene.clone(), place.path("run"), false);
         let results = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap().summary.results;
         for asked in asked {
             let Some(Value::Object(result)) = results.get(asked.id.name()) else { continue };

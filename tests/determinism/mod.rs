@@ -16,6 +16,7 @@ mod relaxation;
 mod resumed_analyses;
 mod shallow_water;
 mod shear;
+mod simulations;
 mod timing;
 mod voronoi;
 mod walls;

@@ -6,7 +6,7 @@ use std::path::Path;
 use mesoscope::output::files;
 use mesoscope::plan::{Hardware, Options, Storage, Traversal};
 use mesoscope::run;
-use mesoscope::run::Simulation;
+use mesoscope::run::Run;
 use mesoscope::scene::{Checked, Scene};
 use mesoscope::shaders::{Array, Constant};
 use mesoscope::state::State;
@@ -202,7 +202,7 @@ fn molecules_are_whole() {
 }
 
 fn run(scene: Checked, directory: &Path) {
-    Simulation::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap();
+    Run::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap();
 }
 
 #[test]
@@ -226,7 +226,7 @@ fn a_resumed_trajectory_has_the_bytes_of_a_whole_one() {
         let bytes = |directory: &Path| fs::read(directory.join(name)).unwrap();
         run(edited(&scene, |scene| scene.time.steps = 85), &parts);
         let checkpoint = fs::read(parts.join(files::CHECKPOINT)).unwrap();
-        let resume = |steps| Simulation::resume(&parts, Some(steps)).unwrap().execute(&adapter(), &mut |_| {}).unwrap();
+        let resume = |steps| Run::resume(&parts, Some(steps)).unwrap().execute(&adapter(), &mut |_| {}).unwrap();
         resume(200);
         assert!(bytes(&whole) == bytes(&parts), "{format}");
         // Killed after frames that the last checkpoint knows nothing of.

@@ -4,7 +4,7 @@
 use mesoscope::output::checkpoint::{self, Checkpoint};
 use mesoscope::output::{Summary, files};
 use mesoscope::plan::Division;
-use mesoscope::run::{Event, Interrupt, Outcome, RunError, Simulation};
+use mesoscope::run::{Event, Interrupt, Outcome, Run, RunError};
 use mesoscope::scene::{self, Checked};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -28,13 +28,13 @@ fn small(scene: &Checked, changes: &[&str]) -> Checked {
 }
 
 fn run(scene: &Checked, directory: &Path) -> Outcome {
-    Simulation::start(scene.clone(), directory, true).execute(&adapter(), &mut |_| {}).unwrap()
+    Run::start(scene.clone(), directory, true).execute(&adapter(), &mut |_| {}).unwrap()
 }
 
 /// Runs a scene in slabs until it is interrupted at a step after the first.
 fn run_until(scene: &Checked, directory: &Path, step: u64, slabs: u32) {
     let interrupt = Interrupt::default();
-    let run = Simulation::start(scene.clone(), directory, true).until(&interrupt).on_ranks(Some(of_slabs(slabs)));
+    let run = Run::start(scene.clone(), directory, true).until(&interrupt).on_ranks(Some(of_slabs(slabs)));
     let stopped = run.execute(&adapter(), &mut |event| match event {
         // The interrupt is seen after one step more.
         Event::Advanced(progress) if progress.step + 1 >= step => interrupt.ask(),
@@ -47,7 +47,7 @@ fn run_until(scene: &Checked, directory: &Path, step: u64, slabs: u32) {
 }
 
 fn resume(directory: &Path) -> Result<Outcome, RunError> {
-    Simulation::resume(directory, None)?.execute(&adapter(), &mut |_| {})
+    Run::resume(directory, None)?.execute(&adapter(), &mut |_| {})
 }
 
 /// Ranks one above the other along z.
@@ -134,7 +134,7 @@ fn ranks_go_on_with_windows_of_each_other() {
         let [first, second] = [[1, 3], [3, 2], [2, 1]][number];
         let parts = directory.path().join("parts");
         run_until(&scene, &parts, 18, first);
-        let resumed = Simulation::resume(&parts, None).unwrap().on_ranks(Some(of_slabs(second)));
+        let resumed = Run::resume(&parts, None).unwrap().on_ranks(Some(of_slabs(second)));
         resumed.execute(&adapter(), &mut |_| {}).unwrap();
         let [whole, parts] = [contents(&whole), contents(&parts)];
         // The summary says how many ranks there were.

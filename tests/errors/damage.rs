@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use mesoscope::gpu::{AdapterChoice, prepare_environment};
 use mesoscope::output::{Id, checkpoint, files};
-use mesoscope::run::{Interrupt, RunError, Simulation};
+use mesoscope::run::{Interrupt, Run, RunError};
 use mesoscope::scene::{self, Checked};
 use mesoscope::sweep::{self, SweepSummary, VariantState, VariantSummary};
 use rand::rngs::StdRng;
@@ -87,7 +87,7 @@ fn half_way(place: &Path) -> Vec<(&'static str, Files)> {
     let run = |(name, scene): (&'static str, Checked)| {
         let directory = place.join(name);
         let half = edited(&scene, |scene| scene.time.steps = 30);
-        Simulation::start(half, &directory, false).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+        Run::start(half, &directory, false).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
         fs::remove_file(directory.join(files::SUMMARY)).unwrap();
         let files = listing(&directory).into_iter().map(|name| (name.clone(), bytes(&directory.join(&name))));
         let files = files.collect();
@@ -208,7 +208,7 @@ fn alter_checkpoints(seed: u64, each: usize, executed: usize) {
         let (start, payload) = (&whole[..12], &whole[HEADER..whole.len() - CHECKSUM]);
         assert!(sealed(start, payload) == whole, "the format is another one");
         lay_out(&directory, &files);
-        drop(Simulation::resume(&directory, Some(40)).unwrap_or_else(|error| panic!("{name}: {error}")));
+        drop(Run::resume(&directory, Some(40)).unwrap_or_else(|error| panic!("{name}: {error}")));
         let mut allowed = executed;
         for case in 0..each {
             let altered = sealed(start, &mutated(payload, &mut random));
@@ -218,7 +218,7 @@ fn alter_checkpoints(seed: u64, each: usize, executed: usize) {
                 fs::write(&kept, &altered).unwrap();
                 panic!("{name}, case {case} of seed {seed}: {problem}; see {}", kept.display())
             };
-            let (resumed, cost) = measured(|| Simulation::resume(&directory, Some(40)));
+            let (resumed, cost) = measured(|| Run::resume(&directory, Some(40)));
             let Ok(resumed) = resumed else { say("it panics") };
             if cost.memory > MEMORY {
                 say("it takes too much memory");
@@ -288,7 +288,7 @@ fn shipped_scenes_come_back_from_checkpoints() {
         let scene = scene::load(builtin.name, &[]).unwrap();
         let state = mesoscope::families::initial_state(&scene);
         checkpoint::save(&place.path().join(files::CHECKPOINT), Id::of_run(&scene), &scene, &state, &[], &[]).unwrap();
-        let resumed = Simulation::resume(place.path(), None);
+        let resumed = Run::resume(place.path(), None);
         let resumed = resumed.unwrap_or_else(|error| panic!("{}: {error}", builtin.name));
         assert!(*resumed.scene() == scene, "{}", builtin.name);
     }
@@ -303,7 +303,7 @@ fn flip_tables(seed: u64, each: usize) {
         let (whole, directory) = (place.path().join(name), place.path().join("run"));
         let run = |steps: u64| {
             let scene = edited(&scene, |scene| scene.time.steps = steps);
-            Simulation::start(scene, &whole, true).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+            Run::start(scene, &whole, true).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
         };
         run(50);
         let longer = listing(&whole).into_iter().map(|name| (name.clone(), bytes(&whole.join(name))));
@@ -323,7 +323,7 @@ fn flip_tables(seed: u64, each: usize) {
             content[place] ^= 1 << random.random_range(0..8);
             let table = table.clone();
             lay_out(&directory, &altered);
-            let resumed = Simulation::resume(&directory, Some(60)).unwrap();
+            let resumed = Run::resume(&directory, Some(60)).unwrap();
             match resumed.execute(&AdapterChoice::Best, &mut |_| {}) {
                 Err(RunError::Stopped { source, .. } | RunError::Output(source)) => {
                     refused += 1;

@@ -8,7 +8,7 @@ use std::thread;
 use mesoscope::gpu::{AdapterChoice, prepare_environment};
 use mesoscope::output::{OutputError, RunDirectory, files};
 use mesoscope::plan::Division;
-use mesoscope::run::{self, RunError, Simulation};
+use mesoscope::run::{self, Run, RunError};
 use mesoscope::scene::{self, Checked, SceneError, WrittenScene};
 use mesoscope::state_file::GsdWriter;
 use serde_json::{Value, json};
@@ -29,7 +29,7 @@ fn small() -> Checked {
 /// A finished run of it.
 fn finished(directory: &Path) {
     prepare_environment();
-    Simulation::start(small(), directory, false).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+    Run::start(small(), directory, false).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
 }
 
 /// What `resume`, to a later step, and `plot` say of a directory, if they say it soon.
@@ -38,7 +38,7 @@ fn refusals(directory: &Path) -> [String; 2] {
     let directory = directory.to_path_buf();
     let (sender, receiver) = mpsc::channel();
     thread::spawn(move || {
-        let resumed = Simulation::resume(&directory, Some(40))
+        let resumed = Run::resume(&directory, Some(40))
             .and_then(|simulation| simulation.execute(&AdapterChoice::Best, &mut |_| {}).map(drop));
         let drawn = RunDirectory::open(&directory).map_err(RunError::from);
         let drawn = drawn.and_then(|place| run::redraw(&place, &AdapterChoice::Best, &[]).map(drop));
@@ -103,16 +103,16 @@ fn summaries_that_were_edited_are_refused() {
         &|content| content["checksum"] = json!("0000000000000000"),
     ] {
         edited(edit);
-        let resumed = Simulation::resume(place.path(), None).unwrap_err();
+        let resumed = Run::resume(place.path(), None).unwrap_err();
         assert!(matches!(resumed, RunError::Output(OutputError::Edited { .. })), "{resumed}");
         let drawn = run::redraw(&RunDirectory::open(place.path()).unwrap(), &AdapterChoice::Best, &[]).unwrap_err();
         assert!(matches!(drawn, RunError::Output(OutputError::Edited { .. })), "{drawn}");
     }
     // Other breaks of lines are the same content; an earlier version of the program noted no checksum.
     edited(&|_| {});
-    assert!(Simulation::resume(place.path(), None).unwrap().is_finished());
+    assert!(Run::resume(place.path(), None).unwrap().is_finished());
     edited(&|content| drop(content.as_object_mut().unwrap().remove("checksum")));
-    assert!(Simulation::resume(place.path(), None).unwrap().is_finished());
+    assert!(Run::resume(place.path(), None).unwrap().is_finished());
 }
 
 /// Files that are nearly all holes: what they announce is weighed, and what has no lines is not read to its end.

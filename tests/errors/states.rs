@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use mesoscope::output::{Id, checkpoint, files};
-use mesoscope::run::Simulation;
+use mesoscope::run::Run;
 use mesoscope::scene::{self, Checked, SceneError};
 use mesoscope::state_file::GsdWriter;
 use rand::rngs::StdRng;
@@ -314,7 +314,7 @@ fn copies_beyond_the_room_of_the_adapter() {
             place.load("init", &[("/state/replicate", json!(copies)), ("/space", json!({"box": edges}))]).unwrap();
         let (answer, cost) = measured(|| {
             let results = place.path().join("results");
-            Simulation::start(scene, &results, true).execute(&adapter(), &mut |_| {}).unwrap_err().to_string()
+            Run::start(scene, &results, true).execute(&adapter(), &mut |_| {}).unwrap_err().to_string()
         });
         let said = answer.unwrap();
         let copies: u64 = copies.iter().product();

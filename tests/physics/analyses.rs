@@ -9,8 +9,10 @@ use mesoscope::measure::histogram::{gaussian_mean, maxwell_mean};
 use mesoscope::measure::wave_vectors::wave_vectors;
 use mesoscope::output::read_table;
 use mesoscope::plan::Options;
-use mesoscope::run::{Outcome, Simulation};
-use mesoscope::scene::{self, AnalysisId, Checked, CorrelatedQuantity, CountedQuantity, Integrator, SceneError};
+use mesoscope::run::{Outcome, Run};
+use mesoscope::scene::{
+    self, AnalysisId, ChainSizes, Checked, CorrelatedQuantity, CountedQuantity, Integrator, SceneError,
+};
 use mesoscope::shaders::{Array, Constant};
 use mesoscope::table::Table;
 use serde_json::{Value, json};
@@ -20,7 +22,7 @@ use crate::support::{
 };
 
 fn run(scene: Checked, directory: &Path) -> Outcome {
-    Simulation::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap()
+    Run::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap()
 }
 
 fn number(outcome: &Outcome, path: &[&str]) -> f64 {
@@ -617,6 +619,13 @@ fn sizes_of_molecules() {
     let groups = scene.model().particles().chain_groups.clone();
     let kinds: Vec<_> = groups.iter().map(|group| (group.name.as_str(), group.chains, group.linear)).collect();
     assert_eq!(kinds, [("A + 4 B", 20, false), ("4 B", 30, true)]);
+    // Those with particles of A are the stars, of B both.
+    for (species, those) in [("A", 0..1), ("B", 0..2)] {
+        let asked = ChainSizes { every: 7, species: Some(species.to_owned()) };
+        let chosen = edited(&scene, |scene| scene.output.chain_sizes = Some(asked));
+        assert_eq!(chosen.model().particles().chain_groups, groups[those.clone()], "{species}");
+        assert_eq!(last_sample_and_reference(&chosen, 35).0, found[2 * those.start..2 * those.end], "{species}");
+    }
 }
 
 /// Chains in a box whose boundaries shear are measured from copy to copy, where the boundaries have displaced them.

@@ -6,7 +6,7 @@ use mesoscope::gpu::AdapterChoice;
 use mesoscope::measure::harmonic_chain::{NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses, thermal_start};
 use mesoscope::measure::statistics::Estimate;
 use mesoscope::output::read_table;
-use mesoscope::run::Simulation;
+use mesoscope::run;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 /// A chain with the noise of strength √(`noise` · kTγ) on every dashpot, moved by leapfrog steps between which friction and
@@ -231,11 +231,10 @@ fn the_scene_on_the_device() {
     };
     let scene = |steps: u64| mesoscope::scene::load("harmonic-chain", &overrides(steps)).unwrap();
     let [whole, halves] = [(); 2].map(|()| tempfile::tempdir().unwrap());
-    let outcome =
-        Simulation::start(scene(1280), whole.path(), true).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
-    let first = Simulation::start(scene(640), halves.path(), true);
+    let outcome = run::Run::start(scene(1280), whole.path(), true).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+    let first = run::Run::start(scene(640), halves.path(), true);
     first.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
-    let rest = Simulation::resume(halves.path(), Some(1280)).unwrap();
+    let rest = run::Run::resume(halves.path(), Some(1280)).unwrap();
     rest.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
     for name in TABLES {
         let [one, other] = [&whole, &halves].map(|directory| std::fs::read(directory.path().join(name)).unwrap());

@@ -6,7 +6,7 @@ use mesoscope::engine::Sample;
 use mesoscope::families::Model;
 use mesoscope::output::read_table;
 use mesoscope::plan::Options;
-use mesoscope::run::{Outcome, Simulation};
+use mesoscope::run::{Outcome, Run};
 use mesoscope::scene::{Checked, ProfiledQuantity};
 use mesoscope::shaders::Array;
 use mesoscope::table::Table;
@@ -16,7 +16,7 @@ use crate::support::{
 };
 
 fn run(scene: Checked, directory: &Path) -> (Outcome, Table) {
-    let outcome = Simulation::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap();
+    let outcome = Run::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap();
     (outcome, read_table(&directory.join("profiles.csv")).unwrap())
 }
 

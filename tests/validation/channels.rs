@@ -1,7 +1,7 @@
 //! Flow between walls: `make validate`. Each test prints its table in Markdown.
 
 use mesoscope::output::read_table;
-use mesoscope::run::Simulation;
+use mesoscope::run::Run;
 use mesoscope::scene::{Checked, Scene};
 
 use crate::support::{Device, INTEGRATORS, Implementation, adapter, edited, fluid};
@@ -204,7 +204,7 @@ fn layers_leave_the_fluid_as_it_is() {
                 output.profiles = Some(serde_json::from_value(asked).unwrap());
             });
             let directory = tempfile::tempdir().unwrap();
-            Simulation::start(scene, directory.path(), true).execute(&adapter(), &mut |_| {}).unwrap();
+            Run::start(scene, directory.path(), true).execute(&adapter(), &mut |_| {}).unwrap();
             let table = read_table(&directory.path().join("profiles.csv")).unwrap();
             ["temperature", "number_density"].map(|column| table.values(column))
         });

@@ -1,6 +1,6 @@
 //! What rules of relaxation do to temperatures and transport under strong friction: `make validate`. Each test prints its table in Markdown.
 
-use mesoscope::run::Simulation;
+use mesoscope::run::Run;
 use mesoscope::scene::Checked;
 use serde_json::{Value, json};
 
@@ -27,8 +27,7 @@ fn with(mut document: Value, rule: Option<&str>) -> Checked {
 /// The summary of a run.
 fn run(scene: Checked) -> (Value, Value) {
     let directory = tempfile::tempdir().unwrap();
-    let outcome =
-        Simulation::start(scene, directory.path().join("run"), false).execute(&adapter(), &mut |_| ()).unwrap();
+    let outcome = Run::start(scene, directory.path().join("run"), false).execute(&adapter(), &mut |_| ()).unwrap();
     let [means, results] =
         [serde_json::to_value(&outcome.summary.means), serde_json::to_value(&outcome.summary.results)];
     (means.unwrap(), results.unwrap())

@@ -104,6 +104,10 @@ pub enum FieldQuantity {
 }
 
 impl FieldQuantity {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Depth, Self::PotentialVorticity, Self::Vorticity, Self::Speed, Self::VelocityX, Self::VelocityY];
+
     /// The stem of the names of its files.
     #[must_use]
     pub fn stem(self) -> &'static str {

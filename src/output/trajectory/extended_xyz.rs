@@ -101,8 +101,8 @@ fn write_frame(text: &mut Vec<u8>, description: &Description, state: &Reported) 
     )?;
     for particle in 0..state.len() {
         let species = state.species[particle] as usize;
-        let mass = description.mass(state, particle);
-        let velocity = description.velocity(state, particle);
+        let mass = description.kinematics.mass(state, particle);
+        let velocity = description.kinematics.velocity(state, particle);
         let mut position = description.units.position(state.positions[particle]);
         if let Some((axis, edges)) = description.displaced(state.step) {
             // Into the cell that leans.

@@ -120,7 +120,7 @@ impl Frames for GsdTrajectory {
                 write_constants(frame, description, state)?;
             }
             if first || description.changing_masses {
-                let masses = (0..state.len()).map(|particle| description.mass(state, particle) as f32);
+                let masses = (0..state.len()).map(|particle| description.kinematics.mass(state, particle) as f32);
                 frame.scalars("particles/mass", masses)?;
             }
             frame.scalars("configuration/step", [state.step])?;
@@ -131,8 +131,8 @@ impl Frames for GsdTrajectory {
                 None => centred(description, *position).0,
             });
             frame.arrays("particles/position", positions)?;
-            let velocities =
-                (0..state.len()).map(|particle| description.velocity(state, particle).map(|value| value as f32));
+            let velocities = (0..state.len())
+                .map(|particle| description.kinematics.velocity(state, particle).map(|value| value as f32));
             frame.arrays("particles/velocity", velocities)?;
             if lean.is_none() {
                 let images = (0..state.len()).map(|particle| {
@@ -397,6 +397,7 @@ fn refused(attempted: &'static str, path: &Path, error: GsdError) -> OutputError
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::families::Kinematics;
     use crate::state::Units;
 
     #[test]
@@ -415,8 +416,7 @@ mod tests {
             units,
             time_step: 0.1,
             species: Vec::new(),
-            mass_unit: None,
-            specific_momenta: false,
+            kinematics: Kinematics::default(),
             changing_masses: false,
             shear: None,
             bonds: Vec::new(),

@@ -4,7 +4,7 @@ mod extended_xyz;
 mod gsd;
 
 use super::{Extent, Id, OutputError, files, own_file};
-use crate::families::{Angles, Bonds, Model, ShearedBox, Species};
+use crate::families::{Angles, Bonds, Kinematics, Model, ShearedBox, Species};
 use crate::scene::TrajectoryFormat;
 use crate::state::{Reported, Units};
 use std::fmt::Debug;
@@ -80,7 +80,7 @@ pub(crate) fn bytes_per_particle(format: TrajectoryFormat) -> u64 {
 }
 
 /// The file of a format, open for writing.
-trait Frames: Debug {
+trait Frames: Debug + Send {
     /// What has been written until the last flush.
     fn extent(&self) -> Extent;
     /// Looks whether the file under this name is still the one that was written.
@@ -98,10 +98,7 @@ struct Description {
     units: Units,
     time_step: f64,
     species: Vec<Species>,
-    /// Value of one unit of integer mass, where every particle has a mass of its own.
-    mass_unit: Option<f64>,
-    /// Whether momenta are per unit of mass, as in shallow water.
-    specific_momenta: bool,
+    kinematics: Kinematics,
     /// Whether particles exchange mass.
     changing_masses: bool,
     /// Boundaries that shear, if there are any, and how far their clock is ahead of the steps.
@@ -122,8 +119,7 @@ impl Description {
             units: model.units,
             time_step: model.time_step,
             species: model.species.clone(),
-            mass_unit: model.physics().mass_unit(),
-            specific_momenta: model.physics().has_specific_momenta(),
+            kinematics: Kinematics::new(model),
             changing_masses: model.physics().changes_masses(),
             shear: particles.shear.map(|shear| (shear, model.clock(0))),
             bonds: particles.bonds.iter().flat_map(Bonds::iter).map(|bond| (bond.ends, bond.kind)).collect(),
@@ -141,18 +137,6 @@ impl Description {
         self.bonds = selected(&self.bonds, &places);
         self.angles = selected(&self.angles, &places);
         self.numbers = Some(numbers);
-    }
-
-    fn mass(&self, state: &Reported, particle: usize) -> f64 {
-        match (self.mass_unit, state.masses.get(particle)) {
-            (Some(unit), Some(mass)) => f64::from(*mass) * unit,
-            _ => self.species[state.species[particle] as usize].mass,
-        }
-    }
-
-    fn velocity(&self, state: &Reported, particle: usize) -> [f64; 3] {
-        let mass = if self.specific_momenta { 1.0 } else { self.mass(state, particle) };
-        self.units.momentum(state.momenta[particle]).map(|momentum| momentum / mass)
     }
 
     /// The axis across which boundaries shear, and how far the copy of the box above is displaced along x at a step, in edges from -½ to ½:
@@ -302,10 +286,10 @@ mod tests {
         let state: Reported = initial_state(&scene).into();
         let description = Description::new(scene.model(), Id::of_run(&scene));
         assert!(description.changing_masses);
-        let masses = [0, 1, 2].map(|cell| description.mass(&state, cell));
+        let masses = [0, 1, 2].map(|cell| description.kinematics.mass(&state, cell));
         assert!((masses.iter().sum::<f64>() - 6.0).abs() < 1e-9 && masses[0] != masses[1], "{masses:?}");
         for (cell, expected) in [[1.0, 0.0], [0.0, 2.0], [-1.0, 0.5]].iter().enumerate() {
-            let found = description.velocity(&state, cell);
+            let found = description.kinematics.velocity(&state, cell);
             assert!((0..2).all(|axis| (found[axis] - expected[axis]).abs() < 1e-5), "{cell}: {found:?}");
         }
     }
@@ -367,7 +351,7 @@ mod tests {
         let scene = scene::load("jet-instability", &[]).unwrap();
         let state: Reported = initial_state(&scene).into();
         let description = Description::new(scene.model(), Id::of_run(&scene));
-        let masses: Vec<f64> = (0..state.len()).map(|particle| description.mass(&state, particle)).collect();
+        let masses: Vec<f64> = (0..state.len()).map(|particle| description.kinematics.mass(&state, particle)).collect();
         let nodes = 128.0 * 128.0;
         assert!((masses.iter().sum::<f64>() - nodes).abs() < 1e-9);
         assert!(masses[..262_144].iter().all(|mass| *mass > 0.0) && masses[262_144..].iter().all(|mass| *mass == 0.0));

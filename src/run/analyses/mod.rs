@@ -31,6 +31,7 @@ mod viscosity;
 pub(super) use planner::Planner;
 pub(super) use results::mean;
 pub use results::printed_estimate;
+pub(super) use stress::stress_of_sample;
 pub(super) use under_way::Analyses;
 
 pub(super) use descriptor::Setting;

@@ -9,7 +9,7 @@ use crate::families::{Checked, Model};
 use crate::measure::green_kubo::{StressCorrelation, stress_correlation};
 use crate::measure::statistics::estimate;
 use crate::measure::stress::{Components, surface_tension};
-use crate::plan::Need;
+use crate::plan::{Need, Plan, SamplerId};
 use crate::plot::{Chart, stress_chart, stress_correlation_chart};
 use crate::scene::{AnalysisId, Frame, Output};
 use crate::shaders::{Array, Constant, Entry};
@@ -32,6 +32,20 @@ const SHEARED: &str = "viscosity_in_shear";
 
 /// The pressure tensor.
 pub(super) struct Stress;
+
+/// The pressure tensor of a sample: of motion, of conservative forces, of friction and noise.
+fn parts_of_sample(sample: &Sample, plan: &Plan, model: &Model) -> [[f64; 6]; 3] {
+    let units = [plan.quanta.energy, plan.stress_unit, plan.stress_unit];
+    std::array::from_fn(|part| {
+        std::array::from_fn(|component| sample.sums[6 * part + component] as f64 * units[part] / model.units.volume())
+    })
+}
+
+/// The same, if the sample is one of the stress.
+pub(in crate::run) fn stress_of_sample(sample: &Sample, plan: &Plan, model: &Model) -> Option<[[f64; 6]; 3]> {
+    let is_stress = plan.samplers[sample.sampler].id == SamplerId::Analysis(AnalysisId::Stress);
+    is_stress.then(|| parts_of_sample(sample, plan, model))
+}
 
 impl Descriptor for Stress {
     fn asked(&self, scene: &Checked) -> Option<Sampling> {
@@ -63,10 +77,8 @@ impl Descriptor for Stress {
     }
 
     fn numbers_of_sample(&self, Setting { scene, plan }: &Setting<'_>, sample: &Sample) -> Option<Vec<f64>> {
-        let units = [plan.quanta.energy, plan.stress_unit, plan.stress_unit].map(|unit| [unit; 6]);
-        let pressures = sample.sums.iter().zip(units.as_flattened());
-        let pressures = pressures.map(|(sum, unit)| *sum as f64 * unit / scene.model().units.volume());
-        Some(std::iter::once(sample.step as f64).chain(pressures).collect())
+        let pressures = parts_of_sample(sample, plan, scene.model());
+        Some(std::iter::once(sample.step as f64).chain(pressures.into_iter().flatten()).collect())
     }
 
     fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {

@@ -492,7 +492,8 @@ mod tests {
             }
         }
         // Fields do not say how large the box is where the scene does not.
-        let (text, water) = (path.display().to_string(), r#"{"species":"water","count":2048,"placement":{"type":"lattice"}}"#);
+        let (text, water) =
+            (path.display().to_string(), r#"{"species":"water","count":2048,"placement":{"type":"lattice"}}"#);
         let document = format!(
             r#"{{"title":"t","time":{{"step":0.01,"steps":1}},"temperature":0,"particles":[{water}],"state":{{"file":"{text}"}},
                 "interactions":[{{"type":"shallow-water","mesh":[16,8],"spline_order":3,"wave_speed":1,"rotation":1,

@@ -1,0 +1,325 @@
+"""What runs leave in their directories."""
+
+from __future__ import annotations
+
+import csv
+import html
+import json
+import os
+import re
+import struct
+import zlib
+from base64 import b64encode
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from .errors import ArrayError, FileError
+
+
+class Mean(NamedTuple):
+    """A measured number with its standard error, of 68 %."""
+
+    value: float
+    #: None where the samples are too few.
+    error: float | None
+    samples: int = 0
+    #: True if the error is not known to a quarter of itself, and may be larger.
+    few: bool = False
+    unit: str = ""
+
+    def __str__(self) -> str:
+        value, unit = self.value, f" {self.unit}" if self.unit not in ("", "number") else ""
+        if self.error is None or not np.isfinite(self.error):
+            return f"{value:.6g}{unit}"
+        if self.error == 0:
+            return f"{value:.10g}{unit}"
+        digits = max(0, 1 - int(np.floor(np.log10(self.error))))
+        return f"{value:.{digits}f} ± {self.error:.{digits}f}{'*' if self.few else ''}{unit}"
+
+    def __float__(self) -> float:
+        return float(self.value)
+
+
+class Picture:
+    """A picture that a run has drawn, which notebooks show."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def __repr__(self) -> str:
+        return f"<picture {str(self.path)!r}>"
+
+    def __fspath__(self) -> str:
+        return str(self.path)
+
+    def _repr_png_(self) -> bytes:
+        return self.path.read_bytes()
+
+
+def _numbers(cells: list[str]) -> np.ndarray:
+    try:
+        return np.array([float(cell) if cell else np.nan for cell in cells])
+    except ValueError:
+        return np.array(cells, dtype=object)
+
+
+def read_table(path: Path) -> dict[str, np.ndarray]:
+    """A table as arrays by the names of its columns; empty cells are NaN."""
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    except OSError as error:
+        raise FileError(f"cannot read the table `{path}`: {error.strerror}") from None
+    if not rows:
+        raise FileError(f"`{path}` is empty: the run has not written it, or it was cut off")
+    names, rows = rows[0], rows[1:]
+    for number, row in enumerate(rows, start=2):
+        if len(row) != len(names):
+            raise FileError(f"`{path}`, line {number}: found {len(row)} cells; accepted: {len(names)}, as in its first line")
+    return {name: _numbers([row[place] for row in rows]) for place, name in enumerate(names)}
+
+
+def _mean(found: Any) -> Mean:
+    if found is None:
+        return Mean(float("nan"), None)
+    if not isinstance(found, dict):
+        return Mean(found, 0.0)
+    value = found.get("value")
+    return Mean(
+        float("nan") if value is None else value,
+        found.get("error"),
+        int(found.get("samples", 0)),
+        bool(found.get("few", False)),
+        found.get("unit", ""),
+    )
+
+
+class Run:
+    """A run that has ended, by its directory."""
+
+    def __init__(self, directory: str | os.PathLike[str]) -> None:
+        self.directory = Path(directory)
+        path = self.directory / "run.json"
+        try:
+            self.summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            raise FileError(f"there is no finished run in `{self.directory}`: it has no run.json; `resume` finishes one") from None
+        except ValueError as error:
+            raise FileError(f"`{path}` is no summary of a run: {error}") from None
+
+    def __repr__(self) -> str:
+        return f"<mesoscope.Run of {self.title!r} in {str(self.directory)!r}, {self.steps} steps>"
+
+    def _repr_html_(self) -> str:
+        def row(name: str, mean: Mean) -> str:
+            return f"<tr><td>{html.escape(name)}</td><td>{html.escape(str(mean))}</td></tr>"
+
+        means = "".join(row(name, mean) for name, mean in self.means.items() if np.isfinite(mean.value))
+        warnings = "".join(f"<li>{html.escape(warning)}</li>" for warning in self.warnings)
+        picture = self.directory / "energies.png"
+        drawn = f'<img width="720" src="data:image/png;base64,{b64encode(picture.read_bytes()).decode()}"/>' if picture.exists() else ""
+        adapter = self.summary.get("adapter", {}).get("name", "")
+        return (
+            f"<h3>{html.escape(self.title)}</h3><p>{self.steps} steps of {self.summary.get('particles')} particles "
+            f"on {html.escape(adapter)}</p>{drawn}<table>{means}</table>" + (f"<ul>{warnings}</ul>" if warnings else "")
+        )
+
+    @property
+    def title(self) -> str:
+        return self.summary["scene"]["title"]
+
+    @property
+    def scene(self) -> dict[str, Any]:
+        """The scene with every default."""
+        return self.summary["scene"]
+
+    @property
+    def steps(self) -> int:
+        return self.summary["steps"]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What to know before trusting the numbers."""
+        return list(self.summary.get("warnings", []))
+
+    @property
+    def means(self) -> dict[str, Mean]:
+        """The means of the table of energies after equilibration."""
+        return {name: _mean(found) for name, found in self.summary["means"].items()}
+
+    def mean(self, name: str) -> Mean:
+        """The mean of a column of the table of energies after equilibration, or a number that an analysis found:
+        ``diffusion.diffusion_einstein``."""
+        if name in self.summary["means"]:
+            return _mean(self.summary["means"][name])
+        found: Any = self.summary.get("results", {})
+        for part in name.split("."):
+            found = found.get(part) if isinstance(found, dict) else None
+        if found is None:
+            known = list(self.summary["means"])
+            known += [f"{key}.{inner}" for key, held in self.results.items() if isinstance(held, dict) for inner in held]
+            raise ArrayError(f"this run has no number {name!r}; accepted: {', '.join(known)}")
+        return _mean(found)
+
+    @property
+    def results(self) -> dict[str, Any]:
+        """What analyses found, as ``run.json`` has it."""
+        return self.summary.get("results", {})
+
+    @property
+    def energies(self) -> dict[str, np.ndarray]:
+        """The table of energies: an array for every column."""
+        return self.table("energies")
+
+    def table(self, name: str) -> dict[str, np.ndarray]:
+        """A table of the run: an array for every column."""
+        file = name if name.endswith(".csv") else f"{name}.csv"
+        if file not in self.summary.get("columns", {}) and not (self.directory / file).exists():
+            known = [table.removesuffix(".csv") for table in self.summary.get("columns", {}) if table.endswith(".csv")]
+            raise ArrayError(f"this run has no table {name!r}; accepted: {', '.join(known)}")
+        return read_table(self.directory / file)
+
+    def columns(self, name: str) -> list[dict[str, Any]]:
+        """The columns of a table, each with its symbol, unit and meaning."""
+        return self.summary["columns"][name if name.endswith(".csv") else f"{name}.csv"]
+
+    def plot(self, name: str = "energies") -> Picture:
+        """A picture that the run has drawn: ``energies``, ``snapshot``, or the name of a table."""
+        path = self.directory / (name if name.endswith(".png") else f"{name}.png")
+        if not path.exists():
+            drawn = sorted(file.stem for file in self.directory.glob("*.png"))
+            raise ArrayError(f"this run has drawn no {name!r}; accepted: {', '.join(drawn) or 'nothing'}")
+        return Picture(path)
+
+    def rdf(self, one: str | None = None, other: str | None = None) -> dict[str, np.ndarray]:
+        """The radial distribution function: ``distance``, ``g`` and its ``error``; of two species where the run has counted them."""
+        table, columns = self.table("radial_distribution"), self.columns("radial_distribution")
+        values = [column for column in columns if not re.search(r"error|count|pairs", column["name"]) and column["name"] != "distance"]
+        if one is not None:
+            wanted = sorted([one, other or one])
+            values = [column for column in values if sorted(_species(column)) in (wanted, wanted[:1] if wanted[0] == wanted[1] else wanted)]
+        if len(values) != 1:
+            pairs = sorted({"–".join(_species(column)) or "all" for column in columns if column["name"] != "distance"})
+            raise ArrayError(f"this run has g(r) of {', '.join(pairs)}; name one of these pairs")
+        name = values[0]["name"]
+        error = next((key for key in table if key in (f"{name}_error", name.replace("g", "error", 1), name.replace("g", "g_error", 1))), None)
+        distance = next(iter(table))
+        found = {"distance": table[distance], "g": table[name]}
+        return found | ({"error": table[error]} if error else {})
+
+    def diffusion(self, species: str | None = None) -> Mean:
+        """The diffusion coefficient from mean squared displacements."""
+        measured = self.scene["output"].get("diffusion", {}).get("species")
+        if species is not None and species != measured:
+            raise ArrayError(f"this run measured the diffusion of {measured or 'all particles'}, not of {species!r}: set output.diffusion.species")
+        return self.mean("diffusion.diffusion_einstein")
+
+    def trajectory(self, unwrap: bool = False) -> np.ndarray:
+        """Positions of all frames: (frames, N, 3), in the box or, unwrapped, along the ways. Reads GSD with the package ``gsd``."""
+        path = self.directory / "trajectory.gsd"
+        if not path.exists():
+            raise ArrayError("this run has no trajectory.gsd: set output.trajectory to {\"every\": …}")
+        try:
+            import gsd.hoomd
+        except ImportError:
+            raise FileError("reading trajectories takes the package gsd: pip install gsd") from None
+        with gsd.hoomd.open(path, "r") as file:
+            frames = []
+            for frame in file:
+                dimensions = frame.configuration.dimensions
+                edges = np.where(np.arange(3) < dimensions, frame.configuration.box[:3], 0.0)
+                positions = frame.particles.position.astype(np.float64) + edges / 2
+                if unwrap:
+                    positions += frame.particles.image * edges
+                frames.append(positions)
+        return np.array(frames)
+
+    @property
+    def fields(self) -> dict[str, np.ndarray]:
+        """Fields of shallow water: each of shape (frames, nodes along x, nodes along y), the last frame that of the end."""
+        found: dict[str, list[tuple[float, np.ndarray]]] = {}
+        for path in self.directory.glob("*.npy"):
+            name, _, number = path.stem.rpartition("-")
+            numbered = number.isdigit() and name
+            key, place = (name, float(number)) if numbered else (path.stem, np.inf)
+            found.setdefault(key, []).append((place, np.load(path)))
+        if not found:
+            raise ArrayError("this run has no arrays of fields; they are of shallow water, with output.fields.format npy")
+        return {key: np.array([array for _, array in sorted(frames, key=lambda pair: pair[0])]) for key, frames in sorted(found.items())}
+
+    def to_xarray(self) -> Any:
+        """The fields of the end with their coordinates, as an ``xarray.Dataset``."""
+        import xarray
+
+        mesh = self.summary["mesh"]
+        coordinates = {axis: np.arange(count) * step for axis, count, step in zip("xy", mesh["nodes"], mesh["spacing"])}
+        return xarray.Dataset({name: (("x", "y"), frames[-1]) for name, frames in self.fields.items()}, coords=coordinates)
+
+
+def _species(column: dict[str, Any]) -> list[str]:
+    found = column.get("species", [])
+    return [found] if isinstance(found, str) else list(found)
+
+
+class Sweep:
+    """A sweep that has ended, by its directory."""
+
+    def __init__(self, directory: str | os.PathLike[str], failures: dict[str, str] | None = None) -> None:
+        self.directory = Path(directory)
+        path = self.directory / "sweep.json"
+        try:
+            self.summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            raise FileError(f"there is no sweep in `{self.directory}`: it has no sweep.json") from None
+        #: Why variants failed, by their names.
+        self.failures = dict(failures or {})
+
+    def __repr__(self) -> str:
+        return f"<mesoscope.Sweep of {len(self.summary['variants'])} variants in {str(self.directory)!r}>"
+
+    def table(self) -> dict[str, np.ndarray]:
+        """The table of all variants: an array for every column."""
+        return read_table(self.directory / "sweep.csv")
+
+    def averages(self) -> dict[str, np.ndarray]:
+        """The table of averages over seeds."""
+        return read_table(self.directory / "sweep-averages.csv")
+
+    def to_pandas(self) -> Any:
+        """The table of all variants as a ``pandas.DataFrame``."""
+        import pandas
+
+        return pandas.DataFrame(self.table())
+
+    def runs(self) -> list[Run]:
+        """The runs that have finished."""
+        names = [variant["name"] for variant in self.summary["variants"] if variant["state"] == "finished"]
+        return [Run(self.directory / name) for name in names]
+
+    def plot(self, name: str = "sweep-means") -> Picture:
+        """A picture of the sweep."""
+        path = self.directory / (name if name.endswith(".png") else f"{name}.png")
+        if not path.exists():
+            drawn = sorted(file.stem for file in self.directory.glob("*.png"))
+            raise ArrayError(f"this sweep has drawn no {name!r}; accepted: {', '.join(drawn) or 'nothing'}")
+        return Picture(path)
+
+
+def open(directory: str | os.PathLike[str]) -> Run | Sweep:
+    """The run or sweep in a directory."""
+    path = Path(directory)
+    return Sweep(path) if (path / "sweep.json").exists() else Run(path)
+
+
+def png_of(pixels: np.ndarray) -> bytes:
+    """Pixels of shape (height, width, 4) as the bytes of a PNG file."""
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    height, width, _ = pixels.shape
+    rows = np.concatenate([np.zeros((height, 1), np.uint8), pixels.reshape(height, -1)], axis=1)
+    head = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b"")

@@ -1,0 +1,289 @@
+//! Runs and studies that write directories, and what can be said before one.
+
+use crate::errors;
+use mesoscope::families;
+use mesoscope::gpu::{AdapterChoice, list_adapters};
+use mesoscope::plan::{Hardware, Options};
+use mesoscope::run::{self, Event, Interrupt, Run, RunError};
+use mesoscope::scene::{self, Checked, SceneError, WrittenScene};
+use mesoscope::study::{StudyError, StudyEvent};
+use mesoscope::sweep::{Sweep, SweepRun};
+use pyo3::prelude::*;
+use serde_json::json;
+use std::path::PathBuf;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::time::Duration;
+
+/// How often a signal is looked for while the library works.
+pub const GLANCE: Duration = Duration::from_millis(40);
+
+/// Refuses work on devices in a process that was forked after one was opened.
+pub fn check_fork(py: Python<'_>) -> PyResult<()> {
+    use std::sync::atomic::{AtomicU32, Ordering};
+    static OPENED_BY: AtomicU32 = AtomicU32::new(0);
+    let own = std::process::id();
+    match OPENED_BY.compare_exchange(0, own, Ordering::SeqCst, Ordering::SeqCst) {
+        Err(other) if other != own => Err(errors::of(
+            py,
+            "AdapterError",
+            "this process was forked after a graphics device was opened, which no driver survives: start processes with \
+             multiprocessing.get_context(\"spawn\")",
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// The adapter of a name, a number, or `software`; the best of none.
+pub fn choice(adapter: Option<&str>) -> AdapterChoice {
+    AdapterChoice::parse(adapter)
+}
+
+/// A scene from its text, or that of a file or a name where there is none, with settings.
+pub fn checked(
+    name: &str,
+    text: Option<String>,
+    settings: &[String],
+    steps: Option<u64>,
+) -> Result<Checked, SceneError> {
+    let written = match text {
+        Some(text) => WrittenScene::new(name, text),
+        None => WrittenScene::read(name)?,
+    };
+    written.with(settings).for_steps(steps).check()
+}
+
+/// Works in another thread while this one looks for signals, and passes on what the work says of its progress.
+fn watched<T: Send>(
+    py: Python<'_>,
+    report: Option<&Py<PyAny>>,
+    work: impl FnOnce(&Interrupt, Sender<String>) -> T + Send,
+) -> (T, PyResult<()>) {
+    let interrupt = Interrupt::default();
+    let mut ended = Ok(());
+    let result = py.detach(|| {
+        std::thread::scope(|scope| {
+            let (sender, receiver) = channel::<String>();
+            let (own, interrupt) = (&interrupt, &interrupt);
+            let thread = scope.spawn(move || work(own, sender));
+            loop {
+                let said = receiver.recv_timeout(GLANCE);
+                if matches!(said, Err(RecvTimeoutError::Disconnected)) {
+                    break;
+                }
+                let heard: PyResult<()> = Python::attach(|py| {
+                    py.check_signals()?;
+                    if let (Ok(line), Some(report)) = (said, report) {
+                        report.call1(py, (line,))?;
+                    }
+                    Ok(())
+                });
+                if let (Err(error), true) = (heard, ended.is_ok()) {
+                    interrupt.ask();
+                    ended = Err(error);
+                }
+            }
+            thread.join()
+        })
+    });
+    match result {
+        Ok(result) => (result, ended),
+        Err(panic) => std::panic::resume_unwind(panic),
+    }
+}
+
+/// A line of progress, as `--progress json` writes it.
+fn line(event: &Event<'_>) -> Option<String> {
+    let value = match event {
+        Event::Started { adapter, first_step, last_step } => {
+            json!({"event": "started", "adapter": adapter.name, "step": first_step, "last_step": last_step})
+        }
+        Event::Warned { warning } => json!({"event": "warning", "text": warning}),
+        Event::Advanced(progress) => json!({
+            "event": "progress",
+            "step": progress.step,
+            "last_step": progress.last_step,
+            "temperature": progress.temperature,
+            "particle_steps_per_second": progress.particle_steps_per_second,
+            "remaining_seconds": progress.remaining.map(|left| left.as_secs_f64()),
+        }),
+        Event::Repeating { from, reason, with } => {
+            json!({"event": "repeating", "step": from, "text": format!("{reason}: again from step {from} with {with}")})
+        }
+        Event::Finishing => json!({"event": "finishing"}),
+        _ => return None,
+    };
+    Some(value.to_string())
+}
+
+fn execute(py: Python<'_>, run: Run, adapter: Option<&str>, report: Option<&Py<PyAny>>) -> PyResult<()> {
+    check_fork(py)?;
+    let choice = choice(adapter);
+    let (ended, heard) = watched(py, report, move |interrupt, sender| {
+        let mut observer = |event: Event<'_>| {
+            if let Some(line) = line(&event) {
+                drop(sender.send(line));
+            }
+        };
+        run.until(interrupt).execute(&choice, &mut observer).map(drop)
+    });
+    match ended {
+        Err(RunError::Interrupted { .. } | RunError::NotBegun) if heard.is_err() => heard,
+        Err(error) => Err(errors::of_run(py, &error)),
+        Ok(()) => heard,
+    }
+}
+
+/// Runs a scene into a directory.
+#[pyfunction]
+#[pyo3(signature = (name, text, settings, out, *, steps=None, force=false, pictures=true, adapter=None, report=None))]
+#[allow(clippy::too_many_arguments)]
+pub fn run_scene(
+    py: Python<'_>,
+    name: &str,
+    text: Option<String>,
+    settings: Vec<String>,
+    out: PathBuf,
+    steps: Option<u64>,
+    force: bool,
+    pictures: bool,
+    adapter: Option<&str>,
+    report: Option<Py<PyAny>>,
+) -> PyResult<()> {
+    let scene = checked(name, text, &settings, steps).map_err(|error| errors::of_scene(py, &error))?;
+    let run = Run::start(scene, out, force);
+    let run = if pictures { run } else { run.without_pictures() };
+    execute(py, run, adapter, report.as_ref())
+}
+
+/// Goes on with the run in a directory.
+#[pyfunction]
+#[pyo3(signature = (directory, *, steps=None, adapter=None, report=None))]
+pub fn resume(
+    py: Python<'_>,
+    directory: PathBuf,
+    steps: Option<u64>,
+    adapter: Option<&str>,
+    report: Option<Py<PyAny>>,
+) -> PyResult<()> {
+    let run = Run::resume(directory, steps).map_err(|error| errors::of_run(py, &error))?;
+    if run.is_finished() {
+        return Ok(());
+    }
+    execute(py, run, adapter, report.as_ref())
+}
+
+/// What a scene requires, as JSON text: the scene with every default, its particles, memory, warnings, and the seconds that it is expected
+/// to take on an adapter, where a few steps are to be timed.
+#[pyfunction]
+#[pyo3(signature = (name, text, settings, *, steps=None, adapter=None, time=false))]
+pub fn check(
+    py: Python<'_>,
+    name: &str,
+    text: Option<String>,
+    settings: Vec<String>,
+    steps: Option<u64>,
+    adapter: Option<&str>,
+    time: bool,
+) -> PyResult<String> {
+    let scene = checked(name, text, &settings, steps).map_err(|error| errors::of_scene(py, &error))?;
+    let warnings: Vec<String> =
+        scene.notices().iter().chain(&families::warnings(&scene)).map(ToString::to_string).collect();
+    let plan = run::plan(&scene, Hardware::default(), Options::default());
+    let mut found = json!({
+        "scene": &*scene,
+        "particles": scene.model().particle_count(),
+        "memory_bytes": plan.bytes(),
+        "warnings": warnings,
+    });
+    if time {
+        check_fork(py)?;
+        let choice = choice(adapter);
+        let expected = py.detach(|| {
+            let gpu = run::adapter_for(&scene, &choice)?;
+            let expected = run::expected_time(&scene, &gpu)?;
+            Ok((gpu.description().name.clone(), expected.seconds + expected.drawing))
+        });
+        let (adapter, seconds) = expected.map_err(|error: RunError| errors::of_run(py, &error))?;
+        (found["adapter"], found["seconds"]) = (adapter.into(), seconds.into());
+    }
+    Ok(found.to_string())
+}
+
+/// Runs variants of a scene into a directory.
+#[pyfunction]
+#[pyo3(signature = (name, text, settings, out, vary, also, *, steps=None, force=false, jobs=None, adapter=None, report=None))]
+#[allow(clippy::too_many_arguments)]
+pub fn sweep(
+    py: Python<'_>,
+    name: &str,
+    text: Option<String>,
+    settings: Vec<String>,
+    out: PathBuf,
+    vary: Vec<String>,
+    also: Vec<String>,
+    steps: Option<u64>,
+    force: bool,
+    jobs: Option<usize>,
+    adapter: Option<&str>,
+    report: Option<Py<PyAny>>,
+) -> PyResult<Vec<(String, String)>> {
+    check_fork(py)?;
+    // A study reads its scene from a file or by name.
+    let written = text.map(|text| written(py, name, &text)).transpose()?;
+    let source = written.as_ref().map_or_else(|| name.to_owned(), |(_, path)| path.display().to_string());
+    let sweep = Sweep::load(&source, &settings, steps, &vary, &also).map_err(|error| errors::of_study(py, &error))?;
+    let choice = choice(adapter);
+    let (ended, heard) = watched(py, report.as_ref(), move |interrupt, sender| {
+        let run = SweepRun::start(sweep, out, force).until(interrupt).with_jobs(jobs);
+        run.execute(&choice, &mut |event| {
+            let said = match event {
+                StudyEvent::Started { adapter, runs, jobs, .. } => {
+                    json!({"event": "started", "adapter": adapter.name, "runs": runs, "jobs": jobs})
+                }
+                StudyEvent::Ended { run, ended } => json!({"event": "ended", "run": run, "text": ended.to_string()}),
+                StudyEvent::Finishing => json!({"event": "finishing"}),
+                _ => return,
+            };
+            drop(sender.send(said.to_string()));
+        })
+    });
+    match ended {
+        Err(StudyError::Interrupted { .. }) if heard.is_err() => {
+            Err(heard.err().unwrap_or_else(|| errors::of(py, "RunError", "")))
+        }
+        Err(error) => Err(errors::of_study(py, &error)),
+        Ok(outcome) => {
+            heard?;
+            let name = |number: usize| outcome.summary.variants[number].name.clone();
+            Ok(outcome.failures.iter().map(|(number, error)| (name(*number), error.to_string())).collect())
+        }
+    }
+}
+
+/// The text of a scene as a file, which lasts as long as the first value.
+fn written(py: Python<'_>, name: &str, text: &str) -> PyResult<(Py<PyAny>, PathBuf)> {
+    let directory = py.import("tempfile")?.call_method0("TemporaryDirectory")?;
+    let path = PathBuf::from(directory.getattr("name")?.extract::<String>()?).join(format!("{name}.json"));
+    std::fs::write(&path, text)?;
+    Ok((directory.unbind(), path))
+}
+
+/// The names of the built-in scenes with their texts.
+#[pyfunction]
+pub fn scenes() -> Vec<(&'static str, &'static str)> {
+    scene::builtin().iter().map(|scene| (scene.name, scene.text)).collect()
+}
+
+/// The schema of scenes, as JSON text.
+#[pyfunction]
+pub fn schema() -> String {
+    scene::schema().to_string()
+}
+
+/// The adapters, the best first: name, driver, kind.
+#[pyfunction]
+pub fn adapters(py: Python<'_>) -> PyResult<Vec<(String, String, String)>> {
+    check_fork(py)?;
+    let all = py.detach(list_adapters);
+    Ok(all.into_iter().map(|found| (found.name, found.driver, format!("{:?}", found.kind).to_lowercase())).collect())
+}

@@ -1,0 +1,119 @@
+"""Scenes, runs, sweeps and what they leave."""
+
+import json
+
+import mesoscope as ms
+import numpy as np
+import pytest
+
+
+def test_a_dictionary_is_a_scene(small):
+    scene = ms.scene("dpd-fluid")
+    scene["particles"][0]["mass"] = np.float32(2)
+    scene["space"]["box"] = np.array([4, 4, 4])
+    assert ms.check(scene)["scene"]["particles"][0]["mass"] == 2
+    with open("mine.json", "w") as file:
+        json.dump(ms.scene(scene), file)
+    assert ms.check("mine.json")["particles"] == 192
+    assert ms.check("mine.json", time=True)["seconds"] > 0
+    assert {"dpd-fluid", "shallow-water"} <= set(ms.scenes()) and ms.schema()["properties"]["space"]
+    assert ms.adapters()[0]["name"]
+
+
+def test_all_mistakes_are_named_at_once():
+    scene = ms.scene("dpd-fluid")
+    scene["temprature"] = 1
+    scene["time"]["step"] = -1
+    with pytest.raises(ms.SceneError) as found:
+        ms.check(scene)
+    assert dict(found.value.mistakes)["temprature"].startswith("unknown key; did you mean `temperature`?")
+    assert "time.step" in dict(found.value.mistakes)
+    scene["time"]["step"], scene["seed"] = float("nan"), object()
+    with pytest.raises(ms.SceneError) as found:
+        ms.check(scene)
+    assert [place for place, _ in found.value.mistakes] == ["time.step", "seed"]
+    with pytest.raises(ms.SceneError, match="did you mean `dpd-fluid`"):
+        ms.scene("dpd-fluit")
+
+
+def test_a_run_has_means_tables_and_pictures(small):
+    output = {
+        "energies": {"every": 5},
+        "trajectory": {"every": 50},
+        "radial_distribution": {"every": 20, "bins": 40, "range": 2, "species": "all-pairs"},
+        "diffusion": {"every": 2, "window": 40, "species": "A"},
+        "plot": {"width": 400},
+        "snapshot": {"width": 100},
+    }
+    groups = [{"species": name, "count": 96} for name in "AB"]
+    seen = []
+    run = ms.run("dpd-fluid", small | {"particles": groups, "output": output}, out="run", steps=200, progress=seen.append)
+    assert seen[0]["event"] == "started" and any(event["event"] == "progress" for event in seen)
+    temperature = run.mean("temperature")
+    assert temperature.value == pytest.approx(1, abs=0.2) and temperature.error > 0 and temperature.unit
+    assert "±" in str(temperature)
+    assert run.energies["temperature"].shape == (41,) and np.isfinite(run.energies["pressure"]).all()
+    own, other = run.rdf("A", "A"), run.rdf("B", "A")
+    assert own["g"].shape == own["distance"].shape == own["error"].shape and not (own["g"] == other["g"]).all()
+    with pytest.raises(ms.ArrayError, match="name one of these pairs"):
+        run.rdf("A", "C")
+    assert run.diffusion("A").value > 0
+    with pytest.raises(ms.ArrayError, match="set output.diffusion.species"):
+        run.diffusion("B")
+    assert run.trajectory(unwrap=True).shape == (5, 192, 3)
+    assert run.plot()._repr_png_().startswith(b"\x89PNG")
+    with pytest.raises(ms.ArrayError, match="accepted: .*energies"):
+        run.plot("energy")
+    with pytest.raises(ms.ArrayError, match="accepted: .*temperature"):
+        run.mean("temprature")
+    page = run._repr_html_()
+    assert page.startswith("<h3>") and "data:image/png" in page
+    assert ms.open("run").means.keys() == run.means.keys()
+    with pytest.raises(ms.FileError, match="contains|exists|--force"):
+        ms.run("dpd-fluid", small, out="run", steps=10, progress=False)
+    assert ms.run("dpd-fluid", small, out="run", steps=10, force=True, pictures=False, progress=False).steps == 10
+
+
+def test_titles_are_escaped(small):
+    run = ms.run("dpd-fluid", small | {"title": "<script>alert(1)</script>"}, out="run", steps=5, progress=False)
+    assert "<script>" not in run._repr_html_()
+
+
+def test_fields_are_arrays(place):
+    water = {
+        "interactions.0.mesh": [16, 16], "particles.0.count": 4096, "interactions.0.smoothing.length": 0.8,
+        "output.fields": {"quantities": ["depth", "speed"], "every": 5},
+    }  # fmt: skip
+    run = ms.run("shallow-water", water, out="water", steps=10, progress=False)
+    assert run.fields["depth"].shape[1:] == (16, 16) and len(run.fields["depth"]) >= 3
+    xarray = pytest.importorskip("xarray")
+    found = run.to_xarray()
+    assert isinstance(found, xarray.Dataset) and found["depth"].dims == ("x", "y")
+
+
+def test_a_sweep_is_a_table(small):
+    found = ms.sweep("dpd-fluid", {"interactions.0.friction": [2, 8]}, small, seeds=3, steps=60, out="sweep", progress=False)
+    table = found.table()
+    assert table["friction" if "friction" in table else "interactions.0.friction"].tolist() == [2, 2, 2, 8, 8, 8]
+    assert len(found.runs()) == 6 and not found.failures
+    assert len(found.averages()["seeds"]) == 2
+    assert len(pytest.importorskip("pandas") and found.to_pandas()) == 6
+    assert ms.open("sweep").table().keys() == table.keys()
+    scene = ms.scene("dpd-fluid")
+    again = ms.sweep(scene, {}, small, seeds=[3, 4], steps=20, out="seeds", progress=False)
+    assert len(again.runs()) == 2
+    with pytest.raises(ms.SceneError, match="nothing is varied"):
+        ms.sweep(scene, {})
+
+
+def test_what_is_missing_or_damaged_is_named(place, small):
+    with pytest.raises(ms.FileError, match="has no run.json"):
+        ms.open("nothing")
+    ms.run("dpd-fluid", small, out="run", steps=20, progress=False)
+    table = place / "run" / "energies.csv"
+    table.write_text(table.read_text()[:-7])
+    with pytest.raises(ms.FileError, match="line [0-9]+: found"):
+        ms.open("run").energies
+    (place / "run" / "run.json").write_text("{")
+    with pytest.raises(ms.FileError, match="no summary of a run"):
+        ms.open("run")

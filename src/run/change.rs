@@ -1,0 +1,348 @@
+//! Changes to a simulation between its steps: of numbers of its scene, of positions and velocities.
+
+use super::RunError;
+use super::simulation::Simulation;
+use crate::families::{Checked, Kinematics};
+use crate::numbers::short;
+use crate::scene::{Scene, WrittenScene};
+use crate::state::State;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// A change to a simulation, as its checkpoints keep it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Change {
+    /// The step before which it was made.
+    pub step: u64,
+    /// The key of the scene, or `positions` or `velocities`.
+    pub key: String,
+    /// The new value; none of arrays.
+    #[serde(default, skip_serializing_if = "Value::is_null")]
+    pub value: Value,
+    /// The rounding that it cost.
+    pub rounding: Rounding,
+}
+
+/// Rounding of a change to whole units of positions or momenta.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Rounding {
+    /// The largest deviation of a component from what was given, in units of the scene.
+    pub largest: f64,
+    /// The change of the total momentum by a change of the unit, in units of the scene: zero where no unit changes.
+    pub momentum: [f64; 3],
+}
+
+/// Name of the section of a checkpoint that keeps changes.
+const SECTION: &str = "changes";
+
+/// The section of a checkpoint, if anything was changed.
+pub(super) fn section(changes: &[Change]) -> Option<(String, Vec<u8>)> {
+    (!changes.is_empty()).then(|| (SECTION.to_owned(), serde_json::to_vec(changes).unwrap_or_default()))
+}
+
+/// The changes in the sections of a checkpoint.
+pub(super) fn kept(sections: &[(String, Vec<u8>)]) -> Vec<Change> {
+    let found = sections.iter().find(|(name, _)| name == SECTION);
+    found.and_then(|(_, bytes)| serde_json::from_slice(bytes).ok()).unwrap_or_default()
+}
+
+/// Keys whose numbers may change between steps, by their beginnings.
+const CHANGEABLE: [&str; 5] = ["temperature", "interactions.", "integrator.", "space.shear.rate", "space.walls."];
+
+/// Particles whose numbers a message lists.
+const LISTED: usize = 8;
+
+/// How often velocities are set until a report finds them, at most: friction in the closing half step leaves a part of what lacks.
+const ATTEMPTS: usize = 64;
+
+impl Simulation {
+    /// The changes since the start of the scene.
+    #[must_use]
+    pub fn changes(&self) -> &[Change] {
+        &self.changes
+    }
+
+    /// Changes a number of the scene: `temperature`, a number of `interactions`, `integrator`, `space.walls`, or `space.shear.rate`, by its
+    /// path as in overrides of scenes. Velocities, and what baths remember, stay as they are.
+    ///
+    /// Momenta are whole multiples of a unit that follows from the scene; where a change needs a larger unit they are rounded to it, so that
+    /// their sum stays, to half a unit: the [`Rounding`] says how much it changed.
+    ///
+    /// ```
+    /// use mesoscope::gpu::AdapterChoice;
+    /// use mesoscope::{Simulation, scene};
+    ///
+    /// let scene = scene::load("dpd-fluid", &["space.box=[4,4,4]", "output={}"].map(str::to_owned))?;
+    /// let mut simulation = Simulation::new(&scene, &AdapterChoice::Best)?;
+    /// simulation.advance(50)?;
+    /// simulation.set("temperature", 2.0)?;
+    /// simulation.set("interactions.0.repulsion", 15)?;
+    /// simulation.advance(400)?;
+    /// assert!(simulation.observable("temperature")?.is_some_and(|temperature| temperature > 1.5));
+    /// assert_eq!(simulation.changes()[1].step, 50);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RunError::Arrays`] for a key that cannot change between steps, [`RunError::Scene`] for a value that the scene does not accept.
+    pub fn set(&mut self, key: &str, new: impl Into<Value>) -> Result<Rounding, RunError> {
+        let (key, new) = (key.trim().replace('[', ".").replace(']', ""), new.into());
+        if !CHANGEABLE
+            .iter()
+            .any(|known| key == known.trim_end_matches('.') || known.ends_with('.') && key.starts_with(known))
+        {
+            let accepted =
+                "temperature, numbers of `interactions`, `integrator` and `space.walls`, and space.shear.rate";
+            return Err(mistake(format!("{key}: it cannot change between steps; accepted: {accepted}")));
+        }
+        let old = self.scene.clone();
+        let state = self.state()?;
+        let mut settings = vec![format!("{key}={new}")];
+        if key == "space.shear.rate" {
+            settings.extend(self.displacement(&new));
+        }
+        let text = serde_json::to_string(&*old).unwrap_or_default();
+        let written = WrittenScene::new(old.title.as_str(), text).with(&settings);
+        let scene = written.check_kept(old.start().cloned())?;
+        check_alike(&key, &old, &scene)?;
+        let (state, rounding) = in_units_of(&scene, &old, (*state).clone())?;
+        self.replace(scene, state)?;
+        self.changes.push(Change { step: self.step(), key, value: new, rounding });
+        Ok(rounding)
+    }
+
+    /// The displacement at the start that keeps the boundaries where they are though they will move at another rate.
+    fn displacement(&self, rate: &Value) -> Option<String> {
+        let model = self.scene.model();
+        let (now, shear) = (model.clock(self.step()).wrapping_mul(2), model.particles().shear?);
+        let mut other = self.scene.clone().into_scene();
+        other.space.shear.as_mut()?.rate = rate.as_f64()?;
+        other.space.shear.as_mut()?.displacement = 0.0;
+        let moved = Checked::presumed(other).model().particles().shear.map_or(0, |other| other.shift(now));
+        let first = f64::from(shear.shift(now).wrapping_sub(moved));
+        Some(format!("space.shear.displacement={}", first / 4_294_967_296.0 * model.units.lengths[0]))
+    }
+
+    /// Gives all particles other velocities, in units of length over time, in the order of their numbers.
+    ///
+    /// A report finds these velocities to within a unit of momentum or two. Where the closing half step of an integrator has friction and
+    /// noise, the momenta before it are sought from which it ends at them.
+    ///
+    /// # Errors
+    /// [`RunError::Arrays`] with all mistakes: another number of particles, numbers that are not finite or too large, held particles that would
+    /// move.
+    pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<Rounding, RunError> {
+        let model = self.scene.model().clone();
+        let kinematics = Kinematics::new(&model);
+        let mut mistakes = wrong_count(velocities.len(), model.particle_count());
+        mistakes.extend(listed("is not finite", velocities, |_, velocity| {
+            velocity.iter().any(|number| !number.is_finite())
+        }));
+        let species = &self.here()?.state.species.clone();
+        mistakes.extend(listed("is held, and its velocity is not zero", velocities, |particle, velocity| {
+            let held = species.get(particle).is_some_and(|species| model.species[*species as usize].fixed);
+            held && *velocity != [0.0; 3]
+        }));
+        mistakes.extend(listed("has components beyond the dimensions of the box", velocities, |_, velocity| {
+            velocity[model.units.dimension..].iter().any(|component| *component != 0.0)
+        }));
+        if mistakes.is_empty() {
+            let reported = &self.here()?.reported;
+            mistakes.extend(listed(
+                "is too fast for the unit of momentum of the scene",
+                velocities,
+                |particle, velocity| {
+                    velocity
+                        .iter()
+                        .any(|component| kinematics.units_of(*component, reported, particle).abs() > MOST_UNITS)
+                },
+            ));
+        }
+        refuse(mistakes)?;
+        let wanted: Vec<[i64; 3]> = {
+            let reported = &self.here()?.reported;
+            let units = |(particle, velocity): (usize, &[f64; 3])| {
+                velocity.map(|component| kinematics.units_of(component, reported, particle).round_ties_even() as i64)
+            };
+            velocities.iter().enumerate().map(units).collect()
+        };
+        let mut nearest = i64::MAX;
+        for _ in 0..ATTEMPTS {
+            let here = self.here()?;
+            let mut state = (*here.state).clone();
+            let mut most = 0;
+            for ((momentum, found), wanted) in state.momenta.iter_mut().zip(&here.reported.momenta).zip(&wanted) {
+                for axis in 0..3 {
+                    let lacking = wanted[axis] - i64::from(found[axis]);
+                    most = most.max(lacking.abs());
+                    momentum[axis] =
+                        (i64::from(momentum[axis]) + lacking).clamp(i32::MIN.into(), i32::MAX.into()) as i32;
+                }
+            }
+            if most <= 1 && most >= nearest || most == 0 {
+                break;
+            }
+            nearest = nearest.min(most);
+            for (predicted, momentum) in state.predicted.iter_mut().zip(&state.momenta) {
+                *predicted = *momentum;
+            }
+            self.restart(state)?;
+        }
+        let reported = &self.here()?.reported;
+        let deviation = |(particle, velocity): (usize, &[f64; 3])| {
+            let found = kinematics.velocity(reported, particle);
+            (0..3).map(|axis| (found[axis] - velocity[axis]).abs()).fold(0.0, f64::max)
+        };
+        let largest = velocities.iter().enumerate().map(deviation).fold(0.0, f64::max);
+        Ok(self.note("velocities", largest))
+    }
+
+    /// Moves all particles, in units of length, in the order of their numbers. How often they have gone round the box is counted on from where
+    /// it was, without the way of this move.
+    ///
+    /// # Errors
+    /// [`RunError::Arrays`] with all mistakes: another number of particles, numbers that are not finite, positions outside of the box.
+    pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<Rounding, RunError> {
+        let model = self.scene.model().clone();
+        let units = model.units;
+        let edges = units.edges();
+        let species = &self.here()?.state.species.clone();
+        let frozen =
+            |particle: usize| species.get(particle).is_some_and(|species| model.species[*species as usize].frozen);
+        let mut mistakes = wrong_count(positions.len(), model.particle_count());
+        mistakes.extend(listed("is not finite", positions, |_, position| {
+            position.iter().any(|number| !number.is_finite())
+        }));
+        mistakes.extend(listed("lies outside of the box", positions, |particle, position| {
+            let is_outside = |axis: usize| !(0.0..=edges[axis]).contains(&position[axis]);
+            !frozen(particle)
+                && position.iter().all(|number| number.is_finite())
+                && (0..units.dimension).any(is_outside)
+        }));
+        refuse(mistakes)?;
+        let mut state = (*self.here()?.state).clone();
+        let mut largest: f64 = 0.0;
+        for (particle, (place, position)) in state.positions.iter_mut().zip(positions).enumerate() {
+            if frozen(particle) {
+                continue;
+            }
+            let found = units.place(*position);
+            for axis in 0..units.dimension {
+                let off = (units.position(found)[axis] - position[axis]).abs();
+                largest = largest.max(off.min((off - units.lengths[axis]).abs()));
+                place[axis] = found[axis];
+            }
+        }
+        // Neighbours are listed anew.
+        state.anchors.clear();
+        self.restart(state)?;
+        Ok(self.note("positions", largest))
+    }
+
+    fn note(&mut self, key: &str, largest: f64) -> Rounding {
+        let rounding = Rounding { largest, momentum: [0.0; 3] };
+        self.changes.push(Change { step: self.step(), key: key.to_owned(), value: Value::Null, rounding });
+        rounding
+    }
+}
+
+/// Units of momentum up to which a velocity is accepted: a quarter of what an integer holds.
+const MOST_UNITS: f64 = (1 << 29) as f64;
+
+fn mistake(text: String) -> RunError {
+    RunError::Arrays { mistakes: vec![text] }
+}
+
+fn refuse(mistakes: Vec<String>) -> Result<(), RunError> {
+    if mistakes.is_empty() { Ok(()) } else { Err(RunError::Arrays { mistakes }) }
+}
+
+fn wrong_count(found: usize, particles: u64) -> Vec<String> {
+    let is_wrong = found as u64 != particles;
+    is_wrong
+        .then(|| format!("found {found} particles; accepted: {particles}, those of the scene"))
+        .into_iter()
+        .collect()
+}
+
+/// The mistake that some particles share, with their first numbers.
+fn listed(what: &str, vectors: &[[f64; 3]], is_wrong: impl Fn(usize, &[f64; 3]) -> bool) -> Option<String> {
+    let wrong: Vec<usize> = (0..vectors.len()).filter(|particle| is_wrong(*particle, &vectors[*particle])).collect();
+    let first = *wrong.first()?;
+    let numbers: Vec<String> = wrong.iter().take(LISTED).map(ToString::to_string).collect();
+    let more = if wrong.len() > LISTED { format!(" and {} more", wrong.len() - LISTED) } else { String::new() };
+    let [x, y, z] = vectors[first].map(short);
+    Some(format!("particle {}{more} {what}: the first has ({x}, {y}, {z})", numbers.join(", ")))
+}
+
+/// Refuses a change that is more than one of numbers.
+fn check_alike(key: &str, old: &Checked, new: &Checked) -> Result<(), RunError> {
+    let shape = |scene: &Scene| {
+        let mut document = serde_json::to_value(scene).unwrap_or_default();
+        blank(&mut document);
+        document
+    };
+    let alike = |one: &Checked, other: &Checked| {
+        let [one, other] = [one, other].map(|scene| {
+            scene.model().species.iter().map(|known| (known.count, known.mass, known.fixed)).collect::<Vec<_>>()
+        });
+        one == other
+    };
+    if shape(old) == shape(new) && alike(old, new) {
+        return Ok(());
+    }
+    Err(mistake(format!(
+        "{key}: it is no number of this scene, whose value could change between steps; accepted: a number in place of a number"
+    )))
+}
+
+/// Replaces all numbers, which may differ.
+fn blank(document: &mut Value) {
+    match document {
+        Value::Number(number) => *number = 0.into(),
+        Value::Array(list) => list.iter_mut().for_each(blank),
+        Value::Object(object) => object.values_mut().for_each(blank),
+        _ => {}
+    }
+}
+
+/// The state in the units of another scene, which are as large or differ by a power of two.
+fn in_units_of(scene: &Checked, old: &Checked, mut state: State) -> Result<(State, Rounding), RunError> {
+    let [from, to] = [old, scene].map(|scene| scene.model().units.momentum);
+    let same_energies = old.model().physics().mass_unit() == scene.model().physics().mass_unit();
+    if from == to && same_energies {
+        return Ok((state, Rounding::default()));
+    }
+    let accounts =
+        [state.account.is_empty(), state.walls.is_empty(), state.energies.is_empty(), state.masses.is_empty()];
+    if accounts.contains(&false) {
+        let text =
+            "the change needs other units of the momenta, in which this scene keeps accounts that cannot be converted";
+        return Err(mistake(format!("{text}; accepted: values that need no other unit, or a new simulation")));
+    }
+    let ratio = from / to;
+    let before = state.total_momentum();
+    for momenta in [&mut state.momenta, &mut state.predicted] {
+        for component in momenta.iter_mut().flatten() {
+            let units = f64::from(*component) * ratio;
+            if units.abs() > f64::from(i32::MAX) {
+                return Err(mistake(
+                    "the momenta are too large for the units that the change needs: change in smaller steps".to_owned(),
+                ));
+            }
+            *component = units.round_ties_even() as i32;
+        }
+    }
+    // Rounding alone would leave a sum of its own, by a few units.
+    let moves = |particle: &usize| !scene.model().species[state.species[*particle] as usize].fixed;
+    let mobile: Vec<usize> = (0..state.len()).filter(moves).collect();
+    for axis in 0..3 {
+        let lacking = (before[axis] as f64 * ratio).round_ties_even() as i64 - state.total_momentum()[axis];
+        for particle in mobile.iter().take(lacking.unsigned_abs() as usize) {
+            state.momenta[*particle][axis] += lacking.signum() as i32;
+        }
+    }
+    let after = state.total_momentum();
+    let momentum = std::array::from_fn(|axis| after[axis] as f64 * to - before[axis] as f64 * from);
+    Ok((state, Rounding { largest: 0.5 * to.max(0.0), momentum }))
+}
