@@ -17,7 +17,7 @@ $(shell mkdir -p -m 700 "$(XDG_RUNTIME_DIR)")
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help run test validate test-mpi bench book adapter cargo
+.PHONY: help run test test-python validate test-mpi bench book adapter cargo
 
 help: ## this list
 	@echo 'make TARGET [SCENE=dpd-fluid] [OUT=directory] [ARGUMENTS="--set time.step=0.02"]'
@@ -42,11 +42,16 @@ test: cargo adapter ## formatting, lints, all tests, documentation, and the book
 	# With examples, of which there are none, dependencies have the features that they have for tests: nothing is checked again.
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --workspace --no-deps --lib --examples
 	@if command -v mdbook >/dev/null; then sh .ci/book.sh; fi
+	@sh .ci/python.sh dev
+
+test-python: cargo adapter ## the Python package, installed into a virtual environment in target/python
+	@sh .ci/python.sh dev
 
 validate: cargo adapter ## the long tests, and all tests on other drivers
 	@sh .ci/spirv.sh
 	NODE_PATH=$$(sh .ci/tint.sh) cargo test --release --locked -- --ignored --show-output
 	bash .ci/drivers.sh
+	@sh .ci/python.sh release
 
 # `make test-mpi MPI_TESTS=` leaves out the tests that take minutes.
 MPI_TESTS := --include-ignored

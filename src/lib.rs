@@ -35,7 +35,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A program that may come to run on the software adapter begins with [`gpu::prepare_environment`].
+//! A program that may come to run on the software adapter is best started with the variables of [`gpu::driver_environment`].
 
 pub mod calibration;
 mod document;

@@ -20,7 +20,13 @@ pub type Failure = Box<dyn std::error::Error>;
 
 /// What the command line asks for, after what has to come before everything else.
 pub fn settings<S: Parser>() -> S {
-    mesoscope::gpu::prepare_environment();
+    let missing = mesoscope::gpu::driver_environment(1);
+    #[cfg(unix)]
+    if let (false, Ok(program)) = (missing.is_empty(), std::env::current_exe()) {
+        use std::os::unix::process::CommandExt as _;
+        // As the program does: drivers read them when they load.
+        let _ = std::process::Command::new(program).args(std::env::args_os().skip(1)).envs(missing).exec();
+    }
     S::parse()
 }
 

@@ -9,20 +9,11 @@
 """
 
 import os as _os
-import sys as _sys
 
+from . import _mesoscope as _mesoscope
 
-def _prepare_environment() -> None:
-    """Sets what Mesa's drivers read when they load: two threads a core, and a directory where there is none."""
-    if _sys.platform != "linux":
-        return
-    own = len(_os.sched_getaffinity(0))
-    _os.environ.setdefault("LP_NUM_THREADS", str(2 * own))
-    if not _os.path.isabs(_os.environ.get("XDG_RUNTIME_DIR", "")):
-        _os.environ["XDG_RUNTIME_DIR"] = "/nonexistent"
-
-
-_prepare_environment()
+# Drivers read these when they load, which is with the first device.
+_os.environ.update(_mesoscope.driver_environment())
 
 from .errors import (  # noqa: E402
     AdapterError,
@@ -33,10 +24,10 @@ from .errors import (  # noqa: E402
     SceneError,
     UnstableError,
 )
-from .results import Mean, Run, Sweep, open  # noqa: E402
+from .results import Mean, Run, Stability, Sweep, Tradeoff, open  # noqa: E402
 from .scenes import adapters, check, scene, scenes, schema  # noqa: E402
 from .simulation import Frame, Simulation  # noqa: E402
-from .work import resume, run, sweep  # noqa: E402
+from .work import resume, run, stability, sweep, tradeoff  # noqa: E402
 
 __all__ = [
     "AdapterError",
@@ -49,7 +40,9 @@ __all__ = [
     "RunError",
     "SceneError",
     "Simulation",
+    "Stability",
     "Sweep",
+    "Tradeoff",
     "UnstableError",
     "adapters",
     "check",
@@ -59,7 +52,9 @@ __all__ = [
     "scene",
     "scenes",
     "schema",
+    "stability",
     "sweep",
+    "tradeoff",
 ]
 
 __version__ = "0.1.0"

@@ -307,10 +307,80 @@ class Sweep:
         return Picture(path)
 
 
-def open(directory: str | os.PathLike[str]) -> Run | Sweep:
-    """The run or sweep in a directory."""
+class _Study:
+    """What studies leave: a table, pictures and a page in words."""
+
+    _kind = ""
+
+    def __init__(self, directory: str | os.PathLike[str]) -> None:
+        self.directory = Path(directory)
+        path = self.directory / f"{self._kind}.json"
+        try:
+            self.summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+        except FileNotFoundError:
+            raise FileError(f"there is no {self._kind} in `{self.directory}`: it has no {path.name}") from None
+
+    def __repr__(self) -> str:
+        return f"<mesoscope.{type(self).__name__} in {str(self.directory)!r}>"
+
+    @property
+    def page(self) -> str:
+        """All that was found, as Markdown."""
+        return (self.directory / f"{self._kind}.md").read_text(encoding="utf-8")
+
+    def _repr_markdown_(self) -> str:
+        return self.page
+
+    def table(self) -> dict[str, np.ndarray]:
+        """The table: an array for every column."""
+        return read_table(self.directory / f"{self._kind}.csv")
+
+    def to_pandas(self) -> Any:
+        """The table as a ``pandas.DataFrame``."""
+        import pandas
+
+        return pandas.DataFrame(self.table())
+
+    def plots(self) -> list[Picture]:
+        """The pictures."""
+        return [Picture(path) for path in sorted(self.directory.glob(f"{self._kind}*.png"))]
+
+
+class Tradeoff(_Study):
+    """What choices cost, and how far each is off."""
+
+    _kind = "tradeoff"
+
+    def __init__(self, directory: str | os.PathLike[str], advice: str = "", scene: dict[str, Any] | None = None) -> None:
+        super().__init__(directory)
+        #: What to choose, in words; empty without targets.
+        self.advice = advice
+        #: The scene of the choice, if there is one.
+        self.scene = scene
+
+
+class Stability(_Study):
+    """How far a scene may go."""
+
+    _kind = "stability"
+
+    def __init__(
+        self, directory: str | os.PathLike[str], rows: list[dict[str, str]] | None = None, findings: list[str] | None = None
+    ) -> None:
+        super().__init__(directory)
+        #: The result of each row in words.
+        self.rows = rows or []
+        #: What else was found.
+        self.findings = findings or []
+
+
+def open(directory: str | os.PathLike[str]) -> Run | Sweep | Tradeoff | Stability:
+    """The run or study in a directory."""
     path = Path(directory)
-    return Sweep(path) if (path / "sweep.json").exists() else Run(path)
+    for kind, name in ((Sweep, "sweep.json"), (Tradeoff, "tradeoff.json"), (Stability, "stability.json")):
+        if (path / name).exists():
+            return kind(path)
+    return Run(path)
 
 
 def png_of(pixels: np.ndarray) -> bytes:

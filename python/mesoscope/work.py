@@ -11,7 +11,7 @@ from typing import Any, Callable, Iterable, Mapping
 
 from . import _mesoscope
 from .errors import SceneError
-from .results import Run, Sweep
+from .results import Run, Stability, Sweep, Tradeoff
 from .scenes import overrides, source, text
 
 
@@ -28,6 +28,9 @@ class _Progress:
         if event["event"] in ("warning", "repeating"):
             self._end()
             print(f"{event['event']}: {event['text']}", file=self.stream)
+        elif event["event"] == "phase":
+            self._end()
+            print(event["text"], file=self.stream)
         elif event["event"] == "ended":
             self._end()
             print(f"{event['run']}: {event['text']}", file=self.stream)
@@ -118,6 +121,40 @@ def resume(
     return Run(directory)
 
 
+class _Study:
+    """What studies are started with, as the extension reads it."""
+
+    def __init__(
+        self, kind: str, scene: Any, settings: Mapping[str, Any] | None, out: Any, vary: Mapping[str, Any], also: Iterable[Mapping[str, Any]],
+        *, steps: int | None, jobs: int | None, force: bool, adapter: str | None, progress: Any,
+    ) -> None:  # fmt: skip
+        name, self.text = source(scene)
+        stem = _directory(name, None).name
+        self.name = stem if self.text else name
+        self.settings = overrides(settings)
+        self.vary = [f"{key}={_values(values)}" for key, values in vary.items()]
+        self.also = [",".join(f"{key}={text(value)}" for key, value in one.items()) for one in also]
+        self.steps, self.jobs, self.force, self.adapter = steps, jobs, force, adapter
+        self.out = _directory(f"{stem}-{kind}", out)
+        self.report, self.close = _reporter(progress)
+
+
+def _values(values: Any) -> str:
+    # A range of a map of stability is written as the command has it: "0.01..0.2/9".
+    if isinstance(values, str):
+        return values
+    return ",".join(text(value) for value in values)
+
+
+def _named(pairs: Mapping[str, Any] | None) -> list[str]:
+    """``{"pressure": "1%"}`` as ``pressure=1%``, and ``(value, error)`` as ``value+-error``."""
+    found = []
+    for name, value in (pairs or {}).items():
+        shown = value if isinstance(value, str) else "+-".join(str(part) for part in (value if isinstance(value, tuple) else (value,)))
+        found.append(f"{name}={shown}")
+    return found
+
+
 def sweep(
     scene: Any,
     vary: Mapping[str, Iterable[Any]],
@@ -142,21 +179,77 @@ def sweep(
     >>> found.table()["temperature"].tolist()
     [1.0, 2.0]
     """
-    name, written = source(scene)
     varied = {key: list(values) for key, values in vary.items()}
     if seeds is not None:
         varied["seed"] = list(range(1, seeds + 1)) if isinstance(seeds, int) else list(seeds)
-    if not varied and not also:
+    study = _Study("sweep", scene, settings, out, varied, also, steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress)
+    if not varied and not study.also:
         raise SceneError("nothing is varied; accepted: keys with their values, or seeds")
-    arguments = [f"{key}={','.join(text(value) for value in values)}" for key, values in varied.items()]
-    further = [",".join(f"{key}={text(value)}" for key, value in settings.items()) for settings in also]
-    directory = _directory(f"{_directory(name, None)}-sweep", out)
-    report, close = _reporter(progress)
     try:
-        failures = _mesoscope.sweep(
-            _directory(name, None).name if written else name, written, overrides(settings), directory, arguments, further,
-            steps=steps, force=force, jobs=jobs, adapter=adapter, report=report,
+        failures = _mesoscope.sweep(study)
+    finally:
+        study.close()
+    return Sweep(study.out, dict(failures))
+
+
+def tradeoff(
+    scene: Any,
+    vary: Mapping[str, Iterable[Any]],
+    targets: Mapping[str, Any] | None = None,
+    settings: Mapping[str, Any] | None = None,
+    out: str | os.PathLike[str] | None = None,
+    *,
+    also: Iterable[Mapping[str, Any]] = (),
+    error: float | None = None,
+    budget: float | None = None,
+    measures: Iterable[str] = (),
+    references: Mapping[str, Any] | None = None,
+    finer: Mapping[str, Any] | None = None,
+    steps: int | None = None,
+    jobs: int | None = None,
+    force: bool = False,
+    adapter: str | None = None,
+    progress: Any = True,
+) -> Tradeoff:
+    """Measures what choices cost and how far each is off, and says which is the cheapest that meets the ``targets``: ``{"pressure": "1%"}``
+    in parts of a reference, or numbers in units of the scene.
+
+    ``error`` is the relative standard error that means are to have, ``budget`` the seconds that all steps may take, and ``references`` are
+    values that are known, alone or with their errors: ``{"pressure": (23.65, 0.01)}``.
+    """
+    study = _Study("tradeoff", scene, settings, out, vary, also, steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress)
+    more = ",".join(f"{key}={text(value)}" for key, value in (finer or {}).items()) or None
+    try:
+        advice, chosen = _mesoscope.tradeoff(
+            study, error=error, budget=budget, measures=list(measures), references=_named(references), targets=_named(targets), finer=more,
         )  # fmt: skip
     finally:
-        close()
-    return Sweep(directory, dict(failures))
+        study.close()
+    return Tradeoff(study.out, advice.strip(), json.loads(chosen) if chosen else None)
+
+
+def stability(
+    scene: Any,
+    vary: Mapping[str, Any] | None = None,
+    settings: Mapping[str, Any] | None = None,
+    out: str | os.PathLike[str] | None = None,
+    *,
+    tolerance: float = 0.05,
+    bisections: int = 3,
+    measures: Iterable[str] = (),
+    references: Mapping[str, Any] | None = None,
+    steps: int | None = None,
+    jobs: int | None = None,
+    force: bool = False,
+    adapter: str | None = None,
+    progress: Any = True,
+) -> Stability:
+    """Measures how far a scene may go: along one key, or two, of which each has values or a range such as ``"0.01..0.2/9"``."""
+    study = _Study("stability", scene, settings, out, vary or {}, (), steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress)
+    try:
+        rows, findings = _mesoscope.stability(
+            study, tolerance=tolerance, bisections=bisections, measures=list(measures), references=_named(references)
+        )
+    finally:
+        study.close()
+    return Stability(study.out, [dict(zip(("row", "right_up_to", "unstable_from", "laws"), row)) for row in rows], findings)

@@ -10,7 +10,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _mesoscope {
     #[pymodule_export]
-    use super::runs::{adapters, check, resume, run_scene, scenes, schema, sweep};
+    use super::runs::{
+        adapters, check, driver_environment, resume, run_scene, scenes, schema, stability, sweep, tradeoff,
+    };
     #[pymodule_export]
     use super::simulation::Simulation;
 }

@@ -6,10 +6,13 @@ use mesoscope::gpu::{AdapterChoice, list_adapters};
 use mesoscope::plan::{Hardware, Options};
 use mesoscope::run::{self, Event, Interrupt, Run, RunError};
 use mesoscope::scene::{self, Checked, SceneError, WrittenScene};
-use mesoscope::study::{StudyError, StudyEvent};
-use mesoscope::sweep::{Sweep, SweepRun};
+use mesoscope::stability::{Request as StabilityRequest, StabilityRun, StabilitySummary};
+use mesoscope::study::{Observer, Record, StudyError, StudyEvent, StudyRun};
+use mesoscope::sweep::{Sweep, SweepRun, SweepSummary};
+use mesoscope::tradeoff::{Length, References, Request as TradeoffRequest, Target, TradeoffRun, TradeoffSummary};
 use pyo3::prelude::*;
 use serde_json::json;
+use std::fmt::Display;
 use std::path::PathBuf;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
@@ -209,55 +212,134 @@ pub fn check(
     Ok(found.to_string())
 }
 
-/// Runs variants of a scene into a directory.
-#[pyfunction]
-#[pyo3(signature = (name, text, settings, out, vary, also, *, steps=None, force=false, jobs=None, adapter=None, report=None))]
-#[allow(clippy::too_many_arguments)]
-pub fn sweep(
-    py: Python<'_>,
-    name: &str,
+/// A line of progress of a study.
+fn line_of_study<E: Display, P: Display>(event: &StudyEvent<'_, E, P>) -> Option<String> {
+    let value = match event {
+        StudyEvent::Started { adapter, runs, jobs, .. } => {
+            json!({"event": "started", "adapter": adapter.name, "runs": runs, "jobs": jobs})
+        }
+        StudyEvent::Ended { run, ended } => json!({"event": "ended", "run": run, "text": ended.to_string()}),
+        StudyEvent::Phase { phase, runs } => json!({"event": "phase", "text": phase.to_string(), "runs": runs}),
+        StudyEvent::Finishing => json!({"event": "finishing"}),
+        _ => return None,
+    };
+    Some(value.to_string())
+}
+
+/// What all studies are started with.
+#[derive(FromPyObject)]
+pub struct Study {
+    /// The scene by name, and its text where it is no file and no built-in one.
+    name: String,
     text: Option<String>,
     settings: Vec<String>,
-    out: PathBuf,
     vary: Vec<String>,
     also: Vec<String>,
     steps: Option<u64>,
+    out: PathBuf,
     force: bool,
     jobs: Option<usize>,
-    adapter: Option<&str>,
+    adapter: Option<String>,
     report: Option<Py<PyAny>>,
-) -> PyResult<Vec<(String, String)>> {
+}
+
+/// Runs a study.
+fn execute_study<R, T>(
+    py: Python<'_>,
+    study: &Study,
+    request: impl FnOnce(&str) -> Result<R::Request, StudyError>,
+    execute: impl FnOnce(StudyRun<R>, &AdapterChoice, &mut Observer<'_, R>) -> Result<T, StudyError> + Send,
+) -> PyResult<T>
+where
+    R: Record + Send,
+    R::Request: Send,
+    T: Send,
+{
     check_fork(py)?;
     // A study reads its scene from a file or by name.
-    let written = text.map(|text| written(py, name, &text)).transpose()?;
-    let source = written.as_ref().map_or_else(|| name.to_owned(), |(_, path)| path.display().to_string());
-    let sweep = Sweep::load(&source, &settings, steps, &vary, &also).map_err(|error| errors::of_study(py, &error))?;
-    let choice = choice(adapter);
-    let (ended, heard) = watched(py, report.as_ref(), move |interrupt, sender| {
-        let run = SweepRun::start(sweep, out, force).until(interrupt).with_jobs(jobs);
-        run.execute(&choice, &mut |event| {
-            let said = match event {
-                StudyEvent::Started { adapter, runs, jobs, .. } => {
-                    json!({"event": "started", "adapter": adapter.name, "runs": runs, "jobs": jobs})
-                }
-                StudyEvent::Ended { run, ended } => json!({"event": "ended", "run": run, "text": ended.to_string()}),
-                StudyEvent::Finishing => json!({"event": "finishing"}),
-                _ => return,
-            };
-            drop(sender.send(said.to_string()));
+    let written = study.text.as_ref().map(|text| written(py, &study.name, text)).transpose()?;
+    let source = written.as_ref().map_or_else(|| study.name.clone(), |(_, path)| path.display().to_string());
+    let request = request(&source).map_err(|error| errors::of_study(py, &error))?;
+    let (choice, out, force, jobs) = (choice(study.adapter.as_deref()), study.out.clone(), study.force, study.jobs);
+    let (ended, heard) = watched(py, study.report.as_ref(), move |interrupt, sender| {
+        let run = StudyRun::<R>::start(request, out, force).until(interrupt).with_jobs(jobs);
+        execute(run, &choice, &mut |event| {
+            if let Some(line) = line_of_study(&event) {
+                drop(sender.send(line));
+            }
         })
     });
-    match ended {
-        Err(StudyError::Interrupted { .. }) if heard.is_err() => {
-            Err(heard.err().unwrap_or_else(|| errors::of(py, "RunError", "")))
-        }
-        Err(error) => Err(errors::of_study(py, &error)),
-        Ok(outcome) => {
-            heard?;
-            let name = |number: usize| outcome.summary.variants[number].name.clone();
-            Ok(outcome.failures.iter().map(|(number, error)| (name(*number), error.to_string())).collect())
-        }
+    match (ended, heard) {
+        (Err(StudyError::Interrupted { .. }), Err(error)) => Err(error),
+        (Err(error), _) => Err(errors::of_study(py, &error)),
+        (Ok(outcome), heard) => heard.map(|()| outcome),
     }
+}
+
+/// Runs variants of a scene into a directory: names of those that failed, and why.
+#[pyfunction]
+pub fn sweep(py: Python<'_>, study: Study) -> PyResult<Vec<(String, String)>> {
+    let Study { settings, vary, also, steps, .. } = &study;
+    let request = |source: &str| Sweep::load(source, settings, *steps, vary, also);
+    let outcome = execute_study::<SweepSummary, _>(py, &study, request, SweepRun::execute)?;
+    let name = |number: usize| outcome.summary.variants[number].name.clone();
+    Ok(outcome.failures.iter().map(|(number, error)| (name(*number), error.to_string())).collect())
+}
+
+/// Measures what accuracy costs, and gives the advice in words with the chosen scene as text.
+#[pyfunction]
+#[pyo3(signature = (study, *, error=None, budget=None, measures=Vec::new(), references=Vec::new(), targets=Vec::new(), finer=None))]
+#[allow(clippy::too_many_arguments)]
+pub fn tradeoff(
+    py: Python<'_>,
+    study: Study,
+    error: Option<f64>,
+    budget: Option<f64>,
+    measures: Vec<String>,
+    references: Vec<String>,
+    targets: Vec<String>,
+    finer: Option<String>,
+) -> PyResult<(String, Option<String>)> {
+    let Study { settings, vary, also, steps, .. } = &study;
+    let request = |source: &str| {
+        let references = References::parse(&references).map_err(|mistakes| StudyError::Arguments { mistakes })?;
+        let target = |argument: &String| {
+            let mistake = |message| StudyError::Arguments { mistakes: vec![format!("`{argument}`: {message}")] };
+            Target::parse(argument).map_err(mistake)
+        };
+        TradeoffRequest::load(source, settings, *steps, vary, also)?
+            .with_length(Length { error, budget })
+            .with_measures(&measures)?
+            .with_references(references)?
+            .with_targets(targets.iter().map(target).collect::<Result<_, _>>()?)?
+            .with_finer(finer.as_deref(), None)
+    };
+    let outcome = execute_study::<TradeoffSummary, _>(py, &study, request, TradeoffRun::execute)?;
+    let chosen = outcome.summary.chosen_scene().map_err(|error| errors::of_study(py, &error))?;
+    Ok((outcome.summary.advice(), chosen))
+}
+
+/// Measures how far a scene may go: the results of its rows in words, and what else was found.
+#[pyfunction]
+#[pyo3(signature = (study, *, tolerance=0.05, bisections=3, measures=Vec::new(), references=Vec::new()))]
+pub fn stability(
+    py: Python<'_>,
+    study: Study,
+    tolerance: f64,
+    bisections: u32,
+    measures: Vec<String>,
+    references: Vec<String>,
+) -> PyResult<(Vec<[String; 4]>, Vec<String>)> {
+    let Study { settings, vary, steps, .. } = &study;
+    let request = |source: &str| {
+        let references = References::parse(&references).map_err(|mistakes| StudyError::Arguments { mistakes })?;
+        StabilityRequest::load(source, settings, *steps, vary)?
+            .with_tolerance(tolerance)?
+            .with_bisections(bisections)
+            .with_measures(&measures, references)
+    };
+    let outcome = execute_study::<StabilitySummary, _>(py, &study, request, StabilityRun::execute)?;
+    Ok((outcome.summary.in_words(), outcome.summary.findings()))
 }
 
 /// The text of a scene as a file, which lasts as long as the first value.
@@ -286,4 +368,10 @@ pub fn adapters(py: Python<'_>) -> PyResult<Vec<(String, String, String)>> {
     check_fork(py)?;
     let all = py.detach(list_adapters);
     Ok(all.into_iter().map(|found| (found.name, found.driver, format!("{:?}", found.kind).to_lowercase())).collect())
+}
+
+/// Environment variables that drivers need and that are not set.
+#[pyfunction]
+pub fn driver_environment() -> Vec<(&'static str, String)> {
+    mesoscope::gpu::driver_environment(1)
 }

@@ -117,3 +117,22 @@ def test_what_is_missing_or_damaged_is_named(place, small):
     (place / "run" / "run.json").write_text("{")
     with pytest.raises(ms.FileError, match="no summary of a run"):
         ms.open("run")
+
+
+def test_a_tradeoff_says_what_to_choose(small):
+    settings = small | {"output": {"energies": {"every": 5}}}
+    found = ms.tradeoff(
+        "dpd-fluid", {"time.step": [0.02, 0.08]}, {"temperature": "50%"}, settings, "tradeoff", measures=["temperature"], steps=200, progress=False
+    )
+    assert found.scene["time"]["step"] in (0.02, 0.08) and "Choose" in found.advice
+    assert "# What accuracy costs" in found.page and len(found.table()["choice"]) == 2 and found.plots()
+    assert isinstance(ms.open("tradeoff"), ms.Tradeoff)
+    with pytest.raises(ms.SceneError, match="accepted: .*temperature"):
+        ms.tradeoff("dpd-fluid", {"time.step": [0.02]}, {"temprature": "1%"}, settings)
+
+
+def test_a_map_says_how_far_a_scene_may_go(small):
+    settings = small | {"output": {"energies": {"every": 5}}}
+    found = ms.stability("dpd-fluid", {"time.step": "0.02..2/3"}, settings, "map", bisections=1, steps=200, progress=False)
+    assert found.rows[0]["unstable_from"] != "not seen" and len(found.table()["verdict"]) >= 3
+    assert isinstance(ms.open("map"), ms.Stability)

@@ -21,6 +21,7 @@ mod run_arguments;
 mod scene_arguments;
 mod scenes;
 mod schema;
+mod shell;
 mod stability;
 mod study_arguments;
 mod study_report;
@@ -33,7 +34,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use mesoscope::gpu::prepare_environment_among;
+use mesoscope::gpu::driver_environment;
 
 pub use adapter_argument::AdapterArgument;
 pub use failure::Failure;
@@ -78,6 +79,8 @@ enum Command {
     Scenes(scenes::Arguments),
     Schema(schema::Arguments),
     Adapters(adapters::Arguments),
+    Completions(shell::CompletionsArguments),
+    Man(shell::ManArguments),
 }
 
 impl Command {
@@ -86,15 +89,16 @@ impl Command {
         match self {
             Self::Sweep(arguments) if arguments.shard.is_some() => Ok(()),
             Self::Run(_) | Self::Resume(_) if cfg!(feature = "mpi") => Ok(()),
-            Self::Check(_) | Self::Scenes(_) | Self::Schema(_) | Self::Adapters(_) => Ok(()),
+            Self::Check(_) | Self::Adapters(_) => Ok(()),
+            Self::Scenes(_) | Self::Schema(_) | Self::Completions(_) | Self::Man(_) => Ok(()),
             _ => launcher::refuse_copies(),
         }
     }
 
     fn execute(&self) -> Result<(), Failure> {
         self.check_alone()?;
-        if !matches!(self, Self::Scenes(_) | Self::Schema(_)) {
-            prepare_environment_among(launcher::local_copies());
+        if !matches!(self, Self::Scenes(_) | Self::Schema(_) | Self::Completions(_) | Self::Man(_)) {
+            start_again_with(driver_environment(launcher::local_copies()));
         }
         match self {
             Self::Run(arguments) => run::execute(arguments),
@@ -107,6 +111,8 @@ impl Command {
             Self::Scenes(arguments) => scenes::execute(arguments),
             Self::Schema(arguments) => schema::execute(arguments),
             Self::Adapters(arguments) => adapters::execute(arguments),
+            Self::Completions(arguments) => shell::completions(arguments),
+            Self::Man(arguments) => shell::man(arguments),
         }
     }
 }
@@ -116,4 +122,16 @@ pub fn main() -> ExitCode {
     let Err(failure) = Arguments::parse().command.execute() else { return ExitCode::SUCCESS };
     line(&format!("{}{failure}", failure.prefix()));
     ExitCode::from(failure.exit_code())
+}
+
+/// Starts the program again with environment variables that drivers read when they load, before there are threads.
+fn start_again_with(missing: Vec<(&'static str, String)>) {
+    #[cfg(unix)]
+    if let (false, Ok(program)) = (missing.is_empty(), std::env::current_exe()) {
+        use std::os::unix::process::CommandExt as _;
+        // On success this does not return; otherwise a slower or noisier driver is no reason to fail.
+        let _ = std::process::Command::new(program).args(std::env::args_os().skip(1)).envs(missing).exec();
+    }
+    #[cfg(not(unix))]
+    drop(missing);
 }

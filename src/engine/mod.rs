@@ -488,13 +488,10 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// As [`Self::reported`].
     pub fn report_of(&mut self, state: &State) -> Result<Reported, EngineError> {
-        if self.plan.reported.is_some() && !self.plan.has_buffer(Array::ReportedMomenta) {
+        if !self.plan.has_buffer(Array::ReportedMomenta) {
             return self.reported();
         }
         self.report_now()?;
-        if !self.plan.has_buffer(Array::ReportedMomenta) {
-            return Ok(state.clone().into());
-        }
         let words = self.words(Array::ReportedMomenta)?;
         let momenta = words.chunks_exact(4).map(|word| [word[0], word[1], word[2]].map(u32::cast_signed)).collect();
         Ok(Reported { momenta, ..state.clone().into() })

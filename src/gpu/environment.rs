@@ -11,34 +11,24 @@ pub(super) fn requests_portable_plans() -> Result<bool, GpuError> {
     }
 }
 
-/// Restarts the process with the environment variables that Mesa's drivers need, where the user has not set them:
+/// The environment variables that Mesa's drivers need and that are not set, for one of so many processes that share a machine:
 ///
-/// - `LP_NUM_THREADS`, the threads of the software adapter: two per core. The adapter divides the workgroups of a kernel among its
-///   threads once, in equal parts. With one thread per core, all of them wait for the one whose core is shared with another process;
-///   with two, the scheduler can balance them.
+/// - `LP_NUM_THREADS`, the threads of the software adapter: two for each core of its share. The adapter divides the workgroups of a kernel
+///   among its threads once, in equal parts. With one thread per core, all of them wait for the one whose core is shared with another
+///   process; with two, the scheduler can balance them.
 /// - `XDG_RUNTIME_DIR`, where a container or a batch job has none, or one that is not an absolute path: the layer that selects
 ///   devices looks for a display there, and without one it writes an error to standard error for every adapter.
 ///
-/// Both must be set before the process has threads, so call this in the first line of `main`. On systems other than Linux, and where
-/// the process cannot be restarted, it does nothing.
+/// Drivers read them when they load, and a process with threads cannot set them: whoever starts it has to. The program starts itself again with
+/// them. On systems other than Linux there are none.
 ///
-/// ```no_run
-/// fn main() -> Result<(), Box<dyn std::error::Error>> {
-///     mesoscope::gpu::prepare_environment();
-///     let gpu = mesoscope::gpu::Gpu::open(&Default::default(), Default::default())?;
-///     println!("{}", gpu.description().name);
-///     Ok(())
-/// }
 /// ```
-pub fn prepare_environment() {
-    prepare_environment_among(1);
-}
-
-/// The same for one of so many processes that share a machine: two threads for each of its share of the cores.
+/// let missing = mesoscope::gpu::driver_environment(1);
+/// assert!(missing.iter().all(|(name, _)| ["LP_NUM_THREADS", "XDG_RUNTIME_DIR"].contains(name)));
+/// ```
+#[must_use]
 #[cfg(target_os = "linux")]
-pub fn prepare_environment_among(processes: usize) {
-    use std::os::unix::process::CommandExt as _;
-
+pub fn driver_environment(processes: usize) -> Vec<(&'static str, String)> {
     let own = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = 2 * cores_of_one(own, machine::cores(), processes);
     let wanted = [("LP_NUM_THREADS", threads.to_string()), ("XDG_RUNTIME_DIR", "/nonexistent".to_owned())];
@@ -46,18 +36,15 @@ pub fn prepare_environment_among(processes: usize) {
         Some(path) if variable == "XDG_RUNTIME_DIR" => std::path::Path::new(&path).is_absolute(),
         found => found.is_some(),
     };
-    let missing: Vec<_> = wanted.into_iter().filter(|(variable, _)| !set(variable)).collect();
-    if !missing.is_empty()
-        && let Ok(program) = std::env::current_exe()
-    {
-        // On success this does not return; otherwise a slower or noisier driver is no reason to fail.
-        let _ = std::process::Command::new(program).args(std::env::args_os().skip(1)).envs(missing).exec();
-    }
+    wanted.into_iter().filter(|(variable, _)| !set(variable)).collect()
 }
 
-/// Nothing to do here.
+/// None here.
+#[must_use]
 #[cfg(not(target_os = "linux"))]
-pub fn prepare_environment_among(_: usize) {}
+pub fn driver_environment(_: usize) -> Vec<(&'static str, String)> {
+    Vec::new()
+}
 
 /// The cores that one of several processes of a machine should take: those that it may run on, or fewer where all may run on the same.
 #[cfg(target_os = "linux")]

@@ -15,7 +15,7 @@ pub(crate) use compiled::CompiledKernel;
 pub use compiled::{ConstantsIn, Rewriting};
 pub(crate) use device::compute_pass;
 pub use device::{Gpu, Requirements};
-pub use environment::{prepare_environment, prepare_environment_among};
+pub use environment::driver_environment;
 pub use error::GpuError;
 pub(crate) use loaded::{BINDING as LOADED_CONSTANTS, bytes as constants_in_bytes};
 pub use shader::{Binding, LinkedShader, Switched, link, link_loading, storage_buffers, validate};

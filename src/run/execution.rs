@@ -5,7 +5,7 @@ use super::conservation::{conserved, not_conserved};
 use super::energies::{self, EnergyRecorder};
 use super::frame::with_flow;
 use super::kept_sums::{KeptSums, Sharing};
-use super::pace::Pace;
+use super::pace::{self, Pace};
 use super::pictures::{Pictures, mesh_depth, most_shown};
 use super::schedule::Schedule;
 use super::sections::Sections;
@@ -22,6 +22,7 @@ use crate::output::{
 };
 use crate::ranks::{computes_alike, remedy};
 use crate::state::State;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -140,16 +141,11 @@ impl<'a> Execution<'a> {
         start.state = State::default();
         while engine.step() < self.scene.time.steps {
             let event = self.schedule.next(engine.step());
-            pace.begin();
-            while engine.step() < event {
-                let steps = pace.batch().min(event - engine.step());
-                let advanced = engine.advance(steps, steps);
-                // A failure is found a few batches late: what came before it is good.
+            pace::advance(engine, pace, event, &mut |engine, pace, advanced| {
                 let samples = engine.take_samples();
                 self.record(&samples, engine)?;
                 self.energies.file.flush()?;
                 advanced?;
-                pace.submitted(steps);
                 observer(Event::Advanced(self.progress(first, begun, pace)));
                 // Here nothing has been added yet of what is due at this step.
                 let interrupted = self.task.interrupt.is_asked() && engine.step() < self.scene.time.steps;
@@ -159,7 +155,8 @@ impl<'a> Execution<'a> {
                 if interrupted {
                     self.obey()?;
                 }
-            }
+                Ok::<_, RunError>(ControlFlow::Continue(()))
+            })?;
             self.visit(engine, pace)?;
             observer(Event::Advanced(self.progress(first, begun, pace)));
         }

@@ -1,6 +1,8 @@
 //! How many steps to hand to the device at a time.
 
+use crate::engine::{EngineError, Stepper};
 use std::collections::VecDeque;
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 /// Time a batch should take: long enough that submitting costs nothing, short enough to see a failure soon.
@@ -122,6 +124,28 @@ impl Pace {
             self.batch = (wanted as u64).clamp(1, (2 * self.batch).min(LARGEST));
         }
     }
+}
+
+/// Advances batch by batch until a step. After every batch `each` receives what became of it: a failure is found a few batches late, and what
+/// came before it is good. It may end the advance early.
+pub(super) fn advance<E>(
+    engine: &mut dyn Stepper,
+    pace: &mut Pace,
+    last: u64,
+    each: &mut dyn FnMut(&mut dyn Stepper, &mut Pace, Result<(), EngineError>) -> Result<ControlFlow<()>, E>,
+) -> Result<(), E> {
+    pace.begin();
+    while engine.step() < last {
+        let steps = pace.batch().min(last - engine.step());
+        let advanced = engine.advance(steps, steps);
+        if advanced.is_ok() {
+            pace.submitted(steps);
+        }
+        if each(engine, pace, advanced)?.is_break() {
+            break;
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use super::analyses::stress_of_sample;
 use super::colour_ranges::ColourRanges;
 use super::energy_rows::EnergyRows;
 use super::frame::{Frame, Here, with_flow};
-use super::pace::Pace;
+use super::pace::{self, Pace};
 use super::pictures::{mesh_depth, most_shown};
 use super::sections::Sections;
 use super::tally::Carried;
@@ -25,6 +25,7 @@ use crate::state::State;
 use crate::table::Table;
 use crate::tessellation::Tessellation;
 use image::RgbaImage;
+use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -273,19 +274,20 @@ impl Simulation {
     /// Submits batches until a step or a time, and waits for them.
     fn submit(&mut self, last: u64, deadline: Option<Instant>) -> Result<(), EngineError> {
         let first = self.engine.step();
-        self.pace.begin();
-        while self.engine.step() < last {
-            let steps = self.pace.batch().min(last - self.engine.step());
-            self.engine.advance(steps, steps)?;
-            self.pace.submitted(steps);
-            self.take_samples();
-            if self.engine.step() - self.saved.step >= STEPS_BETWEEN_STATES {
-                self.saved = Arc::new(self.engine.state()?);
+        let Self { engine, pace, saved, interrupt, .. } = self;
+        let mut samples = Vec::new();
+        let advanced = pace::advance(engine, pace, last, &mut |engine, _, advanced| {
+            samples.extend(engine.take_samples());
+            advanced?;
+            if engine.step() - saved.step >= STEPS_BETWEEN_STATES {
+                *saved = Arc::new(engine.state()?);
             }
-            if self.interrupt.is_asked() || deadline.is_some_and(|deadline| Instant::now() >= deadline) {
-                break;
-            }
-        }
+            let is_over = interrupt.is_asked() || deadline.is_some_and(|deadline| Instant::now() >= deadline);
+            Ok::<_, EngineError>(if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+        });
+        // What came before a failure is good.
+        self.add_samples(samples);
+        advanced?;
         self.engine.wait()?;
         if self.engine.step() > first && self.engine.plan().samplers[0].due(self.engine.step()) {
             // A sample moves the particles of split steps on, whose state is needed to look at them.

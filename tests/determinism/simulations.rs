@@ -155,7 +155,7 @@ fn a_changed_number_is_that_of_another_scene() {
         (fluid(&[GROOT_WARREN]), "temperature", 1.3),
         (fluid(&[r#"interactions.0.bath={"type":"memory","rate":3}"#]), "interactions.0.bath.rate", 5.0),
         (oscillators(&[]), "interactions[1].stiffness", 12.0),
-        (built_in("couette", &walls), "space.walls.z.upper.velocity.0", 0.3),
+        (built_in("couette", &walls), "space.walls.z.upper_velocity.0", 0.3),
     ];
     for (scene, key, value) in cases {
         let scene = edited(&scene, |scene| (scene.time.steps, scene.time.equilibration) = (100, 0));

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::Instant;
 
-use mesoscope::gpu::{AdapterChoice, prepare_environment};
+use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::{Id, checkpoint, files};
 use mesoscope::run::{Interrupt, Run, RunError};
 use mesoscope::scene::{self, Checked};
@@ -83,7 +83,6 @@ type Files = Vec<(String, Vec<u8>)>;
 
 /// A run of every family that has come half-way.
 fn half_way(place: &Path) -> Vec<(&'static str, Files)> {
-    prepare_environment();
     let run = |(name, scene): (&'static str, Checked)| {
         let directory = place.join(name);
         let half = edited(&scene, |scene| scene.time.steps = 30);
@@ -349,14 +348,12 @@ fn flip_tables(seed: u64, each: usize) {
 
 #[test]
 fn flipped_bits_of_tables_are_refused_or_cut_off() {
-    prepare_environment();
     flip_tables(1, 8);
 }
 
 #[test]
 #[ignore = "thousands of flipped bits"]
 fn thousands_of_flipped_bits_of_tables_are_refused_or_cut_off() {
-    prepare_environment();
     flip_tables(2, 1000);
 }
 

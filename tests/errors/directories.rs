@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::mpsc;
 use std::thread;
 
-use mesoscope::gpu::{AdapterChoice, prepare_environment};
+use mesoscope::gpu::AdapterChoice;
 use mesoscope::output::{OutputError, RunDirectory, files};
 use mesoscope::plan::Division;
 use mesoscope::run::{self, Run, RunError};
@@ -28,7 +28,6 @@ fn small() -> Checked {
 
 /// A finished run of it.
 fn finished(directory: &Path) {
-    prepare_environment();
     Run::start(small(), directory, false).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
 }
 
@@ -168,7 +167,6 @@ fn sizes_are_weighed_before_they_are_believed() {
 /// Each rank needs room for its own part of the box, and not for all of it.
 #[test]
 fn ranks_are_weighed_by_their_parts() {
-    prepare_environment();
     let set = ["space.box=[150,150,150]", "output.radial_distribution=null"].map(str::to_owned);
     let scene = scene::load("dpd-fluid", &set).unwrap();
     let whole = run::adapter_for(&scene, &AdapterChoice::Best);

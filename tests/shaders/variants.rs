@@ -9,7 +9,7 @@ use std::thread;
 
 use mesoscope::engine::Control;
 use mesoscope::families::shallow_water::WaterLayout;
-use mesoscope::gpu::{Binding, GpuError, LinkedShader, Switched, validate};
+use mesoscope::gpu::{Binding, GpuError, LinkedShader, Switched, link_loading, validate};
 use mesoscope::plan::{Division, Domain, Hardware, Kernel, Options, Part, Plan, Storage, Texture, Traversal};
 use mesoscope::run;
 use mesoscope::scene::{self, Checked};
@@ -1363,6 +1363,30 @@ fn every_kernel_links() {
     assert!(list.is_empty(), "{} kernels do not link:\n{}", list.len(), list.join("\n"));
     // The enumeration is what gives this test its meaning: it may grow, but must not shrink unnoticed.
     assert!(linked().len() > 500, "only {} distinct kernels", linked().len());
+}
+
+fn load_constants(sources: &[Source]) {
+    let failures = in_shares(sources, |(entry, choices)| {
+        let found = link_loading(entry.name(), *entry, choices).map_err(|error| error.to_string());
+        found.map(|shader| shader.loaded.len())
+    });
+    let wrong: BTreeSet<&String> = failures.iter().filter_map(|found| found.as_ref().err()).collect();
+    assert!(wrong.is_empty(), "{} kernels do not link with constants in a buffer: {wrong:#?}", wrong.len());
+    assert!(failures.iter().filter(|found| found.as_ref().is_ok_and(|count| *count > 0)).count() > sources.len() / 4);
+}
+
+/// Kernels whose constants lie in a buffer, some of all.
+#[test]
+fn kernels_load_constants() {
+    let mut sources: Vec<Source> = texts().keys().cloned().collect();
+    sources.sort();
+    load_constants(&sources.into_iter().step_by(16).collect::<Vec<_>>());
+}
+
+#[test]
+#[ignore = "validates all kernels once more: make validate"]
+fn all_kernels_load_constants() {
+    load_constants(&texts().keys().cloned().collect::<Vec<_>>());
 }
 
 /// Some scene asks for a kernel that comes to it: to every file, and to every name. A default may have been replaced wherever it
