@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The modules of the library, from the bottom up.
-const LAYERS: [&str; 28] = [
+const LAYERS: [&str; 29] = [
     "printable",
     "host_memory",
     "numbers",
@@ -33,6 +33,7 @@ const LAYERS: [&str; 28] = [
     "sweep",
     "tradeoff",
     "stability",
+    "report",
     "calibration",
 ];
 

@@ -55,6 +55,7 @@ mod prediction;
 pub mod printable;
 pub mod quantity;
 pub mod ranks;
+pub mod report;
 pub mod run;
 pub mod scene;
 pub mod self_test;

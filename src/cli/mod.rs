@@ -9,6 +9,7 @@ mod guidance;
 mod heading;
 mod interruption;
 mod launcher;
+mod page;
 mod plot;
 mod print;
 mod processes;
@@ -58,6 +59,7 @@ Examples:
   mesoscope tradeoff dpd-fluid --vary time.step=0.02,0.04   what accuracy costs, and what to choose
   mesoscope stability dpd-fluid               how far its time step can go
   mesoscope check my-scene.json               find all its mistakes, see what it costs
+  mesoscope report dpd-fluid                  one page of a run, to send around
   mesoscope scenes dpd-fluid > my-scene.json  start a scene from a built-in one
 
 Exit codes: 2 wrong command line or scene, 3 no usable adapter, 4 unstable run, 5 input or output, 130 interrupted."
@@ -76,6 +78,7 @@ enum Command {
     Tradeoff(tradeoff::Arguments),
     Stability(stability::Arguments),
     Plot(plot::Arguments),
+    Report(page::Arguments),
     Scenes(scenes::Arguments),
     Schema(schema::Arguments),
     Adapters(adapters::Arguments),
@@ -90,14 +93,19 @@ impl Command {
             Self::Sweep(arguments) if arguments.shard.is_some() => Ok(()),
             Self::Run(_) | Self::Resume(_) if cfg!(feature = "mpi") => Ok(()),
             Self::Check(_) | Self::Adapters(_) => Ok(()),
-            Self::Scenes(_) | Self::Schema(_) | Self::Completions(_) | Self::Man(_) => Ok(()),
+            Self::Report(_) | Self::Scenes(_) | Self::Schema(_) | Self::Completions(_) | Self::Man(_) => Ok(()),
             _ => launcher::refuse_copies(),
         }
     }
 
+    /// Whether it opens an adapter.
+    fn computes(&self) -> bool {
+        !matches!(self, Self::Report(_) | Self::Scenes(_) | Self::Schema(_) | Self::Completions(_) | Self::Man(_))
+    }
+
     fn execute(&self) -> Result<(), Failure> {
         self.check_alone()?;
-        if !matches!(self, Self::Scenes(_) | Self::Schema(_) | Self::Completions(_) | Self::Man(_)) {
+        if self.computes() {
             start_again_with(driver_environment(launcher::local_copies()));
         }
         match self {
@@ -108,6 +116,7 @@ impl Command {
             Self::Tradeoff(arguments) => tradeoff::execute(arguments),
             Self::Stability(arguments) => stability::execute(arguments),
             Self::Plot(arguments) => plot::execute(arguments),
+            Self::Report(arguments) => page::execute(arguments),
             Self::Scenes(arguments) => scenes::execute(arguments),
             Self::Schema(arguments) => schema::execute(arguments),
             Self::Adapters(arguments) => adapters::execute(arguments),

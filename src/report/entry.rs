@@ -1,0 +1,105 @@
+//! What a page says of one directory.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use serde::Serialize;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A fact in a line.
+#[derive(Debug, Serialize)]
+pub(super) struct Fact {
+    pub name: &'static str,
+    pub text: String,
+}
+
+/// A key whose value is not that of a built-in scene.
+#[derive(Debug, Serialize)]
+pub(super) struct Difference {
+    pub key: String,
+    pub before: String,
+    pub after: String,
+}
+
+/// A table of text.
+#[derive(Debug, Default, Serialize)]
+pub(super) struct TextTable {
+    pub heading: String,
+    pub header: Vec<String>,
+    pub rows: Vec<Vec<String>>,
+    /// Places of columns with numbers.
+    pub numbers: Vec<usize>,
+    pub note: Option<String>,
+}
+
+/// A picture inside of the page.
+#[derive(Debug, Serialize)]
+pub(super) struct Inside {
+    pub name: String,
+    pub data: String,
+}
+
+/// All that is said.
+#[derive(Debug, Default, Serialize)]
+pub(super) struct Entry {
+    pub title: String,
+    pub kind: &'static str,
+    pub directory: String,
+    pub when: Option<String>,
+    pub description: Option<String>,
+    pub missing: Vec<String>,
+    pub facts: Vec<Fact>,
+    pub builtin: Option<String>,
+    pub differences: Vec<Difference>,
+    pub warnings: Vec<String>,
+    pub tables: Vec<TextTable>,
+    /// HTML that was made of the page of a study.
+    pub words: Option<String>,
+    pub conserved: Vec<String>,
+    pub not_conserved: Vec<String>,
+    pub pictures: Vec<Inside>,
+    pub strip: Vec<Inside>,
+    pub repeat: Vec<String>,
+    pub command: Option<String>,
+    pub scene: Option<String>,
+}
+
+impl Entry {
+    /// Nothing yet of a directory.
+    pub(super) fn of(kind: &'static str, directory: &Path) -> Self {
+        let name = directory.file_name().map(|name| name.to_string_lossy().into_owned());
+        let title = name.clone().unwrap_or_default();
+        Self { kind, title, directory: name.unwrap_or_else(|| ".".to_owned()), ..Self::default() }
+    }
+
+    pub(super) fn add_fact(&mut self, name: &'static str, text: impl Into<String>) {
+        self.facts.push(Fact { name, text: text.into() });
+    }
+}
+
+/// Pictures of a directory by their names.
+pub(super) fn pictures(directory: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(directory).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut found: Vec<PathBuf> = entries.filter(|path| path.extension().is_some_and(|end| end == "png")).collect();
+    found.sort();
+    found
+}
+
+/// A picture to be put into the page; what is no picture is said.
+pub(super) fn inside(path: &Path, name: String) -> Result<Inside, String> {
+    let bytes = fs::read(path).map_err(|error| format!("`{name}` cannot be read: {error}"))?;
+    match image::load_from_memory_with_format(&bytes, image::ImageFormat::Png) {
+        Ok(_) => Ok(Inside { name, data: STANDARD.encode(bytes) }),
+        Err(error) => Err(format!("`{name}` is damaged: {error}")),
+    }
+}
+
+/// A value in a line.
+pub(super) fn in_a_line(value: &Value) -> String {
+    match value {
+        Value::Null => "–".to_owned(),
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}
