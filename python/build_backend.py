@@ -36,5 +36,5 @@ def _program() -> None:
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     _program()
-    os.environ["MATURIN_PEP517_ARGS"] = f"--profile {PROFILE}"
+    os.environ["MATURIN_PEP517_ARGS"] = f"--profile {PROFILE} --generate-stubs"
     return maturin.build_wheel(wheel_directory, config_settings, metadata_directory)

@@ -52,6 +52,7 @@ pub mod output;
 pub mod plan;
 pub mod plot;
 mod prediction;
+pub mod prelude;
 pub mod printable;
 pub mod quantity;
 pub mod ranks;

@@ -132,8 +132,9 @@ impl Simulation {
     /// [`RunError::Arrays`] with all mistakes: another number of particles, numbers that are not finite or too large, held particles that would
     /// move.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<Rounding, RunError> {
-        let model = self.scene.model().clone();
-        let kinematics = Kinematics::new(&model);
+        let scene = self.scene.clone();
+        let model = scene.model();
+        let kinematics = Kinematics::new(model);
         let mut mistakes = wrong_count(velocities.len(), model.particle_count());
         mistakes.extend(listed("is not finite", velocities, |_, velocity| {
             velocity.iter().any(|number| !number.is_finite())
@@ -203,7 +204,8 @@ impl Simulation {
     /// # Errors
     /// [`RunError::Arrays`] with all mistakes: another number of particles, numbers that are not finite, positions outside of the box.
     pub fn set_positions(&mut self, positions: &[[f64; 3]]) -> Result<Rounding, RunError> {
-        let model = self.scene.model().clone();
+        let scene = self.scene.clone();
+        let model = scene.model();
         let units = model.units;
         let edges = units.edges();
         let species = &self.here()?.state.species.clone();

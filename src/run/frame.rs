@@ -52,7 +52,8 @@ pub struct Frame {
 }
 
 impl Frame {
-    pub(super) fn new(reported: &Reported, model: &Model, kinematics: &Kinematics) -> Self {
+    pub(super) fn new(reported: &Reported, model: &Model) -> Self {
+        let kinematics = Kinematics::new(model);
         let (units, step) = (model.units, reported.step);
         let particles = 0..reported.len();
         let edges = units.edges();

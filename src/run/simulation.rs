@@ -13,7 +13,7 @@ use super::tally::Carried;
 use super::views::Views;
 use crate::engine::{Engine, EngineError, Sample, Shown};
 use crate::families::pictures::MeshPictures;
-use crate::families::{self, Checked, Instability, Kinematics, PictureKind};
+use crate::families::{self, Checked, Instability, PictureKind};
 use crate::gpu::{AdapterChoice, AdapterDescription, ConstantsIn, Gpu};
 use crate::measure::statistics::Estimate;
 use crate::measure::{Field, observables_of};
@@ -377,9 +377,9 @@ impl Simulation {
     /// # Errors
     /// [`RunError`] if the device fails, or the simulation has ended.
     pub fn frame(&mut self) -> Result<Frame, RunError> {
-        let kinematics = Kinematics::new(self.scene.model());
-        let model = self.scene.model().clone();
-        Ok(Frame::new(&self.here()?.reported, &model, &kinematics))
+        // A clone shares its content.
+        let scene = self.scene.clone();
+        Ok(Frame::new(&self.here()?.reported, scene.model()))
     }
 
     /// The exact state at the current step, from which the steps that follow are taken.

@@ -13,6 +13,7 @@ mod molecules;
 mod output;
 mod particles;
 mod ranks;
+mod report;
 mod schema;
 mod shallow_water;
 mod shards;
