@@ -93,7 +93,7 @@ impl Command {
             Self::Sweep(arguments) if arguments.shard.is_some() => Ok(()),
             Self::Run(_) | Self::Resume(_) if cfg!(feature = "mpi") => Ok(()),
             Self::Check(_) | Self::Adapters(_) => Ok(()),
-            Self::Report(_) | Self::Scenes(_) | Self::Schema(_) | Self::Completions(_) | Self::Man(_) => Ok(()),
+            _ if !self.computes() => Ok(()),
             _ => launcher::refuse_copies(),
         }
     }

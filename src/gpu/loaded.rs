@@ -2,6 +2,7 @@
 
 use crate::shaders::Constant;
 use std::collections::HashMap;
+use std::fmt::Write as _;
 
 /// The number of their binding, beyond those of arrays.
 pub(crate) const BINDING: u32 = 999;
@@ -33,7 +34,7 @@ pub(super) fn load(text: &str, stays: impl Fn(Constant) -> bool) -> (String, Vec
             match places.get(&rest[begin..end]) {
                 Some(place) => {
                     let component = ["x", "y", "z", "w"][place % 4];
-                    made.push_str(&format!("loaded_constants[{}].{component}", place / 4));
+                    let _ = write!(made, "loaded_constants[{}].{component}", place / 4);
                 }
                 None => made.push_str(&rest[begin..end]),
             }

@@ -5,7 +5,11 @@ use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 use serde_json::Value;
 use std::fs;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
+
+/// The widest pictures of a page, in pixels: twice what a column shows.
+pub(super) const WIDTH: u32 = 960;
 
 /// A fact in a line.
 #[derive(Debug, Serialize)]
@@ -86,13 +90,18 @@ pub(super) fn pictures(directory: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// A picture to be put into the page; what is no picture is said.
-pub(super) fn inside(path: &Path, name: String) -> Result<Inside, String> {
+/// A picture inside of the page, at most so many pixels wide: a page is to be sent around. What is no picture is said.
+pub(super) fn inside(path: &Path, name: String, width: u32) -> Result<Inside, String> {
     let bytes = fs::read(path).map_err(|error| format!("`{name}` cannot be read: {error}"))?;
-    match image::load_from_memory_with_format(&bytes, image::ImageFormat::Png) {
-        Ok(_) => Ok(Inside { name, data: STANDARD.encode(bytes) }),
-        Err(error) => Err(format!("`{name}` is damaged: {error}")),
+    let damaged = |error: image::ImageError| format!("`{name}` is damaged: {error}");
+    let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png).map_err(damaged)?;
+    if picture.width() <= width {
+        return Ok(Inside { data: STANDARD.encode(bytes), name });
     }
+    let smaller = picture.resize(width, u32::MAX, image::imageops::FilterType::CatmullRom).into_rgb8();
+    let mut bytes = Cursor::new(Vec::new());
+    smaller.write_to(&mut bytes, image::ImageFormat::Png).map_err(damaged)?;
+    Ok(Inside { data: STANDARD.encode(bytes.into_inner()), name })
 }
 
 /// A value in a line.

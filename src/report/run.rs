@@ -1,6 +1,6 @@
 //! The page of a run.
 
-use super::entry::{Difference, Entry, Inside, TextTable, in_a_line, inside, pictures};
+use super::entry::{Difference, Entry, Inside, TextTable, WIDTH, in_a_line, inside, pictures};
 use crate::numbers::{grouped, prefixed, with_error};
 use crate::output::{OutputError, Summary, files, read_table};
 use crate::run::printed_results;
@@ -140,7 +140,8 @@ fn means(summary: &Summary) -> Option<TextTable> {
         let unequilibrated = summary.unequilibrated.as_ref().is_some_and(|found| found.includes(name));
         let shown = with_error(value, mean["error"].as_f64());
         rows.push(vec![
-            described.map_or_else(|| name.replace('_', " "), |column| column.meaning.clone()),
+            name.replace('_', " "),
+            described.map(|column| column.meaning.clone()).unwrap_or_default(),
             described.map(|column| column.symbol.clone()).unwrap_or_default(),
             format!("{shown}{}", if is_few { " *" } else { "" }),
             mean["unit"].as_str().unwrap_or_default().to_owned(),
@@ -149,9 +150,10 @@ fn means(summary: &Summary) -> Option<TextTable> {
     }
     let note =
         few.then(|| "* from few samples: the error is not known to a quarter of itself, and may be larger".to_owned());
-    let header =
-        ["mean after equilibration", "symbol", "value ± standard error", "unit", ""].map(str::to_owned).to_vec();
-    (!rows.is_empty()).then(|| TextTable { heading: "Means".to_owned(), header, rows, numbers: vec![2], note })
+    let header = ["column", "mean after equilibration", "symbol", "value ± standard error", "unit", ""]
+        .map(str::to_owned)
+        .to_vec();
+    (!rows.is_empty()).then(|| TextTable { heading: "Means".to_owned(), header, rows, numbers: vec![3], note })
 }
 
 fn last_row(entry: &mut Entry, columns: &[String], row: &[f64]) {
@@ -174,10 +176,10 @@ fn add_pictures(entry: &mut Entry, directory: &Path) {
         let all = numbered.len();
         numbered = (0..STRIP).map(|place| numbered[place * (all - 1) / (STRIP - 1)].clone()).collect();
     }
-    let mut read = |paths: Vec<std::path::PathBuf>| -> Vec<Inside> {
+    let mut read = |paths: Vec<std::path::PathBuf>, width: u32| -> Vec<Inside> {
         let name =
             |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().replace('_', " ")).unwrap_or_default();
-        let found = paths.iter().filter_map(|path| match inside(path, name(path)) {
+        let found = paths.iter().filter_map(|path| match inside(path, name(path), width) {
             Ok(inside) => Some(inside),
             Err(note) => {
                 entry.missing.push(note);
@@ -186,6 +188,6 @@ fn add_pictures(entry: &mut Entry, directory: &Path) {
         });
         found.collect()
     };
-    let (pictures, strip) = (read(single), read(numbered));
+    let (pictures, strip) = (read(single, WIDTH), read(numbered, WIDTH / 3));
     (entry.pictures, entry.strip) = (pictures, strip);
 }

@@ -1,6 +1,6 @@
 //! The pages of sweeps, tradeoffs and maps of stability.
 
-use super::entry::{Entry, TextTable, inside, pictures};
+use super::entry::{Entry, TextTable, WIDTH, inside, pictures};
 use crate::output::own_file;
 use crate::study::Kind;
 use pulldown_cmark::{Event, Options, Parser, html};
@@ -23,6 +23,12 @@ pub(super) fn entry(directory: &Path) -> Option<Entry> {
         }
     };
     let text = |key: &str| summary[key].as_str().map(str::to_owned);
+    let written = summary.pointer("/arguments/text").and_then(Value::as_str);
+    let written: Option<Value> = written.and_then(|text| serde_json::from_str(text).ok());
+    let title = summary.pointer("/base/title").or_else(|| written.as_ref()?.get("title")).and_then(Value::as_str);
+    if let Some(title) = title {
+        entry.title = format!("{title}: {}", kind.noun);
+    }
     entry.when = text("date").filter(|date| !date.is_empty());
     if let Some(adapter) = summary["adapter"]["name"].as_str() {
         entry.add_fact("adapter", adapter);
@@ -32,11 +38,14 @@ pub(super) fn entry(directory: &Path) -> Option<Entry> {
     }
     let varied = summary.pointer("/arguments/vary").or_else(|| summary.get("vary")).cloned().unwrap_or_default();
     for value in varied.as_array().into_iter().flatten() {
-        let shown = value.as_str().map(str::to_owned).unwrap_or_else(|| {
-            let values =
-                value["values"].as_array().map(|all| all.iter().map(super::entry::in_a_line).collect::<Vec<_>>());
-            format!("{} = {}", value["key"].as_str().unwrap_or_default(), values.unwrap_or_default().join(", "))
-        });
+        let shown = value.as_str().map_or_else(
+            || {
+                let values =
+                    value["values"].as_array().map(|all| all.iter().map(super::entry::in_a_line).collect::<Vec<_>>());
+                format!("{} = {}", value["key"].as_str().unwrap_or_default(), values.unwrap_or_default().join(", "))
+            },
+            str::to_owned,
+        );
         entry.add_fact("varied", shown);
     }
     let unfinished =
@@ -63,7 +72,7 @@ pub(super) fn entry(directory: &Path) -> Option<Entry> {
     }
     for path in pictures(directory) {
         let name = path.file_stem().map(|stem| stem.to_string_lossy().replace('_', " ")).unwrap_or_default();
-        match inside(&path, name) {
+        match inside(&path, name, WIDTH) {
             Ok(picture) => entry.pictures.push(picture),
             Err(note) => entry.missing.push(note),
         }
@@ -76,10 +85,14 @@ pub(super) fn entry(directory: &Path) -> Option<Entry> {
         command = format!("{command} --set {}", quoted(setting));
     }
     for value in varied.as_array().into_iter().flatten() {
-        let argument = value.as_str().map(str::to_owned).unwrap_or_else(|| {
-            let values = value["values"].as_array().map(|all| all.iter().map(ToString::to_string).collect::<Vec<_>>());
-            format!("{}={}", value["key"].as_str().unwrap_or_default(), values.unwrap_or_default().join(","))
-        });
+        let argument = value.as_str().map_or_else(
+            || {
+                let values =
+                    value["values"].as_array().map(|all| all.iter().map(ToString::to_string).collect::<Vec<_>>());
+                format!("{}={}", value["key"].as_str().unwrap_or_default(), values.unwrap_or_default().join(","))
+            },
+            str::to_owned,
+        );
         command = format!("{command} --vary {}", quoted(&argument));
     }
     entry.repeat = vec![format!("`{}` in the directory has all that was requested.", kind.summary)];

@@ -126,13 +126,17 @@ impl Pace {
     }
 }
 
+/// What is called after every batch.
+type EachBatch<'e, E> =
+    dyn FnMut(&mut dyn Stepper, &mut Pace, Result<(), EngineError>) -> Result<ControlFlow<()>, E> + 'e;
+
 /// Advances batch by batch until a step. After every batch `each` receives what became of it: a failure is found a few batches late, and what
 /// came before it is good. It may end the advance early.
 pub(super) fn advance<E>(
     engine: &mut dyn Stepper,
     pace: &mut Pace,
     last: u64,
-    each: &mut dyn FnMut(&mut dyn Stepper, &mut Pace, Result<(), EngineError>) -> Result<ControlFlow<()>, E>,
+    each: &mut EachBatch<'_, E>,
 ) -> Result<(), E> {
     pace.begin();
     while engine.step() < last {

@@ -40,8 +40,13 @@ fn a_page_has_what_a_run_left_and_escapes_it() {
     let temperature = summary.means["temperature"]["value"].as_f64().unwrap();
     assert!(text.contains(&format!("{temperature:.1}")[..2]), "{temperature}");
     // The charts, and snapshots at steps 0 to 40.
-    assert_eq!(text.matches("data:image/png;base64,").count(), 8, "energies, diffusion, snapshot, and five as it went on");
-    for said in ["81 in a box of 3 × 3 × 3", "diffusion coefficient", "to the last bit: ", &summary.run_id.to_string()] {
+    assert_eq!(
+        text.matches("data:image/png;base64,").count(),
+        8,
+        "energies, diffusion, snapshot, and five as it went on"
+    );
+    for said in ["81 in a box of 3 × 3 × 3", "diffusion coefficient", "to the last bit: ", &summary.run_id.to_string()]
+    {
         assert!(text.contains(said), "{said}");
     }
     let out = place.argument("page.html");
@@ -81,7 +86,13 @@ fn a_page_may_be_of_several_studies() {
     let choices = ["tradeoff", &scene, "--vary", "time.step=0.01,0.02", "--measure", "temperature"];
     succeeds(&[&choices[..], &["--target", "temperature=50%", "--out", &tradeoff, "--quiet"]].concat());
     let text = page(&place, &["sweep", "tradeoff"]);
-    for said in ["interactions.0.friction = 2, 9", "Means over seeds", "--vary &#x27;interactions.0.friction=2,9&#x27;", "Choose ", "<h2>Costs</h2>"] {
+    for said in [
+        "interactions.0.friction = 2, 9",
+        "Means over seeds",
+        "--vary &#x27;interactions.0.friction=2,9&#x27;",
+        "Choose ",
+        "<h2>Costs</h2>",
+    ] {
         assert!(text.contains(said), "{said}");
     }
     assert!(!text.contains("A<i>") && !text.contains("<b>"));

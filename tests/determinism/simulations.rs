@@ -111,7 +111,7 @@ fn a_simulation_sees_what_a_run_writes() {
                 let written: Vec<f64> = line.split(' ').skip(1).filter_map(|word| word.parse().ok()).collect();
                 let seen = [frame.positions[particle], frame.velocities[particle]].concat();
                 // Sheared boxes are written as leaning cells.
-                let first = if name == "shear" { 1 } else { 0 };
+                let first = usize::from(name == "shear");
                 let close = |(one, other): (&f64, &f64)| (one - other).abs() <= 1e-5 * (1.0 + other.abs());
                 assert!(
                     seen[first..].iter().zip(&written[first..6]).all(close),
@@ -176,8 +176,7 @@ fn a_changed_number_is_that_of_another_scene() {
             let plan = run::plan(simulation.scene(), Hardware::from(gpu()), options.with_room(before.len() as u64));
             let mut engine = Engine::new(gpu(), plan, &unturned(before)).unwrap();
             engine.advance(8, 8).unwrap();
-            let [seen, expected] =
-                [&simulation.state().unwrap(), &engine.state().unwrap()].map(|state| unturned(state));
+            let [seen, expected] = [&simulation.state().unwrap(), &engine.state().unwrap()].map(unturned);
             assert!(seen == expected, "{key}");
             seen
         };
@@ -385,7 +384,9 @@ fn several_simulations_at_once_have_their_own_bits() {
     };
     std::thread::scope(|scope| {
         let threads: Vec<_> = (0..2).map(|_| scope.spawn(|| bits(self::simulation(&scene)))).collect();
-        threads.into_iter().for_each(|thread| assert!(thread.join().unwrap() == expected));
+        for thread in threads {
+            assert!(thread.join().unwrap() == expected);
+        }
     });
     let first = simulation(&scene);
     let second = Simulation::on(first.gpu(), &scene).unwrap();
