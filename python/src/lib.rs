@@ -1,4 +1,4 @@
-//! The extension module of the Python package `mesoscope`: a thin layer over the library. Scenes pass as JSON text, arrays as NumPy arrays;
+//! The extension module of the Python package `mesoscope`: a thin layer over the library. Scenes pass as JSON text, arrays as `NumPy` arrays;
 //! what can be read from files is read in Python.
 
 mod errors;

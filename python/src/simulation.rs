@@ -69,7 +69,7 @@ fn array_of<'py, T: numpy::Element + Copy>(py: Python<'py>, rows: &[[T; 3]]) -> 
 }
 
 /// A frame as a dictionary of arrays.
-fn dictionary<'py>(py: Python<'py>, frame: Frame) -> PyResult<Bound<'py, PyDict>> {
+fn dictionary(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
     let found = PyDict::new(py);
     found.set_item("step", frame.step)?;
     found.set_item("time", frame.time)?;
