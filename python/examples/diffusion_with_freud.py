@@ -10,7 +10,7 @@ import mesoscope as ms
 import numpy as np
 
 steps = int(sys.argv[1]) if len(sys.argv) > 1 else 6000
-output = {"energies": {"every": 100}, "trajectory": {"every": 10}, "diffusion": {"every": 10, "window": 100}}
+output = {"energies": {"every": 100}, "trajectory": {"every": 10}, "diffusion": {"every": 10, "window": steps // 60}}
 settings = {"space.box": [8, 8, 8], "time.equilibration": steps // 6, "output": output}
 run = ms.run("dpd-fluid", settings, out="diffusion", steps=steps, force=True)
 

@@ -143,8 +143,12 @@ impl Simulation {
     /// [`RunError::Checkpoint`] where there is no checkpoint or it is damaged, and as [`Self::new`].
     pub fn from_checkpoint(path: impl AsRef<Path>, choice: &AdapterChoice) -> Result<Self, RunError> {
         let path = path.as_ref();
-        let Checkpoint { scene, state, sections, .. } = checkpoint::load(path)?;
+        let Checkpoint { scene, mut state, sections, .. } = checkpoint::load(path)?;
         let planned = Sight::Frames.planned(&scene);
+        if planned.model().follows_paths(&planned.output) && state.images.is_empty() {
+            // The state of a run that followed no particle.
+            state.images = vec![[0; 3]; state.len()];
+        }
         let (gpu, plan) = open_adapter(&planned, choice, Options::default())?;
         if let Some(problem) = plan.misfit(&state, scene.model()) {
             return Err(checkpoint::CheckpointError::malformed(path, problem).into());
@@ -155,18 +159,8 @@ impl Simulation {
         Ok(simulation)
     }
 
-    fn from_state(
-        sight: Sight,
-        gpu: &Gpu,
-        scene: &Checked,
-        mut state: State,
-        carried: Carried,
-    ) -> Result<Self, RunError> {
+    fn from_state(sight: Sight, gpu: &Gpu, scene: &Checked, state: State, carried: Carried) -> Result<Self, RunError> {
         let planned = sight.planned(scene);
-        if planned.model().follows_paths(&planned.output) && state.images.is_empty() {
-            // The state of a run that followed no particle.
-            state.images = vec![[0; 3]; state.len()];
-        }
         let (engine, options) = open(gpu, &planned, &state, Options::default())?;
         let pace = Pace::for_looking(scene.model().particle_count(), engine.plan().operations_per_particle);
         Ok(Self {

@@ -45,7 +45,8 @@ fn a_page_has_what_a_run_left_and_escapes_it() {
         8,
         "energies, diffusion, snapshot, and five as it went on"
     );
-    for said in ["81 in a box of 3 × 3 × 3", "diffusion coefficient", "to the last bit: ", &summary.run_id.to_string()]
+    for said in
+        ["81 in a box of 3 × 3 × 3", "mean after equilibration", "to the last bit: ", &summary.run_id.to_string()]
     {
         assert!(text.contains(said), "{said}");
     }

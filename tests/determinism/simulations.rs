@@ -145,6 +145,19 @@ fn a_checkpoint_goes_on_to_the_bit() {
     }
 }
 
+/// The checkpoint of a run that followed no particle goes on too.
+#[test]
+fn a_run_goes_on_step_by_step() {
+    let scene = edited(&fluid(&[SPLITTING]), |scene| scene.time.steps = 30);
+    let root = tempfile::tempdir().unwrap();
+    Run::start(scene.clone(), root.path(), true).without_pictures().execute(&adapter(), &mut |_| {}).unwrap();
+    let mut simulation = Simulation::from_checkpoint(root.path().join(files::CHECKPOINT), &adapter()).unwrap();
+    simulation.advance(10).unwrap();
+    assert!(unturned(&simulation.state().unwrap()) == unturned(&unseen(&scene, 40)));
+    // Turns round the box are counted from there on.
+    assert!(simulation.frame().unwrap().images.iter().flatten().all(|turns| turns.abs() <= 1));
+}
+
 /// A scene in which a number is changed goes on as one that had this number from the start would from the same state.
 #[test]
 fn a_changed_number_is_that_of_another_scene() {
