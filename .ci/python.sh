@@ -23,6 +23,7 @@ rm -rf "$place"
 mkdir -p "$place"
 cd "$place"
 installed=$("$environment/bin/python" -c 'import mesoscope, os; print(os.path.dirname(mesoscope.__file__))')
+"$environment/bin/python" -m mypy --ignore-missing-imports -p mesoscope
 "$environment/bin/python" -m pytest -q -p no:cacheprovider "$root/python/tests"
 "$environment/bin/python" -m pytest -q -p no:cacheprovider --doctest-modules -c "$root/python/pyproject.toml" --rootdir "$place" \
     --confcutdir "$place" "$installed"

@@ -24,10 +24,10 @@ from .errors import (  # noqa: E402
     SceneError,
     UnstableError,
 )
-from .results import Mean, Run, Stability, Sweep, Tradeoff, open  # noqa: E402
+from .results import Mean, Page, Run, Stability, Sweep, Tradeoff, open  # noqa: E402
 from .scenes import adapters, check, scene, scenes, schema  # noqa: E402
 from .simulation import Frame, Simulation  # noqa: E402
-from .work import resume, run, stability, sweep, tradeoff  # noqa: E402
+from .work import report, resume, run, stability, sweep, tradeoff  # noqa: E402
 
 __all__ = [
     "AdapterError",
@@ -36,6 +36,7 @@ __all__ = [
     "Frame",
     "Mean",
     "MesoscopeError",
+    "Page",
     "Run",
     "RunError",
     "SceneError",
@@ -47,6 +48,7 @@ __all__ = [
     "adapters",
     "check",
     "open",
+    "report",
     "resume",
     "run",
     "scene",

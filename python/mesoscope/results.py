@@ -58,6 +58,23 @@ class Picture:
         return self.path.read_bytes()
 
 
+class Page:
+    """A page of HTML, which notebooks show."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def __repr__(self) -> str:
+        return f"<page {str(self.path)!r}>"
+
+    def __fspath__(self) -> str:
+        return str(self.path)
+
+    def _repr_html_(self) -> str:
+        page = html.escape(self.path.read_text(encoding="utf-8"))
+        return f'<iframe srcdoc="{page}" style="width: 100%; height: 60em; border: 0"></iframe>'
+
+
 def _numbers(cells: list[str]) -> np.ndarray:
     try:
         return np.array([float(cell) if cell else np.nan for cell in cells])

@@ -5,13 +5,15 @@ from __future__ import annotations
 import json
 import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 from typing import Any, Callable, Iterable, Mapping
 
 from . import _mesoscope
-from .errors import SceneError
-from .results import Run, Stability, Sweep, Tradeoff
+from ._command import program
+from .errors import FileError, SceneError
+from .results import Page, Run, Stability, Sweep, Tradeoff
 from .scenes import overrides, source, text
 
 
@@ -253,3 +255,22 @@ def stability(
     finally:
         study.close()
     return Stability(study.out, [dict(zip(("row", "right_up_to", "unstable_from", "laws"), row)) for row in rows], findings)
+
+
+def report(*results: Any, out: str | os.PathLike[str] = "report.html", force: bool = False) -> Page:
+    """Makes one page of runs and studies, given as results or as directories, with pictures inside: to send around.
+
+    >>> import mesoscope as ms
+    >>> small = {"space.box": [4, 4, 4], "time.equilibration": 20, "output": {}}
+    >>> run = ms.run("dpd-fluid", small, out="reported", steps=100, progress=False)
+    >>> ms.report(run, out="page.html").path.name
+    'page.html'
+    """
+    directories = [os.fspath(getattr(result, "directory", result)) for result in results]
+    more = ["--force"] if force else []
+    done = subprocess.run(
+        [program(), "report", "--out", os.fspath(out), *more, "--", *directories], check=False, capture_output=True, text=True
+    )
+    if done.returncode != 0:
+        raise FileError(done.stderr.strip().removeprefix("error: "))
+    return Page(Path(out))

@@ -136,3 +136,13 @@ def test_a_map_says_how_far_a_scene_may_go(small):
     found = ms.stability("dpd-fluid", {"time.step": "0.02..2/3"}, settings, "map", bisections=1, steps=200, progress=False)
     assert found.rows[0]["unstable_from"] != "not seen" and len(found.table()["verdict"]) >= 3
     assert isinstance(ms.open("map"), ms.Stability)
+
+
+def test_a_page_is_made_of_results(small):
+    run = ms.run("dpd-fluid", small | {"title": "<i>"}, out="run", steps=20, progress=False)
+    page = ms.report(run, out="page.html")
+    assert "&lt;i&gt;" in page.path.read_text() and page._repr_html_().startswith("<iframe")
+    with pytest.raises(ms.FileError, match="exists; give another name"):
+        ms.report("run", out="page.html")
+    with pytest.raises(ms.FileError, match="there is no such directory"):
+        ms.report("nothing", out="other.html")
