@@ -4,7 +4,7 @@
 >>> with ms.Simulation("dpd-fluid", settings={"space.box": [4, 4, 4], "output": {}}) as sim:
 ...     sim.advance(50)
 ...     frame = sim.frame()
->>> frame.positions.shape, sim.step
+>>> frame.positions.shape, frame.step
 ((192, 3), 50)
 """
 

@@ -124,7 +124,7 @@ def check(
     >>> try:
     ...     ms.check("dpd-fluid", {"temprature": 2, "time.step": -1})
     ... except ms.SceneError as error:
-    ...     [place for place, _ in error.mistakes]
+    ...     sorted(place for place, _ in error.mistakes)
     ['temprature', 'time.step']
     """
     name, written = source(scene)

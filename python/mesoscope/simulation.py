@@ -132,7 +132,7 @@ class Simulation:
     >>> import mesoscope as ms
     >>> with ms.Simulation("dpd-fluid", settings={"space.box": [4, 4, 4], "output": {}}) as sim:
     ...     speeds = [abs(frame.velocities).max() for frame in sim.steps(40, every=20)]
-    ...     sim.set("temperature", 2.0)
+    ...     rounding = sim.set("temperature", 2.0)
     ...     sim.advance(10)
     >>> len(speeds)
     2
