@@ -1,6 +1,7 @@
 //! The pages of sweeps, tradeoffs and maps of stability.
 
 use super::entry::{Entry, TextTable, WIDTH, inside, pictures};
+use crate::numbers::{six_digits, with_error};
 use crate::output::own_file;
 use crate::study::Kind;
 use pulldown_cmark::{Event, Options, Parser, html};
@@ -100,22 +101,51 @@ pub(super) fn entry(directory: &Path) -> Option<Entry> {
     Some(entry)
 }
 
-/// A table in comma-separated values, whose columns are numbers where all cells are.
+/// Columns that say nothing of what was found.
+const LEFT_OUT: [&str; 3] = ["wall_seconds", "particle_steps_per_second", "particles"];
+
+/// The most rows that become columns, where there are more columns than a page is wide.
+const MOST_TURNED: usize = 6;
+
+/// A table in comma-separated values, with values and their errors in one cell.
 fn table(text: &str, heading: &str) -> Option<TextTable> {
     let mut lines = text.lines().map(cells);
-    let header = lines.next()?;
+    let names = lines.next()?;
     let all: Vec<Vec<String>> = lines.collect();
-    let is_number = |column: &usize| {
-        all.iter().all(|row| row.get(*column).is_none_or(|cell| cell.is_empty() || cell.parse::<f64>().is_ok()))
+    let place = |name: &str| names.iter().position(|known| known == name);
+    let is_error =
+        |name: &str| name.strip_suffix("_error").is_some_and(|of| place(of).or(place(&format!("{of}_mean"))).is_some());
+    let kept: Vec<usize> = (0..names.len())
+        .filter(|column| !LEFT_OUT.contains(&names[*column].as_str()) && !is_error(&names[*column]))
+        .collect();
+    let shown = |row: &Vec<String>, column: usize| {
+        let cell = row.get(column).cloned().unwrap_or_default();
+        // Of a quantity that is varied and measured the mean has a name of its own.
+        let measured = names[column].strip_suffix("_mean").unwrap_or(&names[column]);
+        let error = place(&format!("{measured}_error")).filter(|_| place(&format!("{}_mean", names[column])).is_none());
+        let error = error.and_then(|error| row.get(error)?.parse::<f64>().ok());
+        match (cell.parse::<f64>(), error) {
+            (Ok(value), Some(error)) => with_error(value, Some(error)),
+            (Ok(value), None) => six_digits(value),
+            (Err(_), _) => cell,
+        }
     };
-    let numbers: Vec<usize> = (0..header.len()).filter(is_number).collect();
-    let shown = |(column, cell): (usize, &String)| match cell.parse::<f64>() {
-        Ok(number) if numbers.contains(&column) => crate::numbers::six_digits(number),
-        _ => cell.clone(),
-    };
-    let rows = all.iter().take(MOST_ROWS).map(|row| row.iter().enumerate().map(shown).collect()).collect();
+    let header: Vec<String> = kept.iter().map(|column| names[*column].replace('_', " ")).collect();
+    let rows: Vec<Vec<String>> =
+        all.iter().take(MOST_ROWS).map(|row| kept.iter().map(|column| shown(row, *column)).collect()).collect();
     let note = (all.len() > MOST_ROWS)
         .then(|| format!("{} more rows are in the table of the directory", all.len() - MOST_ROWS));
+    if rows.len() <= MOST_TURNED && header.len() > MOST_TURNED {
+        let turned =
+            |place: usize| std::iter::once(&header[place]).chain(rows.iter().map(|row| &row[place])).cloned().collect();
+        let mut turned = (0..header.len()).map(turned);
+        let header = turned.next()?;
+        let numbers = (1..header.len()).collect();
+        return Some(TextTable { heading: heading.to_owned(), header, rows: turned.collect(), numbers, note });
+    }
+    let is_number =
+        |column: &usize| all.iter().all(|row| row.get(kept[*column]).is_none_or(|cell| cell.parse::<f64>().is_ok()));
+    let numbers = (0..kept.len()).filter(is_number).collect();
     Some(TextTable { heading: heading.to_owned(), header, rows, numbers, note })
 }
 
@@ -148,4 +178,25 @@ fn in_html(page: &str) -> String {
     let mut text = String::new();
     html::push_html(&mut text, events);
     text.replace("<table>", "<div class=\"wide\"><table>").replace("</table>", "</table></div>")
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn values_stand_with_their_errors_and_few_runs_side_by_side() {
+        let wide = "variant,temperature,state,steps,wall_seconds,temperature_mean,temperature_error,pressure,a,b\n\
+                    \"t=1,2\",1,finished,40,3.5,1.0123456,0.012,23.5,1,2\nt=2,2,failed,0,,,,,,\n";
+        let found = table(wide, "Runs").unwrap();
+        assert_eq!(found.header, ["variant", "t=1,2", "t=2"]);
+        assert_eq!(found.rows[0], ["temperature", "1", "2"]);
+        assert_eq!(found.rows[1], ["state", "finished", "failed"]);
+        assert_eq!(found.rows[3], ["temperature mean", "1.012 ± 0.012", ""]);
+        assert_eq!((found.rows.len(), found.numbers), (7, vec![1, 2]));
+        let narrow = table("seed,pressure,pressure_error\n1,23.456,0.01\n2,23.5,\n", "Runs").unwrap();
+        assert_eq!(narrow.header, ["seed", "pressure"]);
+        assert_eq!(narrow.rows, [["1", "23.456 ± 0.010"], ["2", "23.5"]]);
+    }
 }

@@ -130,11 +130,17 @@ impl Simulation {
     ///
     /// # Errors
     /// [`RunError::Arrays`] with all mistakes: another number of particles, numbers that are not finite or too large, held particles that would
-    /// move.
+    /// move; and for cells with internal energies, of which velocities are a part.
     pub fn set_velocities(&mut self, velocities: &[[f64; 3]]) -> Result<Rounding, RunError> {
         let scene = self.scene.clone();
         let model = scene.model();
         let kinematics = Kinematics::new(model);
+        if !self.here()?.state.energies.is_empty() {
+            // What is not motion is inside.
+            let text = "cells of this scene keep account of kinetic and internal energy together: other velocities would heat or cool \
+                        what is inside";
+            return Err(mistake(format!("{text}; accepted: scenes without internal energies")));
+        }
         let mut mistakes = wrong_count(velocities.len(), model.particle_count());
         mistakes.extend(listed("is not finite", velocities, |_, velocity| {
             velocity.iter().any(|number| !number.is_finite())

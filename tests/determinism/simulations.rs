@@ -341,6 +341,9 @@ fn what_does_not_fit_is_named() {
     outside.iter_mut().take(12).for_each(|position| position[1] = 5.5);
     let found = refused(simulation.set_positions(&outside));
     assert!(found.starts_with("particle 0, 1, 2, 3, 4, 5, 6, 7 and 4 more lies outside of the box"), "{found}");
+    let mut hot = self::simulation(&cells(64, &[ENERGY]));
+    let still = vec![[0.0; 3]; 64];
+    assert!(refused(hot.set_velocities(&still)).contains("keep account of kinetic and internal energy together"));
     for key in ["time.step", "space.box.0", "seed", "particles.0.number_density", "title"] {
         assert!(refused(simulation.set(key, 2)).contains("cannot change between steps"), "{key}");
     }
