@@ -34,3 +34,28 @@ fn the_compiler_that_is_asked_for_builds_every_dependency() {
     let ours = numbers(env!("CARGO_PKG_RUST_VERSION"));
     assert!(ours >= most.0, "rust-version in Cargo.toml is {ours:?}, and {} needs {:?}", most.1, most.0);
 }
+
+/// A package that is published has what the program is compiled with, and the licences.
+#[test]
+fn the_package_has_what_it_needs() {
+    let output = Command::new(env!("CARGO"))
+        .args(["package", "--list", "--allow-dirty", "--offline", "--locked", "--package", env!("CARGO_PKG_NAME")])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let listed = String::from_utf8(output.stdout).unwrap().replace('\\', "/");
+    let files: Vec<&str> = listed.lines().collect();
+    let scenes = mesoscope::scene::builtin().iter().map(|scene| format!("assets/scenes/{}.json", scene.name));
+    let others = [
+        "LICENSE-APACHE",
+        "LICENSE-MIT",
+        "assets/fonts/OFL.txt",
+        "assets/report/page.html",
+        "build/main.rs",
+        "shaders/README.md",
+    ];
+    for file in scenes.chain(others.map(str::to_owned)) {
+        assert!(files.contains(&file.as_str()), "the package lacks {file}");
+    }
+}
