@@ -153,7 +153,7 @@ pub fn run_scene(
     report: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     let scene = checked(name, text, &settings, steps).map_err(|error| errors::of_scene(py, &error))?;
-    let run = Run::start(scene, out, force);
+    let run = if force { Run::replace(scene, out) } else { Run::start(scene, out) };
     let run = if pictures { run } else { run.without_pictures() };
     execute(py, run, adapter, report.as_ref())
 }
@@ -262,7 +262,8 @@ where
     let request = request(&source).map_err(|error| errors::of_study(py, &error))?;
     let (choice, out, force, jobs) = (choice(study.adapter.as_deref()), study.out.clone(), study.force, study.jobs);
     let (ended, heard) = watched(py, study.report.as_ref(), move |interrupt, sender| {
-        let run = StudyRun::<R>::start(request, out, force).until(interrupt).with_jobs(jobs);
+        let run = if force { StudyRun::<R>::replace(request, out) } else { StudyRun::start(request, out) };
+        let run = run.until(interrupt).with_jobs(jobs);
         execute(run, &choice, &mut |event| {
             if let Some(line) = line_of_study(&event) {
                 drop(sender.send(line));

@@ -49,7 +49,7 @@ fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<
     let scene = arguments.ranks.load(&arguments.scene, processes.map(Processes::count))?;
     let directory = arguments.out.clone().unwrap_or_else(|| report::stem(&arguments.scene.scene).into());
     let shown = printable::path(&directory);
-    let started = Run::start(scene, directory, arguments.how.force);
+    let started = if arguments.how.force { Run::replace(scene, directory) } else { Run::start(scene, directory) };
     let simulation = if arguments.writing.no_pictures { started.without_pictures() } else { started };
     report::execute(
         simulation,

@@ -86,7 +86,8 @@ impl StudyArguments {
             // The scene is there, or the command line would have been refused.
             let scene = self.scene.as_deref().unwrap_or_default();
             let default = || format!("{}-{}", report::stem(scene), R::KIND.command).into();
-            StudyRun::start(request(scene)?, self.out.clone().unwrap_or_else(default), self.how.force)
+            let (request, out) = (request(scene)?, self.out.clone().unwrap_or_else(default));
+            if self.how.force { StudyRun::replace(request, out) } else { StudyRun::start(request, out) }
         };
         Ok(study
             .with_jobs(self.jobs.map(usize::from))

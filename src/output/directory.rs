@@ -15,14 +15,14 @@ use std::sync::Arc;
 ///
 /// # let directory = tempfile::tempdir()?;
 /// # let path = directory.path().join("results");
-/// let results = RunDirectory::create(&path, false)?;
+/// let results = RunDirectory::create(&path)?;
 /// results.write(files::ENERGIES, |writer| writer.write_all(b"step\n0\n"))?;
 /// // As long as the run writes, the directory is its own.
-/// assert!(matches!(RunDirectory::create(&path, true), Err(OutputError::InUse { .. })));
+/// assert!(matches!(RunDirectory::replace(&path), Err(OutputError::InUse { .. })));
 /// drop(results);
 /// // Another run replaces it only when that is asked for.
-/// assert!(matches!(RunDirectory::create(&path, false), Err(OutputError::ResultExists { .. })));
-/// let results = RunDirectory::create(&path, true)?;
+/// assert!(matches!(RunDirectory::create(&path), Err(OutputError::ResultExists { .. })));
+/// let results = RunDirectory::replace(&path)?;
 /// assert!(!results.file(files::ENERGIES).exists());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -41,12 +41,22 @@ impl RunDirectory {
     ///
     /// # Errors
     /// [`OutputError::InUse`] when another process writes there; [`OutputError::ResultExists`] when there are files of an earlier
-    /// run and `force` is not given; [`OutputError::DirectoryOfThatName`] when a directory has the name of a result;
+    /// run; [`OutputError::DirectoryOfThatName`] when a directory has the name of a result;
     /// [`OutputError::NoDirectory`] when `path` is a file; [`OutputError::Io`] when the directory cannot be created, listed,
     /// cleared or written to.
-    pub fn create(path: impl Into<PathBuf>, force: bool) -> Result<Self, OutputError> {
+    pub fn create(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
         let directory = Self::make(path)?;
-        directory.clear(force)?;
+        directory.clear(false)?;
+        Ok(directory)
+    }
+
+    /// The same in place of an earlier run, whose files are removed.
+    ///
+    /// # Errors
+    /// As [`Self::create`], but for files of an earlier run.
+    pub fn replace(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
+        let directory = Self::make(path)?;
+        directory.clear(true)?;
         Ok(directory)
     }
 

@@ -66,7 +66,7 @@ mod tests {
     #[test]
     fn pictures_hold_the_id_of_their_run() {
         let place = tempfile::tempdir().unwrap();
-        let directory = RunDirectory::create(place.path(), false).unwrap();
+        let directory = RunDirectory::create(place.path()).unwrap();
         let run = Id::of_run(&scene::load("dpd-fluid", &[]).unwrap());
         let picture = RgbaImage::from_fn(30, 20, |x, y| image::Rgba([x as u8, y as u8, 7, 255]));
         for id in [run, Id::of_sweep([run])] {

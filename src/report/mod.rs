@@ -11,7 +11,7 @@
 //! # let directory = place.path().join("fluid");
 //! let small = ["space.box=[4,4,4]", "time.equilibration=0", "time.steps=40", "output={}"].map(str::to_owned);
 //! let scene = mesoscope::scene::load("dpd-fluid", &small)?;
-//! Run::start(scene, &directory, false).execute(&AdapterChoice::Best, &mut |_| {})?;
+//! Run::start(scene, &directory).execute(&AdapterChoice::Best, &mut |_| {})?;
 //! let page = mesoscope::report::page(&[directory])?;
 //! assert!(page.starts_with("<!DOCTYPE html>") && page.contains("data:image/png;base64,"));
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -136,8 +136,9 @@ fn table(text: &str, heading: &str) -> Option<TextTable> {
     let note = (all.len() > MOST_ROWS)
         .then(|| format!("{} more rows are in the table of the directory", all.len() - MOST_ROWS));
     if rows.len() <= MOST_TURNED && header.len() > MOST_TURNED {
-        let turned =
-            |place: usize| std::iter::once(&header[place]).chain(rows.iter().map(|row| &row[place])).cloned().collect();
+        let turned = |place: usize| -> Vec<String> {
+            std::iter::once(&header[place]).chain(rows.iter().map(|row| &row[place])).cloned().collect()
+        };
         let mut turned = (0..header.len()).map(turned);
         let header = turned.next()?;
         let numbers = (1..header.len()).collect();

@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// let small = ["space.box=[4,4,4]", "time.equilibration=0", "time.steps=4000", "output={}"].map(str::to_owned);
 /// let scene = mesoscope::scene::load("dpd-fluid", &small)?;
 /// let interrupt = Interrupt::default();
-/// let run = Run::start(scene, &results, false).until(&interrupt);
+/// let run = Run::start(scene, &results).until(&interrupt);
 /// let stopped = run.execute(&AdapterChoice::Best, &mut |event: Event<'_>| {
 ///     if matches!(event, Event::Advanced(_)) {
 ///         interrupt.ask();

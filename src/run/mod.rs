@@ -13,7 +13,7 @@
 //! # let results = directory.path().join("results");
 //! let small = ["space.box=[4,4,4]", "time.equilibration=0", "time.steps=40", "output={}"].map(str::to_owned);
 //! let scene = mesoscope::scene::load("dpd-fluid", &small)?;
-//! let simulation = Run::start(scene, &results, false);
+//! let simulation = Run::start(scene, &results);
 //! let outcome = simulation.execute(&AdapterChoice::Best, &mut |event: Event<'_>| {
 //!     if let Event::Advanced(progress) = event {
 //!         println!("step {} of {}", progress.step, progress.last_step);

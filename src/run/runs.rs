@@ -52,11 +52,20 @@ enum Beginning {
 }
 
 impl Run {
-    /// A run of a checked scene from step 0 into a directory, which is created. With `force` the files of an earlier
-    /// run there are replaced.
+    /// A run of a checked scene from step 0 into a directory, which is created.
     #[must_use]
-    pub fn start(scene: Checked, directory: impl Into<PathBuf>, force: bool) -> Self {
-        let beginning = Beginning::New { directory: directory.into(), force };
+    pub fn start(scene: Checked, directory: impl Into<PathBuf>) -> Self {
+        Self::begin(scene, directory.into(), false)
+    }
+
+    /// The same in place of an earlier run there, whose files are removed.
+    #[must_use]
+    pub fn replace(scene: Checked, directory: impl Into<PathBuf>) -> Self {
+        Self::begin(scene, directory.into(), true)
+    }
+
+    fn begin(scene: Checked, directory: PathBuf, force: bool) -> Self {
+        let beginning = Beginning::New { directory, force };
         let id = Id::of_run(&scene);
         let notices = scene.notices().iter().map(ToString::to_string).collect();
         Self::new(scene, beginning, notices, id)

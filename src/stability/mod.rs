@@ -14,7 +14,7 @@
 //! # let results = directory.path().join("map");
 //! let small = ["space.box=[4,4,4]", "time.equilibration=20", "time.steps=100", "output={}"].map(str::to_owned);
 //! let request = Request::load("dpd-fluid", &small, None, &["time.step=0.02..2/3".to_owned()])?.with_bisections(1);
-//! let outcome = StabilityRun::start(request, &results, false).execute(&AdapterChoice::Best, &mut |_| {})?;
+//! let outcome = StabilityRun::start(request, &results).execute(&AdapterChoice::Best, &mut |_| {})?;
 //! let row = &outcome.summary.rows[0];
 //! assert_ne!(row.cells[row.cells.len() - 1].verdict, Verdict::Right, "no fluid is right with a step of 2");
 //! assert!(row.edges().iter().all(|edge| edge.low < edge.high) && results.join("stability.png").exists());

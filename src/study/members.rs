@@ -49,7 +49,7 @@ impl Member {
         }
         if !directory.join(files::CHECKPOINT).exists() {
             // What is found without a checkpoint is the beginning of this very run.
-            return Ok(Run::start(self.scene.clone(), directory, true).with_id(self.id));
+            return Ok(Run::replace(self.scene.clone(), directory).with_id(self.id));
         }
         let simulation = Run::resume(directory, Some(steps))?;
         if simulation.first_step() > steps {

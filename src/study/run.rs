@@ -93,11 +93,17 @@ pub struct StudyOutcome<R> {
 pub type Observer<'o, R> = dyn FnMut(StudyEvent<'_, <R as Record>::Ended, <R as Record>::Phase>) + 'o;
 
 impl<R: Record> StudyRun<R> {
-    /// All runs from the first, into `directory`, which is created. With `force` an earlier study there is replaced.
+    /// All runs from the first, into `directory`, which is created.
     #[must_use]
-    pub fn start(request: R::Request, directory: impl Into<PathBuf>, force: bool) -> Self {
+    pub fn start(request: R::Request, directory: impl Into<PathBuf>) -> Self {
         let summary = R::before(&request);
-        Self { force, ..Self::of(request, summary, directory.into()) }
+        Self::of(request, summary, directory.into())
+    }
+
+    /// The same in place of an earlier study there, whose files and runs are removed.
+    #[must_use]
+    pub fn replace(request: R::Request, directory: impl Into<PathBuf>) -> Self {
+        Self { force: true, ..Self::start(request, directory) }
     }
 
     /// What is missing of the study in a directory: runs under way continue from their last checkpoints, those that failed are

@@ -22,7 +22,7 @@
 //! let vary = ["interactions.0.friction=1,4.5".to_owned()];
 //! let asked = Sweep::load("dpd-fluid", &small, None, &vary, &[])?;
 //! let look = Look { quantities: vec!["temperature".to_owned()], ..Look::default() };
-//! let run = SweepRun::start(asked, &results, false).with_look(look);
+//! let run = SweepRun::start(asked, &results).with_look(look);
 //! let outcome = run.execute(&AdapterChoice::Best, &mut |_| {})?;
 //! for variant in &outcome.summary.variants {
 //!     println!("{}: {:?}", variant.name, variant.means.get("temperature"));

@@ -27,7 +27,7 @@ impl StudyRun<SweepSummary> {
     /// let sweep = Sweep::load("dpd-fluid", &small, None, &["seed=1,2,3".to_owned()], &[])?;
     /// for number in 1..=2 {
     ///     let shard = Shard::new(number, 2).ok_or("no such shard")?;
-    ///     let run = SweepRun::start(sweep.clone(), &results, false);
+    ///     let run = SweepRun::start(sweep.clone(), &results);
     ///     let outcome = run.execute_shard(shard, &AdapterChoice::Best, &mut |_| {})?;
     ///     assert_eq!(outcome.summary.variants.len(), [2, 1][number as usize - 1]);
     /// }

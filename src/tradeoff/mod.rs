@@ -23,7 +23,7 @@
 //! let request = Request::load("dpd-fluid", &small.map(str::to_owned), None, &vary, &[])?
 //!     .with_length(Length::default())
 //!     .with_measures(&["temperature".to_owned()])?;
-//! let outcome = TradeoffRun::start(request, &results, false).execute(&AdapterChoice::Best, &mut |_| {})?;
+//! let outcome = TradeoffRun::start(request, &results).execute(&AdapterChoice::Best, &mut |_| {})?;
 //! for choice in &outcome.summary.choices {
 //!     let error = choice.errors.iter().find(|found| found.measure == "temperature");
 //!     println!("{}: {:?} at {:?}", choice.label, error, choice.cost);

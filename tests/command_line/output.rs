@@ -56,17 +56,17 @@ fn state(step: u64, dimension: usize) -> State {
 fn a_run_directory_is_made_with_its_parents_and_protects_an_earlier_run() {
     let root = tempfile::tempdir().unwrap();
     let path = root.path().join("a/b/run");
-    let run = RunDirectory::create(&path, false).unwrap();
+    let run = RunDirectory::create(&path).unwrap();
     assert_eq!(listing(&path), [files::LOCK]);
     fs::write(run.file("notes.txt"), "mine").unwrap();
     drop(run);
-    let run = RunDirectory::create(&path, false).unwrap();
+    let run = RunDirectory::create(&path).unwrap();
 
     for name in [files::SUMMARY, files::ENERGIES, &files::snapshot(12)] {
         run.write(name, |writer| writer.write_all(b"old")).unwrap();
     }
-    for force in [false, true] {
-        let error = RunDirectory::create(&path, force).unwrap_err();
+    for made in [RunDirectory::create(&path), RunDirectory::replace(&path)] {
+        let error = made.unwrap_err();
         assert!(error.to_string().contains(&format!("in use by process {}", std::process::id())), "{error}");
     }
     assert_eq!(listing(&path), ["energies.csv", "mesoscope.lock", "notes.txt", "run.json", "snapshot-000012.png"]);
@@ -74,19 +74,19 @@ fn a_run_directory_is_made_with_its_parents_and_protects_an_earlier_run() {
         drop(run);
         RunDirectory::open(&path).unwrap()
     };
-    let error = RunDirectory::create(&path, false).unwrap_err();
+    let error = RunDirectory::create(&path).unwrap_err();
     assert!(matches!(&error, OutputError::ResultExists { path } if path.ends_with("energies.csv")), "{error}");
     assert!(error.to_string().contains("--force"));
     assert_eq!(fs::read(run.file(files::SUMMARY)).unwrap(), b"old");
 
     // Where something cannot be replaced, nothing is.
     fs::create_dir(run.file(files::ENERGIES_PLOT)).unwrap();
-    let error = RunDirectory::create(&path, true).unwrap_err();
+    let error = RunDirectory::replace(&path).unwrap_err();
     assert!(matches!(&error, OutputError::DirectoryOfThatName { path } if path.ends_with("energies.png")), "{error}");
     assert_eq!(fs::read(run.file(files::ENERGIES)).unwrap(), b"old");
     fs::remove_dir(run.file(files::ENERGIES_PLOT)).unwrap();
 
-    RunDirectory::create(&path, true).unwrap();
+    RunDirectory::replace(&path).unwrap();
     assert_eq!(listing(&path), ["notes.txt"]);
 }
 
@@ -101,7 +101,7 @@ fn files_of_the_user_are_neither_removed_nor_followed() {
     }
     let stale = files::temporary(files::CHECKPOINT.as_ref(), 4711, 3);
     fs::write(path.join(&stale), "half of a checkpoint").unwrap();
-    let run = RunDirectory::create(&path, false).unwrap();
+    let run = RunDirectory::create(&path).unwrap();
     run.write(files::SUMMARY, |writer| writer.write_all(b"{}")).unwrap();
     // What a process with the number of this one once left is in nobody's way either.
     for number in 0..100 {
@@ -123,7 +123,7 @@ fn files_of_the_user_are_neither_removed_nor_followed() {
             fs::remove_file(path.join(name)).unwrap();
             std::os::unix::fs::symlink(&target, path.join(name)).unwrap();
         }
-        let run = RunDirectory::create(&path, true).unwrap();
+        let run = RunDirectory::replace(&path).unwrap();
         for name in [files::SUMMARY, files::CHECKPOINT, files::ENERGIES] {
             run.write(name, |writer| writer.write_all(b"new")).unwrap();
         }
@@ -135,7 +135,7 @@ fn files_of_the_user_are_neither_removed_nor_followed() {
 #[test]
 fn snapshots_a_resumed_run_takes_again_are_removed() {
     let root = tempfile::tempdir().unwrap();
-    let run = RunDirectory::create(root.path(), false).unwrap();
+    let run = RunDirectory::create(root.path()).unwrap();
     for number in 1..=5 {
         run.write(&files::snapshot(number), |writer| writer.write_all(b"p")).unwrap();
     }
@@ -149,10 +149,10 @@ fn a_directory_that_cannot_be_is_refused_with_the_reason() {
     let root = tempfile::tempdir().unwrap();
     let file = root.path().join("file");
     fs::write(&file, "").unwrap();
-    let error = RunDirectory::create(&file, true).unwrap_err();
+    let error = RunDirectory::replace(&file).unwrap_err();
     assert!(matches!(&error, OutputError::NoDirectory { path } if *path == file), "{error}");
     let below = file.join("below");
-    let error = RunDirectory::create(&below, true).unwrap_err();
+    let error = RunDirectory::replace(&below).unwrap_err();
     assert!(matches!(&error, OutputError::Io { path, .. } if *path == below), "{error}");
     assert!(error.to_string().starts_with("cannot create the directory"), "{error}");
     assert!(RunDirectory::open(root.path().join("absent")).is_err());
@@ -161,7 +161,7 @@ fn a_directory_that_cannot_be_is_refused_with_the_reason() {
     #[cfg(target_os = "linux")]
     {
         // Nobody, not even root, makes files here.
-        let error = RunDirectory::create("/proc/self", false).unwrap_err();
+        let error = RunDirectory::create("/proc/self").unwrap_err();
         assert!(error.to_string().starts_with("cannot write to the directory `/proc/self`"), "{error}");
     }
 }
@@ -741,7 +741,7 @@ fn extended_xyz_reads_as_documented_and_drops_an_unfinished_frame() {
 #[test]
 fn files_of_another_run_are_recognised() {
     let root = tempfile::tempdir().unwrap();
-    let directory = RunDirectory::create(root.path(), false).unwrap();
+    let directory = RunDirectory::create(root.path()).unwrap();
     let (this, other) = (run_id(), Id::of_run(&scene(2)));
     let model = scene(3).model().clone();
     let write = |name: &str, id: Id| {

@@ -191,7 +191,7 @@ fn one_process_at_a_time_runs_a_shard_or_gathers() {
     let asked = || Sweep::load(&place.scene(), &[], None, &["seed=1,2,3".to_owned()], &[]).unwrap();
     let interrupt = Interrupt::default();
     interrupt.ask();
-    let run = SweepRun::start(asked(), &out, false).until(&interrupt);
+    let run = SweepRun::start(asked(), &out).until(&interrupt);
     let ended = run.execute_shard(Shard::new(2, 2).unwrap(), &AdapterChoice::Best, &mut |_| {});
     let message = ended.unwrap_err().to_string();
     assert!(message.contains("out` is in use by process"), "{message}");

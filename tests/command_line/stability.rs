@@ -188,11 +188,11 @@ fn an_interrupted_map_goes_on() {
     let place = place();
     let request =
         || Request::load(&place.scene(), &[], None, &["time.step=0.05..0.4/4".to_owned()]).unwrap().with_bisections(0);
-    let whole = StabilityRun::start(request(), place.path("whole"), false).with_jobs(Some(1));
+    let whole = StabilityRun::start(request(), place.path("whole")).with_jobs(Some(1));
     let whole = whole.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
     let interrupt = Interrupt::default();
     let out = place.path("out");
-    let stopped = StabilityRun::start(request(), &out, false).with_jobs(Some(1)).until(&interrupt).execute(
+    let stopped = StabilityRun::start(request(), &out).with_jobs(Some(1)).until(&interrupt).execute(
         &AdapterChoice::Best,
         &mut |event| {
             if let StudyEvent::Ended { ended, .. } = event
@@ -206,7 +206,7 @@ fn an_interrupted_map_goes_on() {
     let before = StabilitySummary::load(&out).unwrap();
     assert!((1..4).contains(&before.rows[0].cells.len()));
     // A map that is not finished is in the way of another.
-    let again = StabilityRun::start(request(), &out, false).execute(&AdapterChoice::Best, &mut |_| {});
+    let again = StabilityRun::start(request(), &out).execute(&AdapterChoice::Best, &mut |_| {});
     assert!(matches!(again, Err(StudyError::Output(OutputError::ResultExists { .. }))));
     let said = succeeds(&["stability", "--resume", &place.argument("out")]);
     assert!(said.contains("RIGHT: time.step UP TO"), "{said}");

@@ -95,7 +95,7 @@ fn a_map_has_one_start() {
     {
         write_start(&place, 0.5);
         let request = Request::load(&place.scene(), &[], None, &vary).unwrap().with_bisections(0);
-        let run = StabilityRun::start(request, place.path("out"), true).with_jobs(Some(1));
+        let run = StabilityRun::replace(request, place.path("out")).with_jobs(Some(1));
         // The second run may have begun by then, the third has not.
         let ended = run.execute(&AdapterChoice::Best, &mut |event| {
             if let StudyEvent::Ended { .. } = event {
@@ -112,7 +112,7 @@ fn a_map_has_one_start() {
     let vary = [r"state.file=start.xyz,other.xyz".to_owned(), vary[0].clone()];
     let request = Request::load(&place.scene(), &[], None, &vary).unwrap().with_bisections(0);
     fs::remove_file(place.path("other.xyz")).unwrap();
-    let run = StabilityRun::start(request, place.path("out"), true).with_jobs(Some(1));
+    let run = StabilityRun::replace(request, place.path("out")).with_jobs(Some(1));
     let message = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap_err().to_string();
     assert!(message.contains("other.xyz` is not what it was"), "{message}");
 }
@@ -207,11 +207,11 @@ fn laws_are_those_of_the_state_that_was_read() {
     let request = || Request::load(&place.scene(), &[], None, &vary).unwrap().with_bisections(0);
     let early = request();
     write_start(&place, 0.25);
-    let run = StabilityRun::start(early, place.path("out"), false);
+    let run = StabilityRun::start(early, place.path("out"));
     let message = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap_err().to_string();
     assert!(message.contains("start.xyz` is not what it was"), "{message}");
     assert!(!place.path("out").exists(), "a row without laws was left");
-    let map = StabilityRun::start(request(), place.path("out"), false).execute(&AdapterChoice::Best, &mut |_| {});
+    let map = StabilityRun::start(request(), place.path("out")).execute(&AdapterChoice::Best, &mut |_| {});
     let bounds = map.unwrap().summary.rows[0].bounds.clone();
     assert_eq!(bounds.len(), 1, "{bounds:?}");
     // One that lacks them is completed.

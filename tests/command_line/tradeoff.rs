@@ -304,10 +304,10 @@ fn an_interrupted_tradeoff_goes_on() {
         let vary = ["time.step=0.02,0.04".to_owned()];
         Request::load(&place.scene(), &[], None, &vary, &[]).unwrap().with_measures(&["pressure".to_owned()]).unwrap()
     };
-    let whole = TradeoffRun::start(request(), place.path("whole"), false);
+    let whole = TradeoffRun::start(request(), place.path("whole"));
     let whole = whole.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
     let interrupt = Interrupt::default();
-    let stopped = TradeoffRun::start(request(), place.path("parts"), false).until(&interrupt);
+    let stopped = TradeoffRun::start(request(), place.path("parts")).until(&interrupt);
     let stopped = stopped.execute(&AdapterChoice::Best, &mut |event| {
         if matches!(event, StudyEvent::Ended { .. }) {
             interrupt.ask();
@@ -355,7 +355,7 @@ const ERROR: f64 = 0.004;
 fn errors_are_reached_also_by_what_is_interrupted_within_an_extension() {
     let place = place();
     let (mut factors, mut announced, mut ended) = (Vec::new(), 0, 0);
-    let whole = TradeoffRun::start(longer(&place), place.path("whole"), false);
+    let whole = TradeoffRun::start(longer(&place), place.path("whole"));
     let whole = whole.execute(&AdapterChoice::Best, &mut |event| match event {
         StudyEvent::Started { runs, .. } => announced = runs,
         StudyEvent::Ended { .. } => ended += 1,
@@ -390,7 +390,7 @@ fn errors_are_reached_also_by_what_is_interrupted_within_an_extension() {
 
     let interrupt = Interrupt::default();
     let mut extended = false;
-    let stopped = TradeoffRun::start(longer(&place), place.path("parts"), false).with_jobs(Some(1)).until(&interrupt);
+    let stopped = TradeoffRun::start(longer(&place), place.path("parts")).with_jobs(Some(1)).until(&interrupt);
     let stopped = stopped.execute(&AdapterChoice::Best, &mut |event| match event {
         StudyEvent::Phase { phase: Phase::Extended { .. }, .. } => extended = true,
         StudyEvent::Advanced { .. } if extended => interrupt.ask(),
@@ -597,7 +597,7 @@ fn errors_from_few_samples_decide_nothing() {
     };
     // What the samples of ten rows say of themselves.
     let mut factors = 0;
-    let run = TradeoffRun::start(request("temperature=1000%"), place.path("met"), false);
+    let run = TradeoffRun::start(request("temperature=1000%"), place.path("met"));
     let met = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap().summary;
     let choice = &met.choices[1];
     let (measured, error) = (choice.value("temperature").unwrap(), choice.error("temperature").unwrap());
@@ -606,7 +606,7 @@ fn errors_from_few_samples_decide_nothing() {
     assert!((error.uncertainty.unwrap() / (3.0 * own) - 1.0).abs() < 1e-12, "{error:?}");
     // Between two and six standard errors from the error that was found, a target is open, and asks for more samples.
     let target = error.size() + 4.0 * own;
-    let run = TradeoffRun::start(request(&format!("temperature={target}")), place.path("open"), false);
+    let run = TradeoffRun::start(request(&format!("temperature={target}")), place.path("open"));
     let open = run.execute(&AdapterChoice::Best, &mut |event| {
         factors += usize::from(matches!(event, StudyEvent::Phase { phase: Phase::Extended { .. }, .. }));
     });
@@ -627,9 +627,9 @@ fn an_error_that_takes_too_long_wants_to_be_said_twice() {
         request.with_length(Length { error, budget: None }).with_measures(&["temperature".to_owned()]).unwrap()
     };
     let begun = Instant::now();
-    TradeoffRun::start(request(None), place.path("plain"), false).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+    TradeoffRun::start(request(None), place.path("plain")).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
     let allowed = 30 * begun.elapsed();
-    let asked = || TradeoffRun::start(request(Some(1e-6)), place.path("out"), false).up_to(Some(allowed));
+    let asked = || TradeoffRun::start(request(Some(1e-6)), place.path("out")).up_to(Some(allowed));
     let continued = || TradeoffRun::resume(place.path("out")).unwrap().up_to(Some(allowed));
     // It goes on where it was, and does not without being allowed to.
     for run in [&asked as &dyn Fn() -> TradeoffRun, &continued] {
@@ -708,7 +708,7 @@ fn analyses_find_what_they_say_beforehand() {
         let scene = mesoscope::scene::load(scene, &set).unwrap();
         let asked = mesoscope::run::asked_analyses(&scene);
         let place = place();
-        let run = mesoscope::run::Run::start(scene.clone(), place.path("run"), false);
+        let run = mesoscope::run::Run::start(scene.clone(), place.path("run"));
         let results = run.execute(&AdapterChoice::Best, &mut |_| {}).unwrap().summary.results;
         for asked in asked {
             let Some(Value::Object(result)) = results.get(asked.id.name()) else { continue };

@@ -202,7 +202,7 @@ fn molecules_are_whole() {
 }
 
 fn run(scene: Checked, directory: &Path) {
-    Run::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap();
+    Run::replace(scene, directory).execute(&adapter(), &mut |_| {}).unwrap();
 }
 
 #[test]

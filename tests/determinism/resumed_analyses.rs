@@ -28,13 +28,13 @@ fn small(scene: &Checked, changes: &[&str]) -> Checked {
 }
 
 fn run(scene: &Checked, directory: &Path) -> Outcome {
-    Run::start(scene.clone(), directory, true).execute(&adapter(), &mut |_| {}).unwrap()
+    Run::replace(scene.clone(), directory).execute(&adapter(), &mut |_| {}).unwrap()
 }
 
 /// Runs a scene in slabs until it is interrupted at a step after the first.
 fn run_until(scene: &Checked, directory: &Path, step: u64, slabs: u32) {
     let interrupt = Interrupt::default();
-    let run = Run::start(scene.clone(), directory, true).until(&interrupt).on_ranks(Some(of_slabs(slabs)));
+    let run = Run::replace(scene.clone(), directory).until(&interrupt).on_ranks(Some(of_slabs(slabs)));
     let stopped = run.execute(&adapter(), &mut |event| match event {
         // The interrupt is seen after one step more.
         Event::Advanced(progress) if progress.step + 1 >= step => interrupt.ask(),

@@ -86,7 +86,7 @@ fn a_simulation_sees_what_a_run_writes() {
             scene.output.snapshot.is_off = true;
         });
         let root = tempfile::tempdir().unwrap();
-        Run::start(scene.clone(), root.path(), true).without_pictures().execute(&adapter(), &mut |_| {}).unwrap();
+        Run::replace(scene.clone(), root.path()).without_pictures().execute(&adapter(), &mut |_| {}).unwrap();
         let table = read_table(&root.path().join(files::ENERGIES)).unwrap();
         let mut simulation = simulation(&scene);
         for row in &table.rows {
@@ -150,7 +150,7 @@ fn a_checkpoint_goes_on_to_the_bit() {
 fn a_run_goes_on_step_by_step() {
     let scene = edited(&fluid(&[SPLITTING]), |scene| scene.time.steps = 30);
     let root = tempfile::tempdir().unwrap();
-    Run::start(scene.clone(), root.path(), true).without_pictures().execute(&adapter(), &mut |_| {}).unwrap();
+    Run::replace(scene.clone(), root.path()).without_pictures().execute(&adapter(), &mut |_| {}).unwrap();
     let mut simulation = Simulation::from_checkpoint(root.path().join(files::CHECKPOINT), &adapter()).unwrap();
     simulation.advance(10).unwrap();
     assert!(unturned(&simulation.state().unwrap()) == unturned(&unseen(&scene, 40)));

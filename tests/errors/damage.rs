@@ -86,7 +86,7 @@ fn half_way(place: &Path) -> Vec<(&'static str, Files)> {
     let run = |(name, scene): (&'static str, Checked)| {
         let directory = place.join(name);
         let half = edited(&scene, |scene| scene.time.steps = 30);
-        Run::start(half, &directory, false).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+        Run::start(half, &directory).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
         fs::remove_file(directory.join(files::SUMMARY)).unwrap();
         let files = listing(&directory).into_iter().map(|name| (name.clone(), bytes(&directory.join(&name))));
         let files = files.collect();
@@ -302,7 +302,7 @@ fn flip_tables(seed: u64, each: usize) {
         let (whole, directory) = (place.path().join(name), place.path().join("run"));
         let run = |steps: u64| {
             let scene = edited(&scene, |scene| scene.time.steps = steps);
-            Run::start(scene, &whole, true).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+            Run::replace(scene, &whole).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
         };
         run(50);
         let longer = listing(&whole).into_iter().map(|name| (name.clone(), bytes(&whole.join(name))));

@@ -28,7 +28,7 @@ fn small() -> Checked {
 
 /// A finished run of it.
 fn finished(directory: &Path) {
-    Run::start(small(), directory, false).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+    Run::start(small(), directory).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
 }
 
 /// What `resume`, to a later step, and `plot` say of a directory, if they say it soon.

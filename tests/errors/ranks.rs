@@ -135,7 +135,7 @@ fn newer(call: &str) -> String {
 fn with_results() -> (TempDir, PathBuf) {
     let place = tempfile::tempdir().unwrap();
     let directory = place.path().join("results");
-    let (ended, warnings) = share(Run::start(scene(), &directory, false), [same, same]);
+    let (ended, warnings) = share(Run::start(scene(), &directory), [same, same]);
     let summary = ended.unwrap().summary;
     let shared = summary.ranks.unwrap();
     let host = &shared.ranks[0].host;
@@ -168,7 +168,7 @@ fn ranks_that_cannot_take_part_cost_no_earlier_run_its_files() {
     let (_place, directory) = with_results();
     let before = results(&directory);
     let refuse = |changes: [Change; 2], parts: &[&str]| {
-        let (ended, _) = share(Run::start(scene(), &directory, true), changes);
+        let (ended, _) = share(Run::replace(scene(), &directory), changes);
         refused(ended, parts);
         assert!(results(&directory) == before, "{parts:?}");
     };
@@ -179,7 +179,7 @@ fn ranks_that_cannot_take_part_cost_no_earlier_run_its_files() {
     );
     // Where nothing may be replaced they are not even called.
     let alone = rank(threads::links(2).remove(0), [same, same]);
-    let simulation = Run::start(scene(), &directory, false).on_ranks(Some(TWO));
+    let simulation = Run::start(scene(), &directory).on_ranks(Some(TWO));
     let ended = simulation.execute_among(Some(&alone), &adapter(), &mut |_| {});
     assert!(matches!(ended, Err(RunError::Output(_))), "{ended:?}");
     assert!(results(&directory) == before);
@@ -190,7 +190,7 @@ fn ranks_that_cannot_take_part_cost_no_earlier_run_its_files() {
 fn ranks_that_lose_momentum_are_refused() {
     let place = tempfile::tempdir().unwrap();
     let directory = place.path().join("out");
-    let (ended, _) = share(Run::start(scene(), &directory, false), [stiffer, same]);
+    let (ended, _) = share(Run::start(scene(), &directory), [stiffer, same]);
     refused(ended, &["total momentum along ", "should be constant to the last bit, but at step 3", "\n  rank 1 on "]);
     assert!(directory.join(files::CHECKPOINT).exists() && !directory.join(files::SUMMARY).exists());
 }
@@ -200,7 +200,7 @@ fn ranks_that_lose_momentum_are_refused() {
 fn mixed_ranks_are_told_of_and_claim_nothing() {
     let place = tempfile::tempdir().unwrap();
     let directory = place.path().join("out");
-    let simulation = Run::start(scene(), &directory, false).mixed(true);
+    let simulation = Run::start(scene(), &directory).mixed(true);
     // Of adapters nothing is told: each rank has a machine to itself.
     let (ended, warnings) = share(simulation, [stiffer, elsewhere]);
     let summary = ended.unwrap().summary;

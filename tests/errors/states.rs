@@ -314,7 +314,7 @@ fn copies_beyond_the_room_of_the_adapter() {
             place.load("init", &[("/state/replicate", json!(copies)), ("/space", json!({"box": edges}))]).unwrap();
         let (answer, cost) = measured(|| {
             let results = place.path().join("results");
-            Run::start(scene, &results, true).execute(&adapter(), &mut |_| {}).unwrap_err().to_string()
+            Run::replace(scene, &results).execute(&adapter(), &mut |_| {}).unwrap_err().to_string()
         });
         let said = answer.unwrap();
         let copies: u64 = copies.iter().product();

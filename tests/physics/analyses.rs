@@ -22,7 +22,7 @@ use crate::support::{
 };
 
 fn run(scene: Checked, directory: &Path) -> Outcome {
-    Run::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap()
+    Run::replace(scene, directory).execute(&adapter(), &mut |_| {}).unwrap()
 }
 
 fn number(outcome: &Outcome, path: &[&str]) -> f64 {

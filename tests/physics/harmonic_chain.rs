@@ -231,8 +231,8 @@ fn the_scene_on_the_device() {
     };
     let scene = |steps: u64| mesoscope::scene::load("harmonic-chain", &overrides(steps)).unwrap();
     let [whole, halves] = [(); 2].map(|()| tempfile::tempdir().unwrap());
-    let outcome = run::Run::start(scene(1280), whole.path(), true).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
-    let first = run::Run::start(scene(640), halves.path(), true);
+    let outcome = run::Run::replace(scene(1280), whole.path()).execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
+    let first = run::Run::replace(scene(640), halves.path());
     first.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();
     let rest = run::Run::resume(halves.path(), Some(1280)).unwrap();
     rest.execute(&AdapterChoice::Best, &mut |_| {}).unwrap();

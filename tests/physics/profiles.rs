@@ -16,7 +16,7 @@ use crate::support::{
 };
 
 fn run(scene: Checked, directory: &Path) -> (Outcome, Table) {
-    let outcome = Run::start(scene, directory, true).execute(&adapter(), &mut |_| {}).unwrap();
+    let outcome = Run::replace(scene, directory).execute(&adapter(), &mut |_| {}).unwrap();
     (outcome, read_table(&directory.join("profiles.csv")).unwrap())
 }
 

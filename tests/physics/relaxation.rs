@@ -201,7 +201,7 @@ fn two_stages_have_the_viscosity_of_strong_friction() {
     });
     let directory = tempfile::tempdir().unwrap();
     let scene = crate::support::scene(&document.to_string());
-    let run = Run::start(scene, directory.path().join("run"), false);
+    let run = Run::start(scene, directory.path().join("run"));
     let outcome = run.execute(&adapter(), &mut |_| ()).unwrap();
     let found = &outcome.summary.results["stress"]["viscosity_in_shear"];
     let [mean, error] = ["value", "error"].map(|key| found[key].as_f64().unwrap());

@@ -204,7 +204,7 @@ fn layers_leave_the_fluid_as_it_is() {
                 output.profiles = Some(serde_json::from_value(asked).unwrap());
             });
             let directory = tempfile::tempdir().unwrap();
-            Run::start(scene, directory.path(), true).execute(&adapter(), &mut |_| {}).unwrap();
+            Run::replace(scene, directory.path()).execute(&adapter(), &mut |_| {}).unwrap();
             let table = read_table(&directory.path().join("profiles.csv")).unwrap();
             ["temperature", "number_density"].map(|column| table.values(column))
         });

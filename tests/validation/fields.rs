@@ -20,13 +20,13 @@ fn other_programs_read_fields() {
     for format in ["npy", "netcdf"] {
         let fields = format!(r#"output={{"fields":{{{quantities},"format":"{format}"}}}}"#);
         let scene = water(&["time.step=0.01", "time.steps=20", &fields]);
-        Run::start(scene, root.path().join(format), true).execute(&adapter(), &mut |_| {}).unwrap();
+        Run::replace(scene, root.path().join(format)).execute(&adapter(), &mut |_| {}).unwrap();
     }
     let floats = r#"particles=[{"species":"water","count":4096,"placement":{"type":"lattice"},"velocities":{"type":"geostrophic"}},
         {"species":"float","tracer":true,"velocities":{"type":"geostrophic"},
             "placement":{"type":"listed","positions":[[0.02,3],[3,0.02],[1,5],[6.27,2]]}}]"#;
     let scene = water(&["time.step=0.02", "time.steps=400", floats, r#"output={"trajectory":{"every":1}}"#]);
-    Run::start(scene, root.path().join("shallow-water"), false).execute(&adapter(), &mut |_| {}).unwrap();
+    Run::start(scene, root.path().join("shallow-water")).execute(&adapter(), &mut |_| {}).unwrap();
     let Some(python) = python(Path::new(env!("CARGO_TARGET_TMPDIR")), &PACKAGES) else {
         println!("NOT TESTED: there is no Python that makes virtual environments");
         return;
@@ -44,7 +44,7 @@ fn other_programs_read_fields() {
     ];
     let again = water(&[&["time.step=0.01", "time.steps=20"], &start[..]].concat());
     let directory = root.path().join("again");
-    Run::start(again, &directory, true).execute(&adapter(), &mut |_| {}).unwrap();
+    Run::replace(again, &directory).execute(&adapter(), &mut |_| {}).unwrap();
     let read = |path: &Path| mesoscope::output::read_npy(path).unwrap().1;
     let [asked, found] =
         [root.path().join("npy/depth.npy"), directory.join("depth-000001.npy")].map(|path| read(&path));

@@ -98,7 +98,7 @@ fn run(scene: Checked, analysis: &str, table: &str) -> (Outcome, Value, Vec<Vec<
     let directory = tempfile::tempdir().unwrap();
     let name = std::env::var("MESOSCOPE_ADAPTER").ok();
     let choice = AdapterChoice::parse(name.as_deref());
-    let outcome = Run::start(scene, directory.path().join("run"), false).execute(&choice, &mut |_| ()).unwrap();
+    let outcome = Run::start(scene, directory.path().join("run")).execute(&choice, &mut |_| ()).unwrap();
     let table = mesoscope::output::read_table(&directory.path().join("run").join(table)).unwrap();
     let found = outcome.summary.results.get(analysis).cloned();
     let found = found.unwrap_or_else(|| panic!("no {analysis}: {:?}", outcome.summary.warnings));

@@ -27,7 +27,7 @@ fn with(mut document: Value, rule: Option<&str>) -> Checked {
 /// The summary of a run.
 fn run(scene: Checked) -> (Value, Value) {
     let directory = tempfile::tempdir().unwrap();
-    let outcome = Run::start(scene, directory.path().join("run"), false).execute(&adapter(), &mut |_| ()).unwrap();
+    let outcome = Run::start(scene, directory.path().join("run")).execute(&adapter(), &mut |_| ()).unwrap();
     let [means, results] =
         [serde_json::to_value(&outcome.summary.means), serde_json::to_value(&outcome.summary.results)];
     (means.unwrap(), results.unwrap())

@@ -20,7 +20,7 @@ fn the_viscosity_of_the_standard_fluid() {
     println!("| rate | integrator | viscosity | temperature |\n|-|-|-|-|");
     for (rate, steps, integrator) in [(0.1, 30_500, SPLITTING), (0.2, 10_500, SPLITTING), (0.2, 10_500, GROOT_WARREN)] {
         let directory = tempfile::tempdir().unwrap();
-        let simulation = Run::start(sheared(rate, steps, integrator), directory.path().join("run"), false);
+        let simulation = Run::start(sheared(rate, steps, integrator), directory.path().join("run"));
         let outcome = simulation.execute(&adapter(), &mut |_| ()).unwrap();
         let found = &outcome.summary.results["stress"]["viscosity_in_shear"];
         let [viscosity, error] = ["value", "error"].map(|key| found[key].as_f64().unwrap());

@@ -25,7 +25,7 @@ fn other_programs_find_the_structure() {
     let time = ["space.box=[5,5,5]", "time.step=0.01", "time.steps=400", "time.equilibration=0"];
     let coupled = r#"integrator={"type":"cotter-reich"}"#;
     let scene = fluid(&[&time[..], &[particles, interactions, output, coupled]].concat());
-    Run::start(scene, root.path(), true).execute(&adapter(), &mut |_| {}).unwrap();
+    Run::replace(scene, root.path()).execute(&adapter(), &mut |_| {}).unwrap();
     let Some(python) = python(Path::new(env!("CARGO_TARGET_TMPDIR")), &PACKAGES) else {
         println!("NOT TESTED: there is no Python that makes virtual environments");
         return;
