@@ -66,8 +66,9 @@ pub struct Simulation {
     /// What the device had counted when the engine began.
     carried: Carried,
     rows: EnergyRows,
-    /// Where to begin again if an array turns out too small.
+    /// Where to begin again if an array turns out too small, and what had been counted there.
     saved: Arc<State>,
+    counted: Carried,
     pace: Pace,
     interrupt: Interrupt,
     /// Samples of the last step that was sampled.
@@ -170,6 +171,7 @@ impl Simulation {
             gpu: gpu.clone(),
             options,
             engine,
+            counted: carried.clone(),
             carried,
             saved: Arc::new(state),
             pace,
@@ -255,26 +257,40 @@ impl Simulation {
             match self.submit(last, deadline) {
                 Ok(()) if self.step() >= last => return Ok(Stop::Reached),
                 Ok(()) => return Ok(Stop::Interrupted),
-                Err(EngineError::Crowded { .. }) if self.options.has_room_left() => {
-                    // From where it was, with more room, as a run does.
-                    let options = self.options.with_room(self.scene.model().particle_count());
-                    (self.engine, self.options) = open(&self.gpu, &self.planned, &self.saved, options)?;
-                }
-                Err(error) => return Err(self.ended(error)),
+                Err(error) => self.make_room(error)?,
             }
         }
+    }
+
+    /// Begins again from where it was saved, with more room, as a run does; every other error ends it.
+    fn make_room(&mut self, error: EngineError) -> Result<(), RunError> {
+        if !matches!(error, EngineError::Crowded { .. }) || !self.options.has_room_left() {
+            return Err(self.ended(error));
+        }
+        let options = self.options.with_room(self.scene.model().particle_count());
+        (self.engine, self.options) = open(&self.gpu, &self.planned, &self.saved, options)?;
+        self.carried = self.counted.clone();
+        Ok(())
+    }
+
+    /// Saves the current step.
+    fn save(&mut self) -> Result<(), EngineError> {
+        self.saved = Arc::new(self.engine.state()?);
+        self.counted = self.carried.advanced(self.scene.model(), &mut self.engine)?;
+        Ok(())
     }
 
     /// Submits batches until a step or a time, and waits for them.
     fn submit(&mut self, last: u64, deadline: Option<Instant>) -> Result<(), EngineError> {
         let first = self.engine.step();
-        let Self { engine, pace, saved, interrupt, .. } = self;
+        let Self { engine, pace, saved, counted, carried, interrupt, scene, .. } = self;
         let mut samples = Vec::new();
         let advanced = pace::advance(engine, pace, last, &mut |engine, _, advanced| {
             samples.extend(engine.take_samples());
             advanced?;
             if engine.step() - saved.step >= STEPS_BETWEEN_STATES {
                 *saved = Arc::new(engine.state()?);
+                *counted = carried.advanced(scene.model(), engine)?;
             }
             let is_over = interrupt.is_asked() || deadline.is_some_and(|deadline| Instant::now() >= deadline);
             Ok::<_, EngineError>(if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
@@ -285,7 +301,7 @@ impl Simulation {
         self.engine.wait()?;
         if self.engine.step() > first && self.engine.plan().samplers[0].due(self.engine.step()) {
             // A sample moves the particles of split steps on, whose state is needed to look at them.
-            self.saved = Arc::new(self.engine.state()?);
+            self.save()?;
             self.take_samples();
             let samples = self.engine.finish()?;
             self.add_samples(samples);
@@ -343,9 +359,15 @@ impl Simulation {
     /// Looks at the current step, once.
     pub(super) fn here(&mut self) -> Result<&Here, RunError> {
         self.check_end()?;
-        if self.here.is_none() {
-            let here = self.look();
-            self.here = Some(here.map_err(|error| self.ended(error))?);
+        while self.here.is_none() {
+            let step = self.step();
+            match self.look() {
+                Ok(here) => self.here = Some(here),
+                Err(error) => {
+                    self.make_room(error)?;
+                    self.advance(step - self.step())?;
+                }
+            }
         }
         self.here.as_ref().ok_or_else(|| RunError::Ended { reason: "nothing was seen".to_owned() })
     }
@@ -355,14 +377,15 @@ impl Simulation {
         let samplers = self.engine.plan().samplers.iter().enumerate();
         let shown: Vec<usize> =
             samplers.filter(|(_, sampler)| is_shown(sampler.id)).map(|(number, _)| number).collect();
-        let state =
-            if self.saved.step == self.step() { Arc::clone(&self.saved) } else { Arc::new(self.engine.state()?) };
+        if self.saved.step != self.step() {
+            self.save()?;
+        }
+        let state = Arc::clone(&self.saved);
         let mut reported = self.engine.report_of(&state)?;
         with_flow(&mut reported, &self.planned);
         let samples = self.engine.measure(&shown)?;
         self.add_samples(samples);
         self.sampled.retain(|sample| sample.step == state.step);
-        self.saved = Arc::clone(&state);
         Ok(Here { state, reported })
     }
 
@@ -528,16 +551,27 @@ impl Simulation {
 
     /// Goes on from another state of the same step.
     pub(super) fn restart(&mut self, state: State) -> Result<(), RunError> {
-        self.carried = self.carried.advanced(self.scene.model(), &mut self.engine)?;
-        self.engine.upload(&state)?;
+        let carried = self.carried.advanced(self.scene.model(), &mut self.engine)?;
+        match self.engine.upload(&state) {
+            Err(EngineError::Crowded { .. }) => {
+                (self.engine, self.options) = open(&self.gpu, &self.planned, &state, self.options)?;
+            }
+            uploaded => uploaded?,
+        }
+        self.begin(carried, state);
+        Ok(())
+    }
+
+    /// Nothing is known but the state that the engine has begun with.
+    fn begin(&mut self, carried: Carried, state: State) {
+        (self.counted, self.carried) = (carried.clone(), carried);
         self.saved = Arc::new(state);
         (self.here, self.sampled) = (None, Vec::new());
-        Ok(())
     }
 
     /// Goes on with another scene, whose plan is for the same particles.
     pub(super) fn replace(&mut self, scene: Checked, state: State) -> Result<(), RunError> {
-        self.carried = self.carried.advanced(self.scene.model(), &mut self.engine)?;
+        let carried = self.carried.advanced(self.scene.model(), &mut self.engine)?;
         let planned = Sight::Frames.planned(&scene);
         let plan = plan_for(&planned, &self.gpu, self.options);
         if let Some(problem) = plan.misfit(&state, planned.model()) {
@@ -549,8 +583,7 @@ impl Simulation {
             (self.engine, self.options) = open(&self.gpu, &planned, &state, options)?;
         }
         (self.scene, self.planned) = (scene, planned);
-        (self.here, self.sampled) = (None, Vec::new());
-        self.saved = Arc::new(state);
+        self.begin(carried, state);
         Ok(())
     }
 }

@@ -2,7 +2,7 @@
 
 use super::RunError;
 use super::sections::{Sections, bytes};
-use crate::engine::Stepper;
+use crate::engine::{EngineError, Stepper};
 use crate::families::{Counted, Model};
 use crate::measure::Observables;
 use crate::output::checkpoint::CheckpointError;
@@ -35,7 +35,7 @@ impl Carried {
     }
 
     /// The numbers at the current step, for an engine that begins there.
-    pub(super) fn advanced(&self, model: &Model, engine: &mut dyn Stepper) -> Result<Self, RunError> {
+    pub(super) fn advanced(&self, model: &Model, engine: &mut dyn Stepper) -> Result<Self, EngineError> {
         let numbers = self.numbers_at(model, engine)?.map_or_else(Vec::new, |(_, numbers)| numbers);
         Ok(Self { step: engine.step(), numbers })
     }
@@ -55,7 +55,7 @@ impl Carried {
         &self,
         model: &Model,
         engine: &mut dyn Stepper,
-    ) -> Result<Option<(&'static str, Vec<f64>)>, RunError> {
+    ) -> Result<Option<(&'static str, Vec<f64>)>, EngineError> {
         let Some(tally) = model.physics().tally() else { return Ok(None) };
         let limited = engine.limited_exchanges()?;
         let words = match tally.array(model) {
