@@ -1,11 +1,13 @@
 //! Changes to a simulation between its steps: of numbers of its scene, of positions and velocities.
 
 use super::RunError;
+use super::plan::plan;
 use super::simulation::Simulation;
 use crate::families::{Checked, Kinematics};
 use crate::numbers::short;
+use crate::plan::{Hardware, Options};
 use crate::scene::{Scene, WrittenScene};
-use crate::state::State;
+use crate::state::{State, StateArray};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -63,7 +65,7 @@ impl Simulation {
     }
 
     /// Changes a number of the scene: `temperature`, a number of `interactions`, `integrator`, `space.walls`, or `space.shear.rate`, by its
-    /// path as in overrides of scenes. Velocities, and what baths remember, stay as they are.
+    /// path as in overrides of scenes. Velocities, and the numbers that baths remember, stay as they are.
     ///
     /// Momenta are whole multiples of a unit that follows from the scene; where a change needs a larger unit they are rounded to it, so that
     /// their sum stays, to half a unit: the [`Rounding`] says how much it changed.
@@ -314,19 +316,25 @@ fn blank(document: &mut Value) {
     }
 }
 
+/// The units of what a scene keeps besides positions and momenta: of momentum, of work, of its sums.
+fn kept_units(scene: &Checked, state: &State) -> Vec<f64> {
+    let model = scene.model();
+    let work = plan(scene, Hardware::default(), Options::default()).quanta.energy;
+    let sums = model.physics().kept(model, state).into_iter().map(|sum| sum.unit);
+    [model.units.momentum, work].into_iter().chain(sums).collect()
+}
+
 /// The state in the units of another scene, which are as large or differ by a power of two.
 fn in_units_of(scene: &Checked, old: &Checked, mut state: State) -> Result<(State, Rounding), RunError> {
     let [from, to] = [old, scene].map(|scene| scene.model().units.momentum);
-    let same_energies = old.model().physics().mass_unit() == scene.model().physics().mass_unit();
-    if from == to && same_energies {
-        return Ok((state, Rounding::default()));
-    }
-    let accounts =
-        [state.account.is_empty(), state.walls.is_empty(), state.energies.is_empty(), state.masses.is_empty()];
-    if accounts.contains(&false) {
-        let text =
-            "the change needs other units of the momenta, in which this scene keeps accounts that cannot be converted";
+    let of_velocities = [StateArray::Predicted, StateArray::Images, StateArray::Anchors, StateArray::Tethers];
+    let keeps = |array: &StateArray| !of_velocities.contains(array) && !state.words(*array).is_empty();
+    if StateArray::ALL.iter().any(keeps) && kept_units(old, &state) != kept_units(scene, &state) {
+        let text = "the change needs other units, in which what this scene keeps, such as accounts, masses and memory, cannot be converted";
         return Err(mistake(format!("{text}; accepted: values that need no other unit, or a new simulation")));
+    }
+    if from == to {
+        return Ok((state, Rounding::default()));
     }
     let ratio = from / to;
     let before = state.total_momentum();

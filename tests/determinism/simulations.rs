@@ -246,14 +246,14 @@ fn a_hotter_scene_has_larger_units() {
         // A report of a split step adds half a kick, whose noise is that of the new temperature.
         assert!(one.iter().zip(other).all(|(one, other)| (one - other).abs() < 20.0));
     }
-    // Sums that a scene keeps cannot be rounded so.
+    // Sums that a scene keeps cannot be rounded so, nor energies of cells, whose unit follows from the temperature.
     let walls = built_in("couette", &["space.box=[6,6,6]", "output={}"]);
+    let mut simulation = self::simulation(&cells(64, &[ENERGY]));
+    let refusal = simulation.set("temperature", 50.0).unwrap_err().to_string();
+    assert!(refusal.contains("cannot be converted"), "{refusal}");
     let mut simulation = self::simulation(&walls);
     let refusal = simulation.set("temperature", 1e4).unwrap_err().to_string();
-    assert!(
-        refusal.contains("accounts that cannot be converted; accepted: values that need no other unit"),
-        "{refusal}"
-    );
+    assert!(refusal.contains("cannot be converted; accepted: values that need no other unit"), "{refusal}");
     simulation.advance(1).unwrap();
 }
 
