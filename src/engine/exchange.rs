@@ -14,8 +14,22 @@ use std::time::{Duration, Instant};
 /// The number of a particle that is forgotten: shaders/ranks/domain.wgsl.
 const NOBODY: u32 = u32::MAX;
 
+/// What may move to another thread with its engine.
+#[cfg(not(feature = "mpi"))]
+pub trait Movable: Send {}
+
+#[cfg(not(feature = "mpi"))]
+impl<T: Send> Movable for T {}
+
+/// What may move to another thread with its engine: with MPI nothing may, whose communicators belong to the thread that made them.
+#[cfg(feature = "mpi")]
+pub trait Movable {}
+
+#[cfg(feature = "mpi")]
+impl<T> Movable for T {}
+
 /// How a rank passes on what its peers need, and learns what it needs of them.
-pub trait Swap: Send {
+pub trait Swap: Movable {
     /// Gives every peer its bytes, and returns theirs in the same order.
     ///
     /// # Errors

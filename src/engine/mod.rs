@@ -12,7 +12,7 @@ mod texels;
 mod timing;
 
 pub use error::EngineError;
-pub use exchange::{Swap, Traffic};
+pub use exchange::{Movable, Swap, Traffic};
 pub(crate) use readback::read as read_back;
 pub(crate) use shown::Sampling;
 pub use shown::Shown;
