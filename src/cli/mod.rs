@@ -98,7 +98,7 @@ impl Command {
         }
     }
 
-    /// Whether it opens an adapter.
+    /// True if it opens an adapter.
     fn computes(&self) -> bool {
         !matches!(self, Self::Report(_) | Self::Scenes(_) | Self::Schema(_) | Self::Completions(_) | Self::Man(_))
     }

@@ -1,4 +1,4 @@
-//! What a page says of one directory.
+//! The part of a page that is of one directory.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -66,7 +66,9 @@ pub(super) struct Entry {
     pub strip: Vec<Inside>,
     pub repeat: Vec<String>,
     pub command: Option<String>,
+    /// Text of the scene or the request, and which of them it is.
     pub scene: Option<String>,
+    pub scene_is: &'static str,
 }
 
 impl Entry {
@@ -74,7 +76,13 @@ impl Entry {
     pub(super) fn of(kind: &'static str, directory: &Path) -> Self {
         let name = directory.file_name().map(|name| name.to_string_lossy().into_owned());
         let title = name.clone().unwrap_or_default();
-        Self { kind, title, directory: name.unwrap_or_else(|| ".".to_owned()), ..Self::default() }
+        Self {
+            kind,
+            title,
+            directory: name.unwrap_or_else(|| ".".to_owned()),
+            scene_is: "The scene, with every default",
+            ..Self::default()
+        }
     }
 
     pub(super) fn add_fact(&mut self, name: &'static str, text: impl Into<String>) {

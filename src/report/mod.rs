@@ -38,7 +38,7 @@ pub enum ReportError {
     Nothing {
         /// The directory.
         path: PathBuf,
-        /// What was found.
+        /// The reason, from what was found.
         reason: &'static str,
     },
     /// The template is wrong, which is a mistake of the program.

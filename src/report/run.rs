@@ -94,6 +94,9 @@ fn describe(entry: &mut Entry, directory: &Path, summary: &Summary) {
              checksum (CRC-32) {sum}. The seed is {}, the id of the run {}.",
         summary.mesoscope_version, scene.seed, summary.run_id
     )];
+    if let Some(state) = &scene.state {
+        entry.repeat.push(format!("It starts from the file `{}`, which has to be where the scene says.", state.file));
+    }
     entry.command = Some("mesoscope run scene.json".to_owned());
     entry.scene = serde_json::to_string_pretty(scene).ok();
 }

@@ -5,7 +5,7 @@ use crate::numbers::{six_digits, with_error};
 use crate::output::own_file;
 use crate::study::Kind;
 use pulldown_cmark::{Event, Options, Parser, html};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::fs;
 use std::path::Path;
 
@@ -78,26 +78,15 @@ pub(super) fn entry(directory: &Path) -> Option<Entry> {
             Err(note) => entry.missing.push(note),
         }
     }
-    let scene = summary.pointer("/arguments/scene").or_else(|| summary.get("scene")).and_then(Value::as_str);
-    let settings = summary.pointer("/arguments/set").or_else(|| summary.get("set")).and_then(Value::as_array);
-    let quoted = |text: &str| format!("'{}'", text.replace('\'', r"'\''"));
-    let mut command = format!("mesoscope {} {}", kind.command, scene.map(quoted).unwrap_or_default());
-    for setting in settings.into_iter().flatten().filter_map(Value::as_str) {
-        command = format!("{command} --set {}", quoted(setting));
-    }
-    for value in varied.as_array().into_iter().flatten() {
-        let argument = value.as_str().map_or_else(
-            || {
-                let values =
-                    value["values"].as_array().map(|all| all.iter().map(ToString::to_string).collect::<Vec<_>>());
-                format!("{}={}", value["key"].as_str().unwrap_or_default(), values.unwrap_or_default().join(","))
-            },
-            str::to_owned,
-        );
-        command = format!("{command} --vary {}", quoted(&argument));
-    }
-    entry.repeat = vec![format!("`{}` in the directory has all that was requested.", kind.summary)];
-    entry.command = Some(command);
+    let kept = ["arguments", "scene", "base", "vary", "also", "set", "steps", "state_files"];
+    let request: Map<String, Value> =
+        kept.iter().filter_map(|key| Some(((*key).to_owned(), summary.get(*key)?.clone()))).collect();
+    entry.repeat = vec![format!(
+        "The request below, as `{}` keeps it, has the scene, its settings, what was varied and all options of `mesoscope {}`.",
+        kind.summary, kind.command
+    )];
+    entry.scene = serde_json::to_string_pretty(&request).ok();
+    entry.scene_is = "The request";
     Some(entry)
 }
 
@@ -120,7 +109,7 @@ fn table(text: &str, heading: &str) -> Option<TextTable> {
         .collect();
     let shown = |row: &Vec<String>, column: usize| {
         let cell = row.get(column).cloned().unwrap_or_default();
-        // Of a quantity that is varied and measured the mean has a name of its own.
+        // The mean of a quantity that is also varied has a name of its own.
         let measured = names[column].strip_suffix("_mean").unwrap_or(&names[column]);
         let error = place(&format!("{measured}_error")).filter(|_| place(&format!("{}_mean", names[column])).is_none());
         let error = error.and_then(|error| row.get(error)?.parse::<f64>().ok());
@@ -169,10 +158,16 @@ fn cells(line: &str) -> Vec<String> {
     cells
 }
 
-/// Markdown as HTML, without what is HTML in it: names of a scene may look like it. Its title is that of the entry.
+/// Markdown as HTML, without HTML and addresses that are in it: names of a scene may look like them. Its title is that of
+/// the entry.
 fn in_html(page: &str) -> String {
     let body = page.split_once("\n\n").map_or(page, |(first, rest)| if first.starts_with("# ") { rest } else { page });
-    let events = Parser::new_ext(body, Options::ENABLE_TABLES).map(|event| match event {
+    let is_address = |event: &Event<'_>| {
+        use pulldown_cmark::{Tag, TagEnd};
+        matches!(event, Event::Start(Tag::Link { .. } | Tag::Image { .. }) | Event::End(TagEnd::Link | TagEnd::Image))
+    };
+    let events = Parser::new_ext(body, Options::ENABLE_TABLES).filter(|event| !is_address(event));
+    let events = events.map(|event| match event {
         Event::Html(text) | Event::InlineHtml(text) => Event::Text(text),
         other => other,
     });
@@ -185,6 +180,17 @@ fn in_html(page: &str) -> String {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+
+    #[test]
+    fn names_are_neither_html_nor_addresses() {
+        let page = "# a title\n\n`x` <b>of</b> [a fluid](javascript:alert(1)) ![y](file:///etc/passwd)\n\n| a | b |\n|---|---|\n| 1 | 2 |\n";
+        let text = in_html(page);
+        assert!(["<b>", "javascript", "file:", "<a", "<img"].iter().all(|part| !text.contains(part)), "{text}");
+        assert!(
+            ["&lt;b&gt;", "a fluid", "<td>1</td>", "<code>x</code>"].iter().all(|part| text.contains(part)),
+            "{text}"
+        );
+    }
 
     #[test]
     fn values_stand_with_their_errors_and_few_runs_side_by_side() {
