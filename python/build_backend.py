@@ -3,6 +3,7 @@
 `MESOSCOPE_PROFILE` is the profile of cargo, `release` where nothing is said.
 """
 
+import json
 import os
 import shutil
 import subprocess
@@ -24,8 +25,6 @@ def _program() -> None:
         ["cargo", "metadata", "--locked", "--no-deps", "--format-version", "1"],
         cwd=root, check=True, capture_output=True, text=True,
     )  # fmt: skip
-    import json
-
     name = "mesoscope.exe" if os.name == "nt" else "mesoscope"
     folder = "debug" if PROFILE == "dev" else PROFILE
     built = Path(json.loads(found.stdout)["target_directory"]) / folder / name

@@ -6,7 +6,6 @@ import csv
 import html
 import json
 import os
-import re
 import struct
 import zlib
 from base64 import b64encode
@@ -42,37 +41,40 @@ class Mean(NamedTuple):
         return float(self.value)
 
 
-class Picture:
-    """A picture that a run has drawn, which notebooks show."""
+class _Shown:
+    """A file that notebooks show."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
 
     def __repr__(self) -> str:
-        return f"<picture {str(self.path)!r}>"
+        return f"<mesoscope.{type(self).__name__} {str(self.path)!r}>"
 
     def __fspath__(self) -> str:
         return str(self.path)
+
+
+class Picture(_Shown):
+    """A picture that was drawn."""
 
     def _repr_png_(self) -> bytes:
         return self.path.read_bytes()
 
 
-class Page:
-    """A page of HTML, which notebooks show."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-
-    def __repr__(self) -> str:
-        return f"<page {str(self.path)!r}>"
-
-    def __fspath__(self) -> str:
-        return str(self.path)
+class Page(_Shown):
+    """A page of HTML."""
 
     def _repr_html_(self) -> str:
         page = html.escape(self.path.read_text(encoding="utf-8"))
         return f'<iframe srcdoc="{page}" style="width: 100%; height: 60em; border: 0"></iframe>'
+
+
+def _picture(directory: Path, name: str) -> Picture:
+    path = directory / (name if name.endswith(".png") else f"{name}.png")
+    if not path.exists():
+        drawn = ", ".join(sorted(file.stem for file in directory.glob("*.png")))
+        raise ArrayError(f"no picture {name!r} was drawn; accepted: {drawn or 'nothing'}")
+    return Picture(path)
 
 
 def _numbers(cells: list[str]) -> np.ndarray:
@@ -204,27 +206,22 @@ class Run:
 
     def plot(self, name: str = "energies") -> Picture:
         """A picture that the run has drawn: ``energies``, ``snapshot``, or the name of a table."""
-        path = self.directory / (name if name.endswith(".png") else f"{name}.png")
-        if not path.exists():
-            drawn = sorted(file.stem for file in self.directory.glob("*.png"))
-            raise ArrayError(f"this run has drawn no {name!r}; accepted: {', '.join(drawn) or 'nothing'}")
-        return Picture(path)
+        return _picture(self.directory, name)
 
     def rdf(self, one: str | None = None, other: str | None = None) -> dict[str, np.ndarray]:
         """The radial distribution function: ``distance``, ``g`` and its ``error``; of two species where the run has counted them."""
-        table, columns = self.table("radial_distribution"), self.columns("radial_distribution")
-        values = [column for column in columns if not re.search(r"error|count|pairs", column["name"]) and column["name"] != "distance"]
+        table = self.table("radial_distribution")
+        found = {column["name"]: _species(column) for column in self.columns("radial_distribution")}
+        # A curve has its errors in a column beside it.
+        curves = {name: species for name, species in found.items() if f"{name}_error" in table}
         if one is not None:
-            wanted = sorted([one, other or one])
-            values = [column for column in values if sorted(_species(column)) in (wanted, wanted[:1] if wanted[0] == wanted[1] else wanted)]
-        if len(values) != 1:
-            pairs = sorted({"–".join(_species(column)) or "all" for column in columns if column["name"] != "distance"})
+            wanted = {one, other or one}
+            curves = {name: species for name, species in curves.items() if set(species) == wanted}
+        if len(curves) != 1:
+            pairs = sorted({"–".join(species) or "all" for name, species in found.items() if f"{name}_error" in table})
             raise ArrayError(f"this run has g(r) of {', '.join(pairs)}; name one of these pairs")
-        name = values[0]["name"]
-        error = next((key for key in table if key in (f"{name}_error", name.replace("g", "error", 1), name.replace("g", "g_error", 1))), None)
-        distance = next(iter(table))
-        found = {"distance": table[distance], "g": table[name]}
-        return found | ({"error": table[error]} if error else {})
+        (name,) = curves
+        return {"distance": table["distance"], "g": table[name], "error": table[f"{name}_error"]}
 
     def diffusion(self, species: str | None = None) -> Mean:
         """The diffusion coefficient from mean squared displacements."""
@@ -242,29 +239,47 @@ class Run:
             import gsd.hoomd
         except ImportError:
             raise FileError("reading trajectories takes the package gsd: pip install gsd") from None
+        edges = np.zeros(3)
+        lengths = self.scene["space"]["box"]
+        edges[: len(lengths)] = lengths
         with gsd.hoomd.open(path, "r") as file:
             frames = []
             for frame in file:
-                dimensions = frame.configuration.dimensions
-                edges = np.where(np.arange(3) < dimensions, frame.configuration.box[:3], 0.0)
+                if np.any(frame.configuration.box[3:]):
+                    raise ArrayError(
+                        "boundaries shear, and cells of this trajectory lean: read it with the package gsd, which has the box of every frame"
+                    )
+                # Files have the origin in the middle of the box.
                 positions = frame.particles.position.astype(np.float64) + edges / 2
-                if unwrap:
-                    positions += frame.particles.image * edges
-                frames.append(positions)
+                frames.append(positions + frame.particles.image * edges if unwrap else positions)
         return np.array(frames)
 
     @property
+    def field_times(self) -> np.ndarray:
+        """The times of the frames of :attr:`fields`."""
+        step = self.scene["time"]["step"]
+        return np.array([frame["step"] * step for frame in self._field_frames()])
+
+    def _field_frames(self) -> list[dict[str, Any]]:
+        # The end has arrays without a number, which are those of the last number if that is of its step.
+        numbered = [frame for frame in self.summary.get("numbered", []) if frame["step"] < self.steps]
+        return [*numbered, {"number": None, "step": self.steps}]
+
+    @property
     def fields(self) -> dict[str, np.ndarray]:
-        """Fields of shallow water: each of shape (frames, nodes along x, nodes along y), the last frame that of the end."""
-        found: dict[str, list[tuple[float, np.ndarray]]] = {}
-        for path in self.directory.glob("*.npy"):
-            name, _, number = path.stem.rpartition("-")
-            numbered = number.isdigit() and name
-            key, place = (name, float(number)) if numbered else (path.stem, np.inf)
-            found.setdefault(key, []).append((place, np.load(path)))
-        if not found:
-            raise ArrayError("this run has no arrays of fields; they are of shallow water, with output.fields.format npy")
-        return {key: np.array([array for _, array in sorted(frames, key=lambda pair: pair[0])]) for key, frames in sorted(found.items())}
+        """Fields of shallow water: each of shape (frames, nodes along x, nodes along y), of which the last is the end."""
+        ends = sorted(path for path in self.directory.glob("*.npy") if not path.stem.rpartition("-")[2].isdigit())
+        if not ends:
+            raise ArrayError("this run has no arrays of fields; runs of shallow water have, with output.fields.format npy")
+        frames = self._field_frames()
+
+        def array(name: str, number: int | None) -> np.ndarray:
+            path = self.directory / (f"{name}.npy" if number is None else f"{name}-{number:06}.npy")
+            if not path.exists():
+                raise FileError(f"`{path}` is not there, which the run has written")
+            return np.load(path)
+
+        return {path.stem: np.array([array(path.stem, frame["number"]) for frame in frames]) for path in ends}
 
     def to_xarray(self) -> Any:
         """The fields of the end with their coordinates, as an ``xarray.Dataset``."""
@@ -280,52 +295,8 @@ def _species(column: dict[str, Any]) -> list[str]:
     return [found] if isinstance(found, str) else list(found)
 
 
-class Sweep:
-    """A sweep that has ended, by its directory."""
-
-    def __init__(self, directory: str | os.PathLike[str], failures: dict[str, str] | None = None) -> None:
-        self.directory = Path(directory)
-        path = self.directory / "sweep.json"
-        try:
-            self.summary: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
-        except FileNotFoundError:
-            raise FileError(f"there is no sweep in `{self.directory}`: it has no sweep.json") from None
-        #: Why variants failed, by their names.
-        self.failures = dict(failures or {})
-
-    def __repr__(self) -> str:
-        return f"<mesoscope.Sweep of {len(self.summary['variants'])} variants in {str(self.directory)!r}>"
-
-    def table(self) -> dict[str, np.ndarray]:
-        """The table of all variants: an array for every column."""
-        return read_table(self.directory / "sweep.csv")
-
-    def averages(self) -> dict[str, np.ndarray]:
-        """The table of averages over seeds."""
-        return read_table(self.directory / "sweep-averages.csv")
-
-    def to_pandas(self) -> Any:
-        """The table of all variants as a ``pandas.DataFrame``."""
-        import pandas
-
-        return pandas.DataFrame(self.table())
-
-    def runs(self) -> list[Run]:
-        """The runs that have finished."""
-        names = [variant["name"] for variant in self.summary["variants"] if variant["state"] == "finished"]
-        return [Run(self.directory / name) for name in names]
-
-    def plot(self, name: str = "sweep-means") -> Picture:
-        """A picture of the sweep."""
-        path = self.directory / (name if name.endswith(".png") else f"{name}.png")
-        if not path.exists():
-            drawn = sorted(file.stem for file in self.directory.glob("*.png"))
-            raise ArrayError(f"this sweep has drawn no {name!r}; accepted: {', '.join(drawn) or 'nothing'}")
-        return Picture(path)
-
-
 class _Study:
-    """What studies leave: a table, pictures and a page in words."""
+    """A study by its directory: a table and pictures."""
 
     _kind = ""
 
@@ -339,14 +310,6 @@ class _Study:
 
     def __repr__(self) -> str:
         return f"<mesoscope.{type(self).__name__} in {str(self.directory)!r}>"
-
-    @property
-    def page(self) -> str:
-        """All that was found, as Markdown."""
-        return (self.directory / f"{self._kind}.md").read_text(encoding="utf-8")
-
-    def _repr_markdown_(self) -> str:
-        return self.page
 
     def table(self) -> dict[str, np.ndarray]:
         """The table: an array for every column."""
@@ -363,7 +326,43 @@ class _Study:
         return [Picture(path) for path in sorted(self.directory.glob(f"{self._kind}*.png"))]
 
 
-class Tradeoff(_Study):
+class Sweep(_Study):
+    """Runs of a scene that differ in a few values."""
+
+    _kind = "sweep"
+
+    def __init__(self, directory: str | os.PathLike[str], failures: dict[str, str] | None = None) -> None:
+        super().__init__(directory)
+        #: Why variants failed, by their names.
+        self.failures = dict(failures or {})
+
+    def averages(self) -> dict[str, np.ndarray]:
+        """The table of averages over seeds."""
+        return read_table(self.directory / "sweep-averages.csv")
+
+    def runs(self) -> list[Run]:
+        """The runs that have finished."""
+        names = [variant["name"] for variant in self.summary["variants"] if variant["state"] == "finished"]
+        return [Run(self.directory / name) for name in names]
+
+    def plot(self, name: str = "sweep-means") -> Picture:
+        """A picture of the sweep."""
+        return _picture(self.directory, name)
+
+
+class _Told(_Study):
+    """A study that leaves a page in words."""
+
+    @property
+    def page(self) -> str:
+        """All that was found, as Markdown."""
+        return (self.directory / f"{self._kind}.md").read_text(encoding="utf-8")
+
+    def _repr_markdown_(self) -> str:
+        return self.page
+
+
+class Tradeoff(_Told):
     """What choices cost, and how far each is off."""
 
     _kind = "tradeoff"
@@ -376,7 +375,7 @@ class Tradeoff(_Study):
         self.scene = scene
 
 
-class Stability(_Study):
+class Stability(_Told):
     """How far a scene may go."""
 
     _kind = "stability"

@@ -57,6 +57,8 @@ def test_a_run_has_means_tables_and_pictures(small):
     assert own["g"].shape == own["distance"].shape == own["error"].shape and not (own["g"] == other["g"]).all()
     with pytest.raises(ms.ArrayError, match="name one of these pairs"):
         run.rdf("A", "C")
+    everything = ms.run("dpd-fluid", small | {"output": {"radial_distribution": {"every": 20, "bins": 40, "range": 2}}}, out="g", steps=60, progress=False)
+    assert everything.rdf().keys() == {"distance", "g", "error"}
     assert run.diffusion("A").value > 0
     with pytest.raises(ms.ArrayError, match="set output.diffusion.species"):
         run.diffusion("B")
@@ -85,7 +87,11 @@ def test_fields_are_arrays(place):
         "output.fields": {"quantities": ["depth", "speed"], "every": 5},
     }  # fmt: skip
     run = ms.run("shallow-water", water, out="water", steps=10, progress=False)
-    assert run.fields["depth"].shape[1:] == (16, 16) and len(run.fields["depth"]) >= 3
+    # Steps 5 and 10 have numbers, or 0 too, and the end is step 10.
+    times = run.field_times.tolist()
+    assert times == sorted(set(times)) and times[-1] == pytest.approx(10 * run.scene["time"]["step"])
+    assert run.fields["depth"].shape == (len(times), 16, 16)
+    assert not any((one == other).all() for one, other in zip(run.fields["speed"], run.fields["speed"][1:]))
     xarray = pytest.importorskip("xarray")
     found = run.to_xarray()
     assert isinstance(found, xarray.Dataset) and found["depth"].dims == ("x", "y")
