@@ -24,6 +24,8 @@ class Frame:
     time: float
     #: Edges of the box, one for each dimension.
     box: np.ndarray
+    #: True for axes without walls across them.
+    periodic: list[bool]
     #: Axis and length by which the copies of the box above are displaced along x, where boundaries shear.
     displacement: tuple[int, float] | None
     #: Positions, velocities at the full step, and turns round the box: (N, 3); components beyond the dimensions are zero.
@@ -40,9 +42,17 @@ class Frame:
     @property
     def unwrapped(self) -> np.ndarray:
         """Positions without turns at the boundaries: ways are differences of these."""
-        edges = np.zeros(3)
+        self._check_upright("ways across boundaries that shear are no whole numbers of boxes")
+        return self.positions + self.images * self._edges(0.0)
+
+    def _edges(self, rest: float) -> np.ndarray:
+        edges = np.full(3, rest)
         edges[: len(self.box)] = self.box
-        return self.positions + self.images * edges
+        return edges
+
+    def _check_upright(self, why: str) -> None:
+        if self.displacement is not None:
+            raise ArrayError(f"{why}; Simulation.write makes a trajectory whose cell leans")
 
     @property
     def fields(self) -> dict[str, np.ndarray]:
@@ -61,15 +71,14 @@ class Frame:
         """A ``gsd.hoomd.Frame``, whose box is centred at the origin."""
         import gsd.hoomd
 
-        edges = np.ones(3)
-        edges[: len(self.box)] = self.box
+        self._check_upright("a frame in memory has an upright box, and boundaries shear")
+        edges = self._edges(1.0)
         frame = gsd.hoomd.Frame()
         frame.configuration.step = self.step
         frame.configuration.dimensions = max(len(self.box), 2)
         frame.configuration.box = [*edges, 0, 0, 0]
         frame.particles.N = len(self.positions)
-        half = np.where(np.arange(3) < len(self.box), edges / 2, 0)
-        frame.particles.position = (self.positions - half).astype(np.float32)
+        frame.particles.position = (self.positions - self._edges(0.0) / 2).astype(np.float32)
         frame.particles.velocity = self.velocities.astype(np.float32)
         frame.particles.image = self.images.astype(np.int32)
         frame.particles.types = self.species_names
@@ -86,29 +95,27 @@ class Frame:
         """A pair of ``freud.box.Box`` and positions about its centre, as freud's analyses take them."""
         import freud
 
-        two = len(self.box) == 2
-        edges = list(self.box) + ([] if two else [1.0] * (3 - len(self.box)))
-        box = freud.box.Box(*edges, is2D=True) if two else freud.box.Box(*edges)
-        half = np.zeros(3)
-        half[: len(self.box)] = self.box / 2
-        return box, (self.positions - half).astype(np.float32)
+        self._check_upright("a box of freud has its own conventions for cells that lean, and boundaries shear")
+        edges = self._edges(1.0)
+        box = freud.box.Box(*edges[:2], is2D=True) if len(self.box) == 2 else freud.box.Box(*edges)
+        box.periodic = [*self.periodic, True, True][:3]
+        return box, (self.positions - self._edges(0.0) / 2).astype(np.float32)
 
     def to_mdanalysis(self):
         """An ``MDAnalysis.Universe`` of this frame in memory."""
         import MDAnalysis
         from MDAnalysis.coordinates.memory import MemoryReader
 
+        self._check_upright("a universe in memory has an upright box, and boundaries shear")
         universe = MDAnalysis.Universe.empty(len(self.positions), trajectory=True, velocities=True)
         universe.add_TopologyAttr("types", [self.species_names[number] for number in self.species])
         universe.add_TopologyAttr("masses", self.masses)
         if len(self.bonds):
             universe.add_TopologyAttr("bonds", [tuple(pair) for pair in self.bonds.tolist()])
-        edges = np.ones(3)
-        edges[: len(self.box)] = self.box
         universe.load_new(
             self.positions[None].astype(np.float32),
             format=MemoryReader,
-            dimensions=[*edges, 90, 90, 90],
+            dimensions=[*self._edges(1.0), 90, 90, 90],
             velocities=self.velocities[None].astype(np.float32),
         )
         return universe
@@ -124,10 +131,10 @@ def _array(name: str, value: Any) -> np.ndarray:
 
 
 class Simulation:
-    """A scene on a device, which advances as many steps as it is told and can be looked at and changed between them.
+    """A scene on a device, advanced by a given number of steps at a time; its state can be read and changed between steps.
 
-    The device closes at the end of a ``with``, or with :meth:`close`. Forces have no hook for Python: they are computed on the device, where
-    no Python runs; a force of one's own belongs into the scene.
+    The device closes at the end of a ``with``, or with :meth:`close`. There is no callback for forces: they are computed on
+    the device, inside of a step; a new force is a term of the scene.
 
     >>> import mesoscope as ms
     >>> with ms.Simulation("dpd-fluid", settings={"space.box": [4, 4, 4], "output": {}}) as sim:
@@ -272,7 +279,7 @@ class Simulation:
         return {name: rows[:, column] for column, name in enumerate(names)}
 
     def mean(self, name: str) -> Mean:
-        """The mean of a column of this table after equilibration, with its standard error."""
+        """The mean of a column of this table, with its standard error, after equilibration and after the last change."""
         found = dict(self._inner.means())
         if name not in found:
             raise ArrayError(f"there is no column {name!r}; accepted: {', '.join(found)}")

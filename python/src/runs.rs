@@ -18,7 +18,7 @@ use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::Duration;
 
 /// How often a signal is looked for while the library works.
-pub const GLANCE: Duration = Duration::from_millis(40);
+pub const GLANCE: Duration = Duration::from_millis(30);
 
 /// Refuses work on devices in a process that was forked after one was opened.
 pub fn check_fork(py: Python<'_>) -> PyResult<()> {
@@ -175,8 +175,8 @@ pub fn resume(
     execute(py, run, adapter, report.as_ref())
 }
 
-/// What a scene requires, as JSON text: the scene with every default, its particles, memory, warnings, and the seconds that it is expected
-/// to take on an adapter, where a few steps are to be timed.
+/// Requirements of a scene as JSON text: the scene with every default, its particles, memory, warnings, and the seconds
+/// that it is expected to take on an adapter, where a few steps are to be timed.
 #[pyfunction]
 #[pyo3(signature = (name, text, settings, *, steps=None, adapter=None, time=false))]
 pub fn check(
@@ -226,7 +226,7 @@ fn line_of_study<E: Display, P: Display>(event: &StudyEvent<'_, E, P>) -> Option
     Some(value.to_string())
 }
 
-/// What all studies are started with.
+/// The arguments that all studies have.
 #[derive(FromPyObject)]
 pub struct Study {
     /// The scene by name, and its text where it is no file and no built-in one.

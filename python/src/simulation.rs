@@ -52,6 +52,22 @@ impl Simulation {
     }
 }
 
+impl Simulation {
+    /// Drops the simulation. In a process that was forked its device belongs to another one, and is left alone.
+    fn leave(&self) {
+        let open = self.open.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if self.process != std::process::id() {
+            std::mem::forget(open);
+        }
+    }
+}
+
+impl Drop for Simulation {
+    fn drop(&mut self) {
+        self.leave();
+    }
+}
+
 /// Rows of an array of shape (N, 1 to 3), with zeros in place of the columns that are missing.
 fn vectors(array: &PyReadonlyArray2<'_, f64>) -> Vec<[f64; 3]> {
     let array = array.as_array();
@@ -75,6 +91,7 @@ fn dictionary(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
     found.set_item("time", frame.time)?;
     found.set_item("box", PyArray1::from_slice(py, &frame.lengths))?;
     found.set_item("displacement", frame.displacement)?;
+    found.set_item("periodic", frame.periodic)?;
     found.set_item("positions", array_of(py, &frame.positions)?)?;
     found.set_item("velocities", array_of(py, &frame.velocities)?)?;
     found.set_item("images", array_of(py, &frame.images)?)?;
@@ -114,7 +131,7 @@ impl Simulation {
 
     /// Closes the device, unless another simulation is on it.
     fn close(&self, py: Python<'_>) {
-        py.detach(|| drop(self.open.lock().unwrap_or_else(PoisonError::into_inner).take()));
+        py.detach(|| self.leave());
     }
 
     fn is_closed(&self) -> bool {

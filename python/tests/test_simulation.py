@@ -284,11 +284,15 @@ except KeyboardInterrupt as error:
     with ms.Simulation.resume("run/checkpoint.bin") as sim:
         reached = sim.step
     assert reached > 0
-    run = ms.resume("run", steps=reached + 10, progress=False)
-    assert run.steps == reached + 10
+    end = reached + 600  # More than the steps to equilibrium, however soon the signal came.
+    run = ms.resume("run", steps=end, progress=False)
+    assert run.steps == end
 
 
-@pytest.mark.parametrize("end", ["", "sys.exit(3)", "raise ValueError", "import threading; threading.Thread(target=sim.advance, args=(10**5,), daemon=True).start(); time.sleep(.5)"])
+ADVANCING = "import threading; threading.Thread(target=sim.advance, args=(10**5,), daemon=True).start(); time.sleep(.5)"
+
+
+@pytest.mark.parametrize("end", ["", "sys.exit(3)", "raise ValueError", ADVANCING])
 def test_an_interpreter_that_exits_neither_hangs_nor_crashes(end, script):
     child = script(BEGIN + f"sim = ms.Simulation('dpd-fluid', small)\nsim.advance(20)\n{end}\n")
     _, err = child.communicate(timeout=120)
@@ -307,7 +311,8 @@ if pid == 0:
             use()
         except ms.AdapterError as error:
             print("spawn" in str(error), flush=True)
-    os._exit(0)
+    # An ordinary end closes what is open, and that does not hang.
+    sys.exit(0)
 os.waitpid(pid, 0)
 sim.advance(1)
 print(sim.step, flush=True)
@@ -320,3 +325,30 @@ def test_a_simulation_that_nobody_holds_is_closed(small):
     for _ in range(12):
         ms.Simulation("dpd-fluid", small).advance(1)
     gc.collect()
+
+
+def test_what_an_upright_box_cannot_say_is_refused(small):
+    pytest.importorskip("gsd")
+    shear = {"space.shear": {"rate": 0.5, "gradient": "y"}}
+    with ms.Simulation("dpd-fluid", small | shear) as sim:
+        sim.advance(5)
+        frame = sim.frame()
+        assert frame.displacement[0] == 1 and frame.displacement[1] > 0
+        for use in (lambda: frame.unwrapped, frame.to_gsd, frame.to_freud, frame.to_mdanalysis):
+            with pytest.raises(ms.ArrayError, match="boundaries.* shear"):
+                use()
+    with ms.Simulation("couette", {"space.box": [6, 6, 6], "output": {}}) as sim:
+        frame = sim.frame()
+        assert frame.periodic == [True, True, False]
+        assert list(frame.to_freud()[0].periodic) == frame.periodic
+
+
+def test_means_begin_anew_with_a_change(small):
+    with ms.Simulation("dpd-fluid", small | {"output": {"energies": {"every": 10}}}) as sim:
+        sim.advance(100)
+        assert sim.mean("temperature").samples == 11
+        sim.set("temperature", 4)
+        assert sim.mean("temperature").samples == 0
+        sim.advance(300)
+        assert sim.mean("temperature").samples == 30 and sim.mean("temperature").value > 3
+        assert len(sim.energies["time"]) == 41

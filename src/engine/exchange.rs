@@ -14,14 +14,14 @@ use std::time::{Duration, Instant};
 /// The number of a particle that is forgotten: shaders/ranks/domain.wgsl.
 const NOBODY: u32 = u32::MAX;
 
-/// What may move to another thread with its engine.
+/// A part of an engine that moves to another thread with it.
 #[cfg(not(feature = "mpi"))]
 pub trait Movable: Send {}
 
 #[cfg(not(feature = "mpi"))]
 impl<T: Send> Movable for T {}
 
-/// What may move to another thread with its engine: with MPI nothing may, whose communicators belong to the thread that made them.
+/// A part of an engine, which with MPI stays in its thread: communicators belong to the thread that made them.
 #[cfg(feature = "mpi")]
 pub trait Movable {}
 

@@ -444,18 +444,28 @@ impl<'a> Engine<'a> {
         Ok(std::mem::take(&mut self.collected))
     }
 
-    /// Goes on from a state by another plan, which differs in numbers only: in constants that kernels load from buffers, and in tables.
-    /// False if it differs in more, and nothing has changed.
+    /// Goes on from a state by another plan, which differs in numbers only: in constants that kernels load from buffers,
+    /// and in tables. False if it differs in more, and nothing has changed.
     ///
     /// # Errors
     /// As [`Self::upload`].
     pub fn renumber(&mut self, plan: &Plan, state: &State) -> Result<bool, EngineError> {
         let bytes = |plan: &Plan| plan.buffers.iter().map(|buffer| (buffer.array, buffer.bytes)).collect::<Vec<_>>();
         let kernels = || self.plan.kernels.iter().zip(&plan.kernels).zip(&self.stages);
+        let order = |plan: &Plan| {
+            let Plan { prepare, sort, tidy, before_report, report, advance, finish_report, .. } = plan;
+            [prepare, sort, tidy, before_report, report, advance, finish_report].map(Vec::clone)
+        };
         let is_alike = plan.kernels.len() == self.plan.kernels.len()
-            && (plan.constants_in, &plan.samplers, &plan.textures)
-                == (self.plan.constants_in, &self.plan.samplers, &self.plan.textures)
-            && [&plan.sort, &plan.advance, &plan.report] == [&self.plan.sort, &self.plan.advance, &self.plan.report]
+            && (plan.particles, plan.constants_in, &plan.samplers, &plan.textures, &plan.paths)
+                == (
+                    self.plan.particles,
+                    self.plan.constants_in,
+                    &self.plan.samplers,
+                    &self.plan.textures,
+                    &self.plan.paths,
+                )
+            && order(plan) == order(&self.plan)
             && bytes(plan) == bytes(&self.plan)
             && kernels().all(|((own, new), stage)| stage.suits([own, new], [&self.plan, plan]));
         if !is_alike {
@@ -497,7 +507,8 @@ impl<'a> Engine<'a> {
         Ok(Reported { momenta, ..state.clone().into() })
     }
 
-    /// Samples of this step by some samplers, due or not: what they take at the steps at which they are due does not depend on it.
+    /// Samples of this step by some samplers, due or not: what they take at the steps at which they are due does not
+    /// depend on it.
     ///
     /// # Errors
     /// As [`Self::reported`].

@@ -138,7 +138,7 @@ impl Simulation {
         let model = scene.model();
         let kinematics = Kinematics::new(model);
         if !self.here()?.state.energies.is_empty() {
-            // What is not motion is inside.
+            // Energy that is no motion is inside.
             let text = "cells of this scene keep account of kinetic and internal energy together: other velocities would heat or cool \
                         what is inside";
             return Err(mistake(format!("{text}; accepted: scenes without internal energies")));

@@ -28,6 +28,12 @@ impl EnergyRows {
         Self { columns, rows, configuration, time_step: scene.time.step, equilibration: scene.time.equilibration }
     }
 
+    /// Leaves the rows before a step out of means, as those before equilibration: something else was measured there.
+    pub(super) fn begin_anew(&mut self, step: u64) {
+        self.equilibration = self.equilibration.max(step);
+        self.configuration.clear();
+    }
+
     /// Adds a row, and gives its numbers without the step.
     pub(super) fn add(&mut self, observables: &Observables) -> Vec<f64> {
         let cells: Vec<f64> = self.columns.iter().map(|column| column.value(observables, self.time_step)).collect();

@@ -6,7 +6,7 @@ use crate::plan::Need;
 use crate::state::{Reported, State};
 use std::sync::Arc;
 
-/// What is known of a step.
+/// The current step, as far as it has been looked at.
 pub(super) struct Here {
     /// The state that steps are taken from.
     pub state: Arc<State>,
@@ -24,7 +24,7 @@ pub(super) struct Here {
 /// let mut simulation = Simulation::new(&scene, &AdapterChoice::Best)?;
 /// let frame = simulation.frame()?;
 /// assert_eq!(frame.positions.len(), frame.velocities.len());
-/// assert_eq!(frame.unwrapped(0), frame.positions[0], "nothing has left the box");
+/// assert_eq!(frame.unwrapped(0), Some(frame.positions[0]), "nothing has left the box");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -36,16 +36,19 @@ pub struct Frame {
     pub time: f64,
     /// Edges of the box, in length units, one for each dimension.
     pub lengths: Vec<f64>,
+    /// True for axes without walls across them.
+    pub periodic: Vec<bool>,
     /// How far the copies of the box above it are displaced along x, of boxes whose boundaries shear: axis and length.
     pub displacement: Option<(usize, f64)>,
-    /// Positions in the box, in length units; the third component is zero in two dimensions, and the second on a line. Particles of frozen
-    /// layers lie outside of the box.
+    /// Positions in the box, in length units; the third component is zero in two dimensions, and the second on a line.
+    /// Particles of frozen layers lie outside of the box.
     pub positions: Vec<[f64; 3]>,
     /// Velocities at the full step, in units of length over time.
     pub velocities: Vec<[f64; 3]>,
     /// Species, as places of the names of [`Model::species`].
     pub species: Vec<u32>,
-    /// How often each particle has gone round the box along every axis since the start; zeros where boundaries shear.
+    /// How often each particle has gone round the box along every axis since the start, or since the checkpoint of a run
+    /// that did not count it; zeros where boundaries shear.
     pub images: Vec<[i32; 3]>,
     /// Masses, in mass units; of shallow water in those of its depth, zero for tracers.
     pub masses: Vec<f64>,
@@ -65,6 +68,7 @@ impl Frame {
             step,
             time: step as f64 * model.time_step,
             lengths: edges[..units.dimension].to_vec(),
+            periodic: units.gaps[..units.dimension].iter().map(|gap| *gap == 0.0).collect(),
             displacement,
             positions: reported
                 .positions
@@ -78,11 +82,14 @@ impl Frame {
         }
     }
 
-    /// The position of a particle without turns at the boundaries: its way from the start is a difference of these.
+    /// The position of a particle without turns at the boundaries: its way from the start is a difference of these. None
+    /// where boundaries shear, for there a turn is no whole number of boxes.
     #[must_use]
-    pub fn unwrapped(&self, particle: usize) -> [f64; 3] {
+    pub fn unwrapped(&self, particle: usize) -> Option<[f64; 3]> {
         let edge = |axis: usize| self.lengths.get(axis).copied().unwrap_or(0.0);
-        std::array::from_fn(|axis| self.positions[particle][axis] + f64::from(self.images[particle][axis]) * edge(axis))
+        let (position, image) = (self.positions.get(particle)?, self.images.get(particle)?);
+        let turned = |axis: usize| position[axis] + f64::from(image[axis]) * edge(axis);
+        self.displacement.is_none().then(|| std::array::from_fn(turned))
     }
 }
 

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 /// Time a batch should take: long enough that submitting costs nothing, short enough to see a failure soon.
 const TARGET: f64 = 0.15;
 /// The same where each call has to return soon, with two more batches on their way.
-const SOON: f64 = 0.03;
+const SOON: f64 = 0.02;
 const LARGEST: u64 = 512;
 /// Operations in a first batch that the slowest adapters finish within seconds, and of a particle at least.
 const CAUTION: f64 = 2e10;
@@ -126,7 +126,7 @@ impl Pace {
     }
 }
 
-/// What is called after every batch.
+/// The observer of every batch.
 type EachBatch<'e, E> =
     dyn FnMut(&mut dyn Stepper, &mut Pace, Result<(), EngineError>) -> Result<ControlFlow<()>, E> + 'e;
 

@@ -26,12 +26,12 @@ pub struct Run {
     scene: Checked,
     beginning: Beginning,
     interrupt: Interrupt,
-    /// What was done to the scene before the run, for its summary.
+    /// The changes made to the scene before the run, for its summary.
     notices: Vec<String>,
     id: Id,
     /// How the box is divided among several ranks, if it is.
     division: Option<Division>,
-    /// Whether ranks may compute differently.
+    /// True if ranks may compute differently.
     mixed: bool,
     /// True if pictures are drawn.
     draws: bool,
@@ -46,7 +46,7 @@ enum Beginning {
     Checkpoint {
         directory: RunDirectory,
         checkpoint: Box<Checkpoint>,
-        /// What `run.json` says of the same run.
+        /// The summary of the run in `run.json`.
         earlier: Option<Box<Summary>>,
     },
 }
@@ -99,7 +99,7 @@ impl Run {
                 scene = scene.check_kept(&path.display().to_string())?;
             }
         }
-        // What a state has to have is the same on every adapter.
+        // The arrays of a state are the same on every adapter.
         let (hardware, options) = (Hardware::default(), Options::default());
         if let Some(problem) = plan(&scene, hardware, options).misfit(&checkpoint.state, scene.model()) {
             return Err(CheckpointError::malformed(&path, problem).into());
@@ -137,7 +137,7 @@ impl Run {
         Self { id, ..self }
     }
 
-    /// What was done to the scene before the run.
+    /// The changes made to the scene before the run.
     #[must_use]
     pub fn notices(&self) -> &[String] {
         &self.notices
@@ -176,7 +176,7 @@ impl Run {
         }
     }
 
-    /// Whether nothing is left to do: the last step is behind, and everything that the run was to leave is there.
+    /// True if nothing is left to do: the last step is behind, and everything that the run was to leave is there.
     #[must_use]
     pub fn is_finished(&self) -> bool {
         let step = self.first_step();
@@ -252,7 +252,7 @@ impl Run {
                         // answered with "nothing was written".
                         task.directory.clear(force)?;
                     }
-                    // Of ranks on this machine alone it is known before.
+                    // It is known earlier of ranks that are all on this machine.
                     for warning in processes.iter().flat_map(|_| sharing_anywhere(engine.ranks())) {
                         observer(Event::Warned { warning: &warning });
                     }

@@ -33,10 +33,11 @@ use std::time::{Duration, Instant};
 /// Steps that are repeated at most where an array turns out too small.
 const STEPS_BETWEEN_STATES: u64 = 4096;
 
-/// A scene on a device, which advances as many steps as it is told and can be looked at and changed between them.
+/// A scene on a device, advanced by a given number of steps at a time; between steps its state can be read and changed.
 ///
-/// It writes no file by itself, and makes none of the analyses of a [`Run`](super::Run) but the rows of the table of energies. Looking at it
-/// changes no bit of what follows. The device closes when the last simulation on it is dropped.
+/// A simulation writes no file by itself, and of the measurements of a [`Run`](super::Run) it makes the rows of the table
+/// of energies only. Reading its state changes no bit of the steps that follow. The device closes when the last
+/// simulation on it is dropped.
 ///
 /// ```
 /// use mesoscope::gpu::AdapterChoice;
@@ -63,7 +64,7 @@ pub struct Simulation {
     gpu: Gpu,
     options: Options,
     pub(super) engine: Engine<'static>,
-    /// What the device had counted when the engine began.
+    /// The counts of the device when the engine began.
     carried: Carried,
     rows: EnergyRows,
     /// Where to begin again if an array turns out too small, and what had been counted there.
@@ -73,7 +74,7 @@ pub struct Simulation {
     interrupt: Interrupt,
     /// Samples of the last step that was sampled.
     sampled: Vec<Sample>,
-    /// What is known of the current step.
+    /// The energies and the state of the current step, as far as they have been read.
     here: Option<Here>,
     pub(super) changes: Vec<super::change::Change>,
     /// Why no further step can be taken.
@@ -89,7 +90,7 @@ pub(crate) enum Stop {
     Interrupted,
 }
 
-/// What can be looked at besides the rows of the table of energies.
+/// The kinds of readings besides the rows of the table of energies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sight {
     /// Frames with velocities and images.
@@ -163,7 +164,11 @@ impl Simulation {
     fn from_state(sight: Sight, gpu: &Gpu, scene: &Checked, state: State, carried: Carried) -> Result<Self, RunError> {
         let planned = sight.planned(scene);
         let (engine, options) = open(gpu, &planned, &state, Options::default())?;
-        let pace = Pace::for_looking(scene.model().particle_count(), engine.plan().operations_per_particle);
+        let (particles, operations) = (scene.model().particle_count(), engine.plan().operations_per_particle);
+        let pace = match sight {
+            Sight::Frames => Pace::for_looking(particles, operations),
+            Sight::EnergiesAlone => Pace::new(particles, operations),
+        };
         Ok(Self {
             rows: EnergyRows::new(scene),
             scene: scene.clone(),
@@ -241,7 +246,7 @@ impl Simulation {
         Ok(self.step() - first)
     }
 
-    /// Frames of the next steps, every so many of them; the last step has one.
+    /// Frames of the next steps, every so many of them, of every one where that is 0; the last step has one.
     pub fn frames(&mut self, steps: u64, every: u64) -> Frames<'_> {
         let last = self.step().saturating_add(steps);
         Frames { simulation: self, last, every: every.max(1) }
@@ -295,7 +300,7 @@ impl Simulation {
             let is_over = interrupt.is_asked() || deadline.is_some_and(|deadline| Instant::now() >= deadline);
             Ok::<_, EngineError>(if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
         });
-        // What came before a failure is good.
+        // Samples from before a failure are good.
         self.add_samples(samples);
         advanced?;
         self.engine.wait()?;
@@ -337,7 +342,7 @@ impl Simulation {
         observables
     }
 
-    /// What becomes of a simulation whose engine failed.
+    /// Closes a simulation whose engine failed.
     fn ended(&mut self, error: EngineError) -> RunError {
         let error = match error {
             EngineError::Unstable(failure) => {
@@ -443,12 +448,13 @@ impl Simulation {
         self.rows.table()
     }
 
-    /// The rows of that table after equilibration.
+    /// The rows of that table that means are of.
     pub(crate) fn settled(&self) -> Table {
         self.rows.settled()
     }
 
-    /// The means of the columns of that table after equilibration, with their standard errors; none of a column without rows.
+    /// The means of the columns of that table with their standard errors, after equilibration and after the last
+    /// [change](Self::changes); none of a column without rows.
     #[must_use]
     pub fn means(&self) -> Vec<(&'static str, Option<Estimate>)> {
         self.rows.means()
@@ -565,6 +571,8 @@ impl Simulation {
     /// Nothing is known but the state that the engine has begun with.
     fn begin(&mut self, carried: Carried, state: State) {
         (self.counted, self.carried) = (carried.clone(), carried);
+        // A row of this step is of what was before.
+        self.rows.begin_anew(state.step + u64::from(self.rows.last_step() == Some(state.step)));
         self.saved = Arc::new(state);
         (self.here, self.sampled) = (None, Vec::new());
     }

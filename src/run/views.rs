@@ -15,7 +15,7 @@ use crate::state::{Reported, crossings};
 use crate::tessellation::Tessellation;
 use image::RgbaImage;
 
-/// What draws the states of a scene.
+/// The pictures of a scene, from its states.
 pub(super) struct Views<'a> {
     gpu: &'a Gpu,
     scene: &'a Scene,

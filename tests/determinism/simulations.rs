@@ -212,13 +212,36 @@ fn a_changed_number_is_that_of_another_scene() {
     }
 }
 
+/// Means are of what goes on now.
+#[test]
+fn means_begin_anew_with_a_change() {
+    let scene = edited(&fluid(&[SPLITTING]), |scene| scene.output.energies.every = 10);
+    let mut simulation = simulation(&scene);
+    simulation.advance(200).unwrap();
+    let mean = |simulation: &Simulation, name: &str| {
+        simulation.means().into_iter().find(|(known, _)| *known == name).and_then(|(_, mean)| mean)
+    };
+    assert_eq!(mean(&simulation, "temperature").unwrap().samples, 21);
+    simulation.set("temperature", 4.0).unwrap();
+    assert_eq!(mean(&simulation, "temperature"), None);
+    simulation.advance(300).unwrap();
+    for name in ["temperature", "configurational_temperature"] {
+        assert_eq!(mean(&simulation, name).unwrap().samples, 30, "{name}");
+    }
+    assert!(mean(&simulation, "temperature").unwrap().value > 3.0);
+    // All rows are in the table.
+    assert_eq!(simulation.energies().rows.len(), 51);
+}
+
 /// Boundaries that shear at another rate move on from where they are.
 #[test]
 fn a_shear_rate_changes_without_a_jump() {
     let scene = fluid(&[SPLITTING, r#"space.shear={"rate":0.7,"gradient":"y","displacement":1.1}"#]);
     let mut simulation = simulation(&scene);
     simulation.advance(50).unwrap();
-    let before = simulation.frame().unwrap().displacement.unwrap().1;
+    let before = simulation.frame().unwrap();
+    assert_eq!((before.unwrapped(0), &before.periodic[..]), (None, &[true; 3][..]));
+    let before = before.displacement.unwrap().1;
     simulation.set("space.shear.rate", -0.3).unwrap();
     let after = simulation.frame().unwrap().displacement.unwrap().1;
     assert!((before - after).abs() < 1e-8, "{before}, {after}");
