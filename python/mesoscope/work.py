@@ -128,7 +128,7 @@ class _Study:
 
     def __init__(
         self, kind: str, scene: Any, settings: Mapping[str, Any] | None, out: Any, vary: Mapping[str, Any], also: Iterable[Mapping[str, Any]],
-        *, steps: int | None, jobs: int | None, force: bool, adapter: str | None, progress: Any,
+        *, seeds: int | None, steps: int | None, jobs: int | None, force: bool, adapter: str | None, progress: Any,
     ) -> None:  # fmt: skip
         name, self.text = source(scene)
         stem = _directory(name, None).name
@@ -136,7 +136,7 @@ class _Study:
         self.settings = overrides(settings)
         self.vary = [f"{key}={_values(values)}" for key, values in vary.items()]
         self.also = [",".join(f"{key}={text(value)}" for key, value in one.items()) for one in also]
-        self.steps, self.jobs, self.force, self.adapter = steps, jobs, force, adapter
+        self.seeds, self.steps, self.jobs, self.force, self.adapter = seeds, steps, jobs, force, adapter
         self.out = _directory(f"{stem}-{kind}", out)
         self.report, self.close = _reporter(progress)
 
@@ -159,7 +159,7 @@ def _named(pairs: Mapping[str, Any] | None) -> list[str]:
 
 def sweep(
     scene: Any,
-    vary: Mapping[str, Iterable[Any]],
+    vary: Mapping[str, Iterable[Any]] | None = None,
     settings: Mapping[str, Any] | None = None,
     out: str | os.PathLike[str] | None = None,
     *,
@@ -171,7 +171,8 @@ def sweep(
     adapter: str | None = None,
     progress: Any = True,
 ) -> Sweep:
-    """Runs all combinations of the values in ``vary``, and the settings in ``also`` besides; with ``seeds`` each so many times.
+    """Runs all combinations of the values in ``vary``, and the settings in ``also`` besides. ``seeds`` makes independent runs of each: a number of
+    them, with the seed of the scene and those that follow, or the seeds themselves; ``averages`` of the result are means over them.
 
     Variants that fail do not stop the others: ``failures`` of the result says why.
 
@@ -181,11 +182,15 @@ def sweep(
     >>> found.table()["temperature"].tolist()
     [1.0, 2.0]
     """
-    varied = {key: list(values) for key, values in vary.items()}
-    if seeds is not None:
-        varied["seed"] = list(range(1, seeds + 1)) if isinstance(seeds, int) else list(seeds)
-    study = _Study("sweep", scene, settings, out, varied, also, steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress)
-    if not varied and not study.also:
+    varied = {key: list(values) for key, values in (vary or {}).items()}
+    count = seeds if isinstance(seeds, int) else None
+    if seeds is not None and count is None:
+        varied["seed"] = list(seeds)
+    study = _Study(
+        "sweep", scene, settings, out, varied, also,
+        seeds=count, steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress,
+    )  # fmt: skip
+    if not varied and not study.also and count is None:
         raise SceneError("nothing is varied; accepted: keys with their values, or seeds")
     try:
         failures = _mesoscope.sweep(study)
@@ -207,6 +212,7 @@ def tradeoff(
     measures: Iterable[str] = (),
     references: Mapping[str, Any] | None = None,
     finer: Mapping[str, Any] | None = None,
+    seeds: int | None = None,
     steps: int | None = None,
     jobs: int | None = None,
     force: bool = False,
@@ -216,10 +222,14 @@ def tradeoff(
     """Measures what choices cost and how far each is off, and says which is the cheapest that meets the ``targets``: ``{"pressure": "1%"}``
     in parts of a reference, or numbers in units of the scene.
 
+    With ``seeds`` every choice runs with the seed of the scene and those that follow: means are over them, with standard errors from their scatter.
     ``error`` is the relative standard error that means are to have, ``budget`` the seconds that all steps may take, and ``references`` are
     values that are known, alone or with their errors: ``{"pressure": (23.65, 0.01)}``.
     """
-    study = _Study("tradeoff", scene, settings, out, vary, also, steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress)
+    study = _Study(
+        "tradeoff", scene, settings, out, vary, also,
+        seeds=seeds, steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress,
+    )  # fmt: skip
     more = ",".join(f"{key}={text(value)}" for key, value in (finer or {}).items()) or None
     try:
         advice, chosen = _mesoscope.tradeoff(
@@ -240,14 +250,20 @@ def stability(
     bisections: int = 3,
     measures: Iterable[str] = (),
     references: Mapping[str, Any] | None = None,
+    seeds: int | None = None,
     steps: int | None = None,
     jobs: int | None = None,
     force: bool = False,
     adapter: str | None = None,
     progress: Any = True,
 ) -> Stability:
-    """Measures how far a scene may go: along one key, or two, of which each has values or a range such as ``"0.01..0.2/9"``."""
-    study = _Study("stability", scene, settings, out, vary or {}, (), steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress)
+    """Measures how far a scene may go: along one key, or two, of which each has values or a range such as ``"0.01..0.2/9"``. With ``seeds``
+    every scene runs with the seed of the scene and those that follow, and means are over them.
+    """
+    study = _Study(
+        "stability", scene, settings, out, vary or {}, (),
+        seeds=seeds, steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress,
+    )  # fmt: skip
     try:
         rows, findings = _mesoscope.stability(
             study, tolerance=tolerance, bisections=bisections, measures=list(measures), references=_named(references)

@@ -7,7 +7,7 @@ use mesoscope::plan::{Hardware, Options};
 use mesoscope::run::{self, Event, Interrupt, Run, RunError};
 use mesoscope::scene::{self, Checked, SceneError, WrittenScene};
 use mesoscope::stability::{Request as StabilityRequest, StabilityRun, StabilitySummary};
-use mesoscope::study::{Observer, Record, StudyError, StudyEvent, StudyRun};
+use mesoscope::study::{Observer, Record, StudyError, StudyEvent, StudyRun, variation_of_seeds};
 use mesoscope::sweep::{Sweep, SweepRun, SweepSummary};
 use mesoscope::tradeoff::{Length, References, Request as TradeoffRequest, Target, TradeoffRun, TradeoffSummary};
 use pyo3::prelude::*;
@@ -236,6 +236,7 @@ pub struct Study {
     vary: Vec<String>,
     also: Vec<String>,
     steps: Option<u64>,
+    seeds: Option<u32>,
     out: PathBuf,
     force: bool,
     jobs: Option<usize>,
@@ -280,8 +281,12 @@ where
 /// Runs variants of a scene into a directory: names of those that failed, and why.
 #[pyfunction]
 pub fn sweep(py: Python<'_>, study: Study) -> PyResult<Vec<(String, String)>> {
-    let Study { settings, vary, also, steps, .. } = &study;
-    let request = |source: &str| Sweep::load(source, settings, *steps, vary, also);
+    let Study { settings, vary, also, steps, seeds, .. } = &study;
+    let request = |source: &str| {
+        let seeds = seeds.map(|seeds| variation_of_seeds(source, settings, seeds)).transpose()?;
+        let vary: Vec<String> = vary.iter().cloned().chain(seeds).collect();
+        Sweep::load(source, settings, *steps, &vary, also)
+    };
     let outcome = execute_study::<SweepSummary, _>(py, &study, request, SweepRun::execute)?;
     let name = |number: usize| outcome.summary.variants[number].name.clone();
     Ok(outcome.failures.iter().map(|(number, error)| (name(*number), error.to_string())).collect())
@@ -313,6 +318,7 @@ pub fn tradeoff(
             .with_measures(&measures)?
             .with_references(references)?
             .with_targets(targets.iter().map(target).collect::<Result<_, _>>()?)?
+            .with_seeds(study.seeds.unwrap_or(1))?
             .with_finer(finer.as_deref(), None)
     };
     let outcome = execute_study::<TradeoffSummary, _>(py, &study, request, TradeoffRun::execute)?;
@@ -337,6 +343,7 @@ pub fn stability(
         StabilityRequest::load(source, settings, *steps, vary)?
             .with_tolerance(tolerance)?
             .with_bisections(bisections)
+            .with_seeds(study.seeds.unwrap_or(1))?
             .with_measures(&measures, references)
     };
     let outcome = execute_study::<StabilitySummary, _>(py, &study, request, StabilityRun::execute)?;

@@ -5,7 +5,7 @@ use mesoscope::gpu::AdapterChoice;
 use super::{heading, launcher};
 
 /// Which adapter.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct AdapterArgument {
     /// Adapter to use: its number or part of its name (see `mesoscope adapters`), or `software` for the CPU
     /// [default: the best one]

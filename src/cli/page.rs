@@ -1,9 +1,11 @@
 //! `mesoscope report`: one page of runs and studies.
 
+use std::io::Cursor;
 use std::path::PathBuf;
 
 use mesoscope::output::write_atomically;
-use mesoscope::{printable, report};
+use mesoscope::printable;
+use mesoscope::report::{self, ReportError};
 
 use super::{Failure, heading, print};
 
@@ -13,6 +15,7 @@ use super::{Failure, heading, print};
 Examples:
   mesoscope report dpd-fluid
   mesoscope report first second dpd-fluid-sweep --out thesis.html
+  mesoscope report dpd-fluid --png                       one sheet as a picture, report.png
 
 The page needs no other file and no script: it opens in every browser, light or dark, and prints. What is missing or damaged in a directory is said in \
 its place.")]
@@ -21,9 +24,13 @@ pub struct Arguments {
     #[arg(required = true, value_name = "DIR")]
     directories: Vec<PathBuf>,
 
-    /// The page
-    #[arg(long, help_heading = heading::OUTPUT, value_name = "FILE", default_value = "report.html")]
-    out: PathBuf,
+    /// The page [default: report.html, or report.png]
+    #[arg(long, help_heading = heading::OUTPUT, value_name = "FILE")]
+    out: Option<PathBuf>,
+
+    /// Write one sheet as a picture in place of the page, without the scenes
+    #[arg(long, help_heading = heading::OUTPUT)]
+    png: bool,
 
     /// Replace a page that is there
     #[arg(long, help_heading = heading::OUTPUT)]
@@ -32,12 +39,23 @@ pub struct Arguments {
 
 /// Writes the page.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let shown = printable::path(&arguments.out);
-    if arguments.out.exists() && !arguments.force {
+    let default = || PathBuf::from(if arguments.png { "report.png" } else { "report.html" });
+    let out = arguments.out.clone().unwrap_or_else(default);
+    let shown = printable::path(&out);
+    if out.exists() && !arguments.force {
         let message = format!("`{shown}` exists; give another name with --out, or replace it with --force");
         return Err(Failure::input_output(message));
     }
-    let page = report::page(&arguments.directories).map_err(|error| Failure::input_output(error.to_string()))?;
-    write_atomically(&arguments.out, |writer| writer.write_all(page.as_bytes()))?;
-    print(&format!("{shown}: {:.1} MB\n", page.len() as f64 / 1e6))
+    let refused = |error: ReportError| Failure::input_output(error.to_string());
+    let bytes = if arguments.png {
+        let sheet = report::sheet(&arguments.directories).map_err(refused)?;
+        let mut bytes = Cursor::new(Vec::new());
+        let wrong = |error: image::ImageError| Failure::input_output(format!("cannot write `{shown}`: {error}"));
+        sheet.write_to(&mut bytes, image::ImageFormat::Png).map_err(wrong)?;
+        bytes.into_inner()
+    } else {
+        report::page(&arguments.directories).map_err(refused)?.into_bytes()
+    };
+    write_atomically(&out, |writer| writer.write_all(&bytes))?;
+    print(&format!("{shown}: {:.1} MB\n", bytes.len() as f64 / 1e6))
 }

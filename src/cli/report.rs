@@ -255,7 +255,9 @@ pub fn marks(rows: &[Vec<String>], unequilibrated: Option<&Unequilibrated>) -> S
     let has = |mark: char| means().any(|cell| cell.ends_with(mark) || cell.contains(&format!("{mark} ")));
     let mut notes = String::new();
     if has('*') {
-        notes.push_str("  * from few samples: the error may be larger\n");
+        notes.push_str(
+            "  * from few samples: the error may be larger; more steps tell, or independent runs (--seeds 8)\n",
+        );
     }
     if has('†') {
         let advice = unequilibrated.map_or_else(String::new, |found| format!(": try {}", found.arguments()));

@@ -8,7 +8,7 @@ use mesoscope::run::Run;
 
 use super::event_lines::WritingArguments;
 use super::report::{self, Telling};
-use super::{Failure, RanksArgument, RunArguments, SceneArguments, heading, processes};
+use super::{Failure, RanksArgument, RunArguments, SceneArguments, StudyArguments, heading, processes, sweep};
 
 /// Simulate a scene and write energies, plots and snapshots
 #[derive(Debug, clap::Args)]
@@ -20,6 +20,7 @@ Examples:
   mesoscope run dpd-fluid --set time.step=0.02 --set integrator.type=groot-warren
   mesoscope run dpd-fluid --adapter software
   mesoscope run my-scene.json --ranks auto               on all graphics cards of this machine
+  mesoscope run dpd-fluid --seeds 8                      eight independent runs, and their means with errors
 
 Ctrl-C saves a checkpoint and stops; `mesoscope resume` continues from there.")]
 pub struct Arguments {
@@ -29,6 +30,11 @@ pub struct Arguments {
     /// Directory for everything the run writes [default: the scene's name in the working directory]
     #[arg(long, help_heading = heading::OUTPUT, value_name = "DIR")]
     out: Option<PathBuf>,
+
+    /// Independent runs, with the seed of the scene and those that follow, as `mesoscope sweep --seeds` makes them: tables and plots of their means,
+    /// with standard errors from their scatter
+    #[arg(long, help_heading = heading::SEVERAL, value_name = "N", conflicts_with_all = ["ranks", "mixed", "no_pictures", "progress"])]
+    seeds: Option<u32>,
 
     #[command(flatten)]
     ranks: RanksArgument,
@@ -40,14 +46,26 @@ pub struct Arguments {
     how: RunArguments,
 }
 
+impl Arguments {
+    /// The directory for everything that is written.
+    fn directory(&self) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| report::stem(&self.scene.scene).into())
+    }
+}
+
 /// Simulates the scene, with all copies of the program that a launcher has started.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let Arguments { scene, ranks, how, .. } = arguments;
+    if let Some(seeds) = arguments.seeds {
+        let study = StudyArguments::of_seeds(seeds, scene, arguments.directory(), &ranks.adapter, how);
+        return sweep::execute(&sweep::Arguments::of_seeds(scene.seed, study));
+    }
     processes::share(&arguments.ranks.adapter, &|processes| simulate(arguments, processes))
 }
 
 fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
     let scene = arguments.ranks.load(&arguments.scene, processes.map(Processes::count))?;
-    let directory = arguments.out.clone().unwrap_or_else(|| report::stem(&arguments.scene.scene).into());
+    let directory = arguments.directory();
     let shown = printable::path(&directory);
     let started = if arguments.how.force { Run::replace(scene, directory) } else { Run::start(scene, directory) };
     let simulation = if arguments.writing.no_pictures { started.without_pictures() } else { started };

@@ -3,7 +3,7 @@
 use super::heading;
 
 /// How to run.
-#[derive(Debug, clap::Args)]
+#[derive(Debug, Clone, clap::Args)]
 pub struct RunArguments {
     /// Overwrite the results of an earlier run in the directory
     #[arg(long, help_heading = heading::OUTPUT)]

@@ -56,6 +56,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Ok(Request::load(scene, &study.set, study.steps, &arguments.vary)?
             .with_tolerance(arguments.tolerance)?
             .with_bisections(arguments.bisections)
+            .with_seeds(study.seeds.unwrap_or(1))?
             .with_measures(&arguments.measure, references)?)
     })?;
     let base = run.request().base();

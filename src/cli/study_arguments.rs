@@ -10,7 +10,9 @@ use mesoscope::scene::Warning;
 use mesoscope::study::{Kind, LONG, Observer, Record, StudyError, StudyRun};
 
 use super::study_report::Reporter;
-use super::{AdapterArgument, Failure, RunArguments, guidance, heading, interruption, line, report, whole_number};
+use super::{
+    AdapterArgument, Failure, RunArguments, SceneArguments, guidance, heading, interruption, line, report, whole_number,
+};
 
 /// Which scene, where to, and how.
 #[derive(Debug, clap::Args)]
@@ -32,6 +34,11 @@ pub struct StudyArguments {
     /// runs in a `tradeoff --budget` are as long as the time allows
     #[arg(long, help_heading = heading::RUNNING, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
+
+    /// Independent runs of each scene, with its own seed and those that follow: means are taken over them, with standard errors from
+    /// their scatter
+    #[arg(long, help_heading = heading::SEVERAL, value_name = "N", conflicts_with = "resume")]
+    pub seeds: Option<u32>,
 
     /// Directory for all results [default: the names of scene and command, joined by a hyphen, in the working directory]
     #[arg(long, help_heading = heading::OUTPUT, value_name = "DIR", conflicts_with = "resume")]
@@ -57,7 +64,7 @@ pub struct StudyArguments {
 pub struct VariantArguments {
     /// A key of the scene and the values to try. Repeated, every combination is run. A value is JSON, or else text;
     /// the path is as in `--set`
-    #[arg(long, help_heading = heading::SCENE, value_name = "PATH=VALUE,…", required_unless_present = "resume", conflicts_with = "resume")]
+    #[arg(long, help_heading = heading::SCENE, value_name = "PATH=VALUE,…", required_unless_present_any = ["resume", "seeds"], conflicts_with = "resume")]
     pub vary: Vec<String>,
 
     /// One more variant besides the combinations, with settings of its own; may be repeated
@@ -74,6 +81,28 @@ pub struct ComparisonArguments {
 }
 
 impl StudyArguments {
+    /// Those of independent runs of one scene, into `directory`.
+    pub fn of_seeds(
+        seeds: u32,
+        scene: &SceneArguments,
+        directory: PathBuf,
+        adapter: &AdapterArgument,
+        how: &RunArguments,
+    ) -> Self {
+        Self {
+            scene: Some(scene.scene.clone()),
+            set: scene.set.clone(),
+            steps: scene.steps,
+            jobs: None,
+            seeds: Some(seeds),
+            out: Some(directory),
+            resume: None,
+            yes: false,
+            adapter: adapter.clone(),
+            how: how.clone(),
+        }
+    }
+
     /// The study in the directory to go on in, or else a new one of what is asked of a scene.
     pub fn study<R: Record>(
         &self,

@@ -3,6 +3,7 @@
 use mesoscope::numbers::counted;
 use mesoscope::printable;
 use mesoscope::run::RunError;
+use mesoscope::study::variation_of_seeds;
 use mesoscope::sweep::{Look, Shard, Sweep, SweepOutcome, SweepRun, Variant};
 
 use super::{Failure, StudyArguments, VariantArguments, heading, launcher, print, sweep_report};
@@ -15,6 +16,7 @@ Examples:
   mesoscope sweep dpd-fluid --vary time.step=0.02,0.04 --vary integrator.type=splitting,groot-warren
   mesoscope sweep dpd-fluid --vary 'space.box=[8,8,8],[10,10,10]' --steps 500 --plot pressure --out boxes
   mesoscope sweep dpd-fluid --vary interactions.0.friction=1,4.5 --also interactions.0.friction=0,temperature=0
+  mesoscope sweep dpd-fluid --vary interactions.0.friction=1,4.5 --seeds 8     eight runs each, and their means with errors
   mesoscope sweep --resume dpd-fluid-sweep               finish a sweep that was interrupted
   mesoscope sweep --resume dpd-fluid-sweep --relative    the same plots, every quantity over its first value
   mesoscope sweep dpd-fluid --vary seed=1,2,3,4 --shard 1/2    its first half: seeds 1 and 3; 2/2 is the other
@@ -47,6 +49,14 @@ pub struct Arguments {
     study: StudyArguments,
 }
 
+impl Arguments {
+    /// Independent runs of one scene.
+    pub fn of_seeds(seed: Option<u64>, study: StudyArguments) -> Self {
+        let variants = VariantArguments { vary: Vec::new(), also: Vec::new() };
+        Self { variants, seed, relative: false, plot: Vec::new(), shard: None, study }
+    }
+}
+
 /// Which shard.
 #[derive(Debug, Clone, Copy)]
 pub enum ShardArgument {
@@ -74,7 +84,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut run: SweepRun = study.study(|scene| {
         let seed = arguments.seed.map(|seed| format!("seed={seed}"));
         let set: Vec<String> = study.set.iter().cloned().chain(seed).collect();
-        Ok(Sweep::load(scene, &set, study.steps, vary, also)?)
+        let seeds = study.seeds.map(|seeds| variation_of_seeds(scene, &set, seeds)).transpose()?;
+        let vary: Vec<String> = vary.iter().cloned().chain(seeds).collect();
+        Ok(Sweep::load(scene, &set, study.steps, &vary, also)?)
     })?;
     let look = Look { relative: arguments.relative, quantities: arguments.plot.clone() };
     if look != Look::default() {

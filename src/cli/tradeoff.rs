@@ -124,6 +124,7 @@ fn request(scene: &str, arguments: &Arguments) -> Result<Request, Failure> {
         .with_measures(&arguments.measure)?
         .with_references(references)?
         .with_targets(targets)?
+        .with_seeds(arguments.study.seeds.unwrap_or(1))?
         .with_finer(arguments.finer.as_deref(), arguments.still_finer.as_deref())?)
 }
 

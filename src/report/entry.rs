@@ -60,11 +60,16 @@ pub(super) struct Entry {
     pub tables: Vec<TextTable>,
     /// HTML that was made of the page of a study.
     pub words: Option<String>,
+    /// That page without its title, in Markdown.
+    #[serde(skip)]
+    pub markdown: Option<String>,
     pub conserved: Vec<String>,
     pub not_conserved: Vec<String>,
     pub pictures: Vec<Inside>,
     pub strip: Vec<Inside>,
     pub repeat: Vec<String>,
+    /// The use of the scene or the request.
+    pub scene_use: String,
     pub command: Option<String>,
     /// Text of the scene or the request, and which of them it is.
     pub scene: Option<String>,

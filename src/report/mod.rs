@@ -19,10 +19,13 @@
 
 mod entry;
 mod run;
+mod sheet;
 mod study;
 
+use crate::plot::PlotError;
 use crate::printable;
 use entry::Entry;
+use image::RgbImage;
 use minijinja::{AutoEscape, Environment, context};
 use std::path::{Path, PathBuf};
 
@@ -41,6 +44,9 @@ pub enum ReportError {
         /// The reason, from what was found.
         reason: &'static str,
     },
+    /// The sheet cannot be drawn.
+    #[error("the sheet cannot be drawn: {0}")]
+    Sheet(#[from] PlotError),
     /// The template is wrong, which is a mistake of the program.
     #[error("the page cannot be made: {0}")]
     Template(#[from] minijinja::Error),
@@ -51,13 +57,25 @@ pub enum ReportError {
 /// # Errors
 /// [`ReportError::Nothing`] names the first directory without anything to report.
 pub fn page(directories: &[PathBuf]) -> Result<String, ReportError> {
-    let entries = directories.iter().map(|directory| entry(directory)).collect::<Result<Vec<_>, _>>()?;
+    let entries = entries(directories)?;
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
     environment.add_template("page", include_str!("../../assets/report/page.html"))?;
     let title = entries.iter().map(|entry| entry.title.as_str()).collect::<Vec<_>>().join(" · ");
     let version = env!("CARGO_PKG_VERSION");
     Ok(environment.get_template("page")?.render(context! { title, version, entries })?)
+}
+
+/// The same on one sheet, as a picture: without the scenes, and without a device.
+///
+/// # Errors
+/// [`ReportError::Nothing`] names the first directory without anything to report; [`ReportError::Sheet`].
+pub fn sheet(directories: &[PathBuf]) -> Result<RgbImage, ReportError> {
+    sheet::sheet(&entries(directories)?)
+}
+
+fn entries(directories: &[PathBuf]) -> Result<Vec<Entry>, ReportError> {
+    directories.iter().map(|directory| entry(directory)).collect()
 }
 
 fn entry(directory: &Path) -> Result<Entry, ReportError> {

@@ -90,13 +90,14 @@ fn describe(entry: &mut Entry, directory: &Path, summary: &Summary) {
     }
     let sum = summary.tables.get(files::ENERGIES).map(|extent| format!("{:08x}", extent.crc32)).unwrap_or_default();
     entry.repeat = vec![format!(
-        "Save the scene below as scene.json. Version {} on the same adapter and driver gives the same bytes; the table of energies then has the \
+        "Version {} on the same adapter and driver gives the same bytes; the table of energies then has the \
              checksum (CRC-32) {sum}. The seed is {}, the id of the run {}.",
         summary.mesoscope_version, scene.seed, summary.run_id
     )];
     if let Some(state) = &scene.state {
         entry.repeat.push(format!("It starts from the file `{}`, which has to be where the scene says.", state.file));
     }
+    entry.scene_use = "Save the scene below as scene.json.".to_owned();
     entry.command = Some("mesoscope run scene.json".to_owned());
     entry.scene = serde_json::to_string_pretty(scene).ok();
 }

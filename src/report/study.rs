@@ -67,7 +67,9 @@ pub(super) fn entry(directory: &Path) -> Option<Entry> {
         }
     }
     if let Ok(page) = fs::read_to_string(directory.join(format!("{}.md", kind.command))) {
-        entry.words = Some(in_html(&page));
+        let body = without_title(&page);
+        entry.words = Some(in_html(body));
+        entry.markdown = Some(body.to_owned());
         // The page has the table in words.
         entry.tables.clear();
     }
@@ -81,10 +83,10 @@ pub(super) fn entry(directory: &Path) -> Option<Entry> {
     let kept = ["arguments", "scene", "base", "vary", "also", "set", "steps", "state_files"];
     let request: Map<String, Value> =
         kept.iter().filter_map(|key| Some(((*key).to_owned(), summary.get(*key)?.clone()))).collect();
-    entry.repeat = vec![format!(
+    entry.scene_use = format!(
         "The request below, as `{}` keeps it, has the scene, its settings, what was varied and all options of `mesoscope {}`.",
         kind.summary, kind.command
-    )];
+    );
     entry.scene = serde_json::to_string_pretty(&request).ok();
     entry.scene_is = "The request";
     Some(entry)
@@ -158,10 +160,13 @@ fn cells(line: &str) -> Vec<String> {
     cells
 }
 
-/// Markdown as HTML, without HTML and addresses that are in it: names of a scene may look like them. Its title is that of
-/// the entry.
-fn in_html(page: &str) -> String {
-    let body = page.split_once("\n\n").map_or(page, |(first, rest)| if first.starts_with("# ") { rest } else { page });
+/// The page of a study without its title, which is that of the entry.
+fn without_title(page: &str) -> &str {
+    page.split_once("\n\n").map_or(page, |(first, rest)| if first.starts_with("# ") { rest } else { page })
+}
+
+/// Markdown as HTML, without HTML and addresses that are in it: names of a scene may look like them.
+fn in_html(body: &str) -> String {
     let is_address = |event: &Event<'_>| {
         use pulldown_cmark::{Tag, TagEnd};
         matches!(event, Event::Start(Tag::Link { .. } | Tag::Image { .. }) | Event::End(TagEnd::Link | TagEnd::Image))
@@ -183,7 +188,7 @@ mod tests {
 
     #[test]
     fn names_are_neither_html_nor_addresses() {
-        let page = "# a title\n\n`x` <b>of</b> [a fluid](javascript:alert(1)) ![y](file:///etc/passwd)\n\n| a | b |\n|---|---|\n| 1 | 2 |\n";
+        let page = "`x` <b>of</b> [a fluid](javascript:alert(1)) ![y](file:///etc/passwd)\n\n| a | b |\n|---|---|\n| 1 | 2 |\n";
         let text = in_html(page);
         assert!(["<b>", "javascript", "file:", "<a", "<img"].iter().all(|part| !text.contains(part)), "{text}");
         assert!(

@@ -8,6 +8,8 @@ use crate::gpu::AdapterChoice;
 use crate::measure::equilibration::transient;
 use crate::run::{self, Interrupt, RunError, Sight, Simulation, Stop};
 use crate::scene::SceneError;
+use crate::study::reseeded;
+use crate::table::Table;
 use crate::tradeoff::{self, Deviation, Measured, References, errors_in_words};
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -110,25 +112,31 @@ pub(super) fn evaluate(
     interrupt: &Interrupt,
 ) -> Result<Option<Cell>, RunError> {
     let gpu = run::adapter_for(scene, adapter)?;
-    let mut trial = Simulation::seeing(Sight::EnergiesAlone, &gpu, scene)?.until(interrupt);
+    let seeds = arguments.seeds.unwrap_or(1);
+    let trial = |further| Simulation::seeing(Sight::EnergiesAlone, &gpu, &reseeded(scene, further));
+    let trials = (0..seeds).map(|further| Ok(trial(further)?.until(interrupt)));
+    let mut trials = trials.collect::<Result<Vec<Simulation>, RunError>>()?;
     let (equilibration, every) = (scene.time.equilibration, scene.output.energies.every.max(1));
     let averaged = scene.time.steps.saturating_sub(equilibration);
     let mut cell = Cell { value, time_step: Some(scene.time.step), ..Cell::default() };
     for part in PARTS {
         let more = ((part * averaged as f64 / every as f64).ceil() as u64).saturating_mul(every);
-        match trial.advance_to(equilibration.saturating_add(more), None) {
-            Ok(Stop::Reached) => {}
-            Ok(Stop::Interrupted) => return Ok(None),
-            Err(error) => {
-                let Some(reason) = reason_of_instability(&error) else { return Err(error) };
-                (cell.verdict, cell.is_certain, cell.reason) = (Verdict::Unstable, true, Some(reason));
-                cell.steps = trial.step();
-                cell.errors.clear();
-                return Ok(Some(cell));
+        for trial in &mut trials {
+            let ended = trial.advance_to(equilibration.saturating_add(more), None);
+            cell.steps = trial.step();
+            match ended {
+                Ok(Stop::Reached) => {}
+                Ok(Stop::Interrupted) => return Ok(None),
+                Err(error) => {
+                    let Some(reason) = reason_of_instability(&error) else { return Err(error) };
+                    let seed = if seeds > 1 { format!(" with the seed {}", trial.scene().seed) } else { String::new() };
+                    (cell.verdict, cell.is_certain, cell.reason) = (Verdict::Unstable, true, Some(reason + &seed));
+                    cell.errors.clear();
+                    return Ok(Some(cell));
+                }
             }
         }
-        cell.steps = trial.step();
-        let (errors, lost) = compare(&trial, scene, measures, &arguments.references);
+        let (errors, lost) = compare(&trials, scene, measures, &arguments.references);
         cell.errors = errors;
         (cell.verdict, cell.is_certain) = verdict(&cell.errors, arguments.tolerance);
         if scene.model().particle_count() < FEW {
@@ -138,7 +146,7 @@ pub(super) fn evaluate(
             let has = if lost.len() == 1 { "has" } else { "have" };
             cell.reason = Some(format!("{} {has} no number", listed(&lost)));
         }
-        cell.unequilibrated = unequilibrated(&trial, &cell.errors);
+        cell.unequilibrated = unequilibrated(&trials, &cell.errors);
         cell.is_certain &= cell.unequilibrated.is_empty();
         // Of what no law applies to here, as of a temperature without friction, nothing is known.
         cell.is_certain &= cell.reason.is_some() || cell.is_compared(measures);
@@ -163,23 +171,27 @@ pub(super) fn listed<'m>(measures: impl IntoIterator<Item = &'m String>) -> Stri
     measures.into_iter().map(|measure| format!("`{measure}`")).collect::<Vec<_>>().join(", ")
 }
 
-/// How far measures are off, and which are not numbers.
+/// How far measures are off in the means over all runs of a scene, and which are not numbers.
 fn compare(
-    trial: &Simulation,
+    trials: &[Simulation],
     scene: &Checked,
     measures: &[String],
     given: &References,
 ) -> (Vec<Deviation>, Vec<String>) {
-    let (means, further) = (trial.means(), tradeoff::of_table(&trial.energies(), scene));
+    let measured = |trial: &Simulation| -> Vec<Measured> {
+        let means = trial.means().into_iter().filter_map(|(name, mean)| {
+            let mean = mean?;
+            Some(Measured::mean(name.to_owned(), mean.value, mean.error, mean.few))
+        });
+        tradeoff::of_table(&trial.energies(), scene).into_iter().chain(means).collect()
+    };
+    let all: Vec<Vec<Measured>> = trials.iter().map(measured).collect();
+    let all = tradeoff::over_seeds(&all.iter().map(Vec::as_slice).collect::<Vec<_>>());
     let (mut errors, mut lost) = (Vec::new(), Vec::new());
     for measure in measures {
         let Some(reference) = given.known(measure, scene) else { continue };
-        let mean = || {
-            let found = means.iter().find(|(name, _)| name == measure)?.1?;
-            Some(Measured::mean(measure.clone(), found.value, found.error, found.few))
-        };
-        let measured = further.iter().find(|found| found.measure == *measure).cloned().or_else(mean);
-        match measured.map(|measured| Deviation::new(&measured, &reference)).filter(|found| found.error.is_finite()) {
+        let measured = all.iter().find(|found| found.measure == *measure);
+        match measured.map(|measured| Deviation::new(measured, &reference)).filter(|found| found.error.is_finite()) {
             Some(error) => errors.push(error),
             None => lost.push(measure.clone()),
         }
@@ -187,9 +199,12 @@ fn compare(
     (errors, lost)
 }
 
-/// Measures whose rows after equilibration begin with a transient.
-fn unequilibrated(trial: &Simulation, errors: &[Deviation]) -> Vec<String> {
-    let settled = trial.settled();
-    let begins = |error: &&Deviation| settled.column(&error.measure).is_some_and(|rows| transient(&rows).is_some());
+/// Measures whose rows after equilibration begin with a transient in some run.
+fn unequilibrated(trials: &[Simulation], errors: &[Deviation]) -> Vec<String> {
+    let settled: Vec<Table> = trials.iter().map(Simulation::settled).collect();
+    let begins = |error: &&Deviation| {
+        let mut rows = settled.iter().filter_map(|settled| settled.column(&error.measure));
+        rows.any(|rows| transient(&rows).is_some())
+    };
     errors.iter().filter(begins).map(|error| error.measure.clone()).collect()
 }

@@ -121,12 +121,13 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
         let (date, version) = (&summary.date, &summary.mesoscope_version);
         format!(" {date}, {} ({}), version {version}.", adapter.name, adapter.driver)
     });
+    let seeds = summary.arguments.seeds.map(|seeds| format!(" Means are over {seeds} seeds.")).unwrap_or_default();
     let right = summary.right_in_a_word();
     let header = ["row".to_owned(), format!("{right}: {key} up to"), "unstable from".to_owned(), "laws".to_owned()];
     let findings: Vec<String> = summary.findings().iter().map(|finding| format!("- {finding}")).collect();
     let mut paragraphs = vec![
         format!("# {}: how far it may go", request.base.title),
-        format!("`{}` is varied. {meaning}{}", summary.key, begun.unwrap_or_default()),
+        format!("`{}` is varied. {meaning}{seeds}{}", summary.key, begun.unwrap_or_default()),
         markdown([header].into_iter().chain(summary.in_words()).map(Vec::from), "---"),
     ];
     paragraphs.extend((!findings.is_empty()).then(|| findings.join("\n")));

@@ -6,7 +6,7 @@ use crate::output::Id;
 use crate::quantity::{Quantity, Unit};
 use crate::run;
 use crate::scene::{SceneError, StateFiles, WrittenScene};
-use crate::study::{self, LENGTHS, Setting, ShortKeys, StudyError};
+use crate::study::{self, LENGTHS, SEED, Setting, ShortKeys, StudyError, check_seeds};
 use crate::tradeoff::{self, References, Stretch, names_of_table, predicted};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -50,6 +50,9 @@ pub(super) struct Arguments {
     pub measures: Vec<String>,
     /// How often the distance of neighbours in a row is halved at an edge.
     pub bisections: u32,
+    /// Independent runs of each scene; none for one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seeds: Option<u32>,
     /// The files that runs start from.
     #[serde(default, skip_serializing_if = "StateFiles::is_empty")]
     pub state_files: StateFiles,
@@ -156,6 +159,22 @@ impl Request {
     pub fn with_bisections(mut self, bisections: u32) -> Self {
         self.arguments.bisections = bisections.min(20);
         self
+    }
+
+    /// The same with `seeds` independent runs of each scene, side by side in memory: means are taken over them, with standard errors from their
+    /// scatter, and a scene is unstable that is with one of them.
+    ///
+    /// # Errors
+    /// [`StudyError::Arguments`] unless there are 1 to [`study::MOST_SEEDS`], and where the seed is varied.
+    pub fn with_seeds(mut self, seeds: u32) -> Result<Self, StudyError> {
+        check_seeds(seeds)?;
+        if self.keys().contains(&SEED) {
+            return Err(StudyError::mistake(format!(
+                "`{SEED}` cannot be varied where all scenes run with {seeds} seeds"
+            )));
+        }
+        self.arguments.seeds = (seeds > 1).then_some(seeds);
+        Ok(self)
     }
 
     /// The same with measures to compare, and what they should be where no law says it.

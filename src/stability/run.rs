@@ -91,7 +91,8 @@ impl StudyRun<StabilitySummary> {
         // Scenes of a map are measured in memory.
         let base = self.request.base.clone().changed(|scene| scene.output = scene.output.energies_alone());
         let seconds = run::expected_time(&base, gpu).ok()?.seconds / base.time.steps.max(1) as f64;
-        Some(seconds * scenes.iter().map(|scene| scene.time.steps as f64).sum::<f64>())
+        let seeds = f64::from(self.request.arguments.seeds.unwrap_or(1));
+        Some(seeds * seconds * scenes.iter().map(|scene| scene.time.steps as f64).sum::<f64>())
     }
 
     fn run_all(

@@ -57,7 +57,7 @@ pub(crate) const TRADEOFF: Kind = Kind {
     asked: &["arguments"],
     files: &["tradeoff.csv", "tradeoff.md"],
     has_plots: true,
-    runs: &["choices", "finer"],
+    runs: &["choices", "finer", "further_seeds"],
 };
 
 /// Maps of stability.

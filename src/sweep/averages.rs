@@ -3,12 +3,9 @@
 use super::observables::{Observable, observables};
 use super::variant::{VariantState, VariantSummary};
 use crate::measure::statistics::{Estimate, independent};
-use crate::study::{Setting, ShortKeys, by_key};
+use crate::study::{SEED, Setting, ShortKeys, by_key};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
-
-/// The key of a scene that makes samples of variants.
-pub(super) const SEED: &str = "seed";
 
 /// What variants that differ in their seeds alone have in common.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -1,12 +1,12 @@
 //! Means against what is varied: one panel a quantity, with errors.
 
-use super::averages::{Group, SEED, groups};
+use super::averages::{Group, groups};
 use super::look::Look;
 use super::observables::Observable;
 use super::summary::SweepSummary;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesStyle, UNEQUILIBRATED, quantity_label};
 use crate::quantity::QUANTITIES;
-use crate::study::{Setting, ShortKeys, Sweep, Variation, by_key, each_once, numbers, parameter_label, readable};
+use crate::study::{SEED, Setting, ShortKeys, Sweep, Variation, by_key, each_once, numbers, parameter_label, readable};
 use serde_json::Value;
 
 /// Panels of one picture.

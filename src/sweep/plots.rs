@@ -1,6 +1,5 @@
 //! One plot of all variants for every quantity.
 
-use super::averages::SEED;
 use super::files;
 use super::means_chart;
 use super::summary::SweepSummary;
@@ -9,7 +8,7 @@ use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::plot::{Chart, Series, SeriesInk, SeriesStyle, overlay_chart};
 use crate::run;
 use crate::study::{
-    Charts, Setting, ShortKeys, StudyError, Sweep, Variant, by_key, each_once, numbers, parameter_name,
+    Charts, SEED, Setting, ShortKeys, StudyError, Sweep, Variant, by_key, each_once, numbers, parameter_name,
 };
 use crate::table::Table;
 

@@ -1,11 +1,11 @@
 //! The table of a sweep, `sweep.csv`: a row for every variant.
 
-use super::averages::{SEED, SeedAverage};
+use super::averages::SeedAverage;
 use super::observables::{Observable, observable, observables};
 use super::summary::SweepSummary;
 use super::variant::VariantSummary;
-use crate::study::by_key;
 use crate::study::table::{number, rows, settings_of_keys};
+use crate::study::{SEED, by_key};
 
 /// The table of variants; `keys` are those that distinguish them.
 pub(super) fn text(summary: &SweepSummary, keys: &[&str]) -> String {

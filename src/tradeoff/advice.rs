@@ -95,12 +95,19 @@ impl TradeoffSummary {
                 labels.join(" and ")
             )
         });
+        // Nothing of a deterministic scene depends on its seed.
+        let is_copied = self.arguments.seeds.is_some() && {
+            let mut measured = self.finished().flat_map(|choice| &choice.measured).filter(|found| found.fluctuates);
+            measured.all(|found| found.standard_error == Some(0.0))
+        };
+        let copied =
+            is_copied.then(|| "All seeds gave the same numbers: nothing that was measured depends on them.".to_owned());
         // Choices that came to their end though a run of their scene alone is refused.
         let refused = self.finished().filter_map(|choice| {
             let (label, refusal) = (&choice.label, choice.refusal.as_ref()?);
             Some(format!("{label} is never chosen, for `mesoscope run` refuses its scene: {refusal}."))
         });
-        physical.into_iter().chain(spoilt).chain(same_runs).chain(refused).collect()
+        physical.into_iter().chain(spoilt).chain(same_runs).chain(copied).chain(refused).collect()
     }
 
     /// What every choice costs and how far it is off, a row for each below the names of the columns. `*` marks errors on the Pareto
@@ -150,11 +157,15 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
     let adapter = summary.adapter.as_ref().map_or("an unknown adapter", |adapter| &adapter.name);
     let (count, time) = (summary.choices.len(), short(summary.averaged_time()));
     let before = short(summary.stretch.equilibration);
+    let seeds = summary.arguments.seeds.map(|seeds| {
+        format!(" Every choice ran with {seeds} seeds: its numbers are means over them, with standard errors from their scatter.")
+    });
+    let seeds = seeds.unwrap_or_default();
     let mut paragraphs = vec![
         format!("# What accuracy costs: {title}"),
         format!(
             "{count} choices, each averaged over {time} units of simulated time after {before} of equilibration, on {adapter}. \
-             Costs are medians of steps timed in turns, without reports."
+             Costs are medians of steps timed in turns, without reports.{seeds}"
         ),
     ];
     paragraphs.extend(summary.notes());

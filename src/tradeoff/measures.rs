@@ -2,6 +2,7 @@
 
 use super::fields;
 use crate::families::{Checked, column};
+use crate::measure::statistics::independent;
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::quantity::Quantity;
 use crate::run;
@@ -60,6 +61,31 @@ impl Measured {
         let factor = if self.from_few_samples { FEW_SAMPLES } else { 1.0 };
         self.standard_error.map(|error| factor * error)
     }
+}
+
+/// The means of what runs with several seeds measured, with standard errors from their scatter; what some of them lack is left out. Errors that
+/// all of them share, as those of what they are compared with, are added. A single run keeps its own errors.
+pub(crate) fn over_seeds(runs: &[&[Measured]]) -> Vec<Measured> {
+    let Some((first, others)) = runs.split_first() else { return Vec::new() };
+    if others.is_empty() {
+        return first.to_vec();
+    }
+    let mean = |found: &Measured| {
+        let others = others.iter().map(|run| run.iter().find(|known| known.measure == found.measure));
+        let all: Vec<&Measured> = std::iter::once(Some(found)).chain(others).collect::<Option<_>>()?;
+        let mean = independent(&all.iter().map(|found| found.value).collect::<Vec<_>>())?;
+        // A number that is the same with every seed and has no error is a count, say of samples.
+        let has_error = all.iter().any(|found| found.standard_error.is_some());
+        let shared = all.iter().filter(|found| !found.fluctuates).filter_map(|found| found.standard_error);
+        let shared = shared.fold(0.0, f64::max);
+        Some(Measured {
+            value: mean.value,
+            standard_error: mean.error.filter(|error| has_error || *error > 0.0).map(|error| error.hypot(shared)),
+            from_few_samples: mean.few,
+            ..found.clone()
+        })
+    };
+    first.iter().filter_map(mean).collect()
 }
 
 /// Everything that a finished run says by itself.
@@ -157,4 +183,35 @@ pub(super) fn usual(measured: &[Measured]) -> Vec<String> {
         of_analysis || !found.fluctuates
     });
     columns.chain(others.map(|found| found.measure.clone())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// 1, 2 and 6 have the mean 3 and the error √((4 + 1 + 9)/(3·2)), before Student's factor of two degrees of freedom.
+    #[test]
+    fn means_over_seeds_have_the_error_of_their_scatter() {
+        let run = |mean: f64, distance: f64, samples: f64| {
+            vec![
+                Measured::mean("pressure".to_owned(), mean, Some(100.0), false),
+                Measured::from_one_sample("depth_distance", distance, Some(0.3)),
+                Measured::mean("radial_distribution.samples".to_owned(), samples, None, false),
+            ]
+        };
+        let mut runs = [run(1.0, 0.5, 8.0), run(2.0, 0.5, 8.0), run(6.0, 0.5, 8.0)];
+        runs[0].push(Measured::mean("of_one".to_owned(), 1.0, None, false));
+        let all: Vec<&[Measured]> = runs.iter().map(Vec::as_slice).collect();
+        let found = over_seeds(&all);
+        let names: Vec<&str> = found.iter().map(|found| found.measure.as_str()).collect();
+        assert_eq!(names, ["pressure", "depth_distance", "radial_distribution.samples"]);
+        let widened = (14.0_f64 / 6.0).sqrt() * crate::measure::statistics::student(2.0);
+        assert_eq!((found[0].value, found[0].from_few_samples), (3.0, true));
+        assert!((found[0].standard_error.unwrap() - widened).abs() < 1e-12);
+        // All seeds share the error of what they are compared with; a count has none.
+        assert_eq!((found[1].standard_error, found[1].from_few_samples), (Some(0.3), false));
+        assert_eq!((found[2].value, found[2].standard_error), (8.0, None));
+        assert_eq!(over_seeds(&all[..1]), runs[0]);
+    }
 }

@@ -58,7 +58,7 @@ pub use cost::Cost;
 pub use deviation::Deviation;
 pub use length::Length;
 pub use measures::Measured;
-pub(crate) use measures::{names_of_table, of_table, unknown};
+pub(crate) use measures::{names_of_table, of_table, over_seeds, unknown};
 pub(crate) use reference::predicted;
 pub use reference::{Reference, References, Source};
 pub use request::Request;

@@ -7,7 +7,7 @@ use super::{fields, measures};
 use crate::families::{Checked, StepCheck};
 use crate::run;
 use crate::scene::{AnalysisId, SceneError, StateFiles, WrittenScene};
-use crate::study::{self, LENGTHS, Setting, StudyError, Sweep, Variation, each_once, settings};
+use crate::study::{self, LENGTHS, SEED, Setting, StudyError, Sweep, Variation, check_seeds, each_once, settings};
 use serde::{Deserialize, Serialize};
 
 /// Names of the runs that give references.
@@ -47,6 +47,9 @@ pub(super) struct Arguments {
     pub targets: Vec<Target>,
     /// Measures to assess; all usual ones if empty.
     pub measures: Vec<String>,
+    /// Independent runs of each choice; none for one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub seeds: Option<u32>,
     /// The files that runs start from.
     #[serde(default, skip_serializing_if = "StateFiles::is_empty")]
     pub state_files: StateFiles,
@@ -117,6 +120,28 @@ impl Request {
         self.check_names("--reference", references.measures())?;
         self.arguments.references = references;
         Ok(self)
+    }
+
+    /// The same with `seeds` independent runs of each choice, with the seed of the scene and those that follow: means are taken over them,
+    /// with standard errors from their scatter.
+    ///
+    /// # Errors
+    /// [`StudyError::Arguments`] unless there are 1 to [`study::MOST_SEEDS`], and where the seed is varied.
+    pub fn with_seeds(mut self, seeds: u32) -> Result<Self, StudyError> {
+        check_seeds(seeds)?;
+        if self.sweep.keys().contains(&SEED) {
+            return Err(StudyError::mistake(format!(
+                "`{SEED}` cannot be varied where all choices run with {seeds} seeds"
+            )));
+        }
+        self.arguments.seeds = (seeds > 1).then_some(seeds);
+        Ok(self)
+    }
+
+    /// The independent runs of each choice.
+    #[must_use]
+    pub fn seeds(&self) -> u32 {
+        self.arguments.seeds.unwrap_or(1)
     }
 
     /// The reference of a measure that is known before anything runs.

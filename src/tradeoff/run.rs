@@ -13,8 +13,9 @@ use crate::numbers::with_error;
 use crate::output::{Id, RunDirectory, Summary, checkpoint, files as run_files};
 use crate::run::{self, RunError};
 use crate::self_test;
-use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun};
+use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun, each_once, reseeded};
 use std::fmt;
+use std::path::Path;
 use std::time::Instant;
 
 /// What of a budget the first runs may take: they say how long the others have to be.
@@ -138,22 +139,37 @@ impl StudyRun<TradeoffSummary> {
         let choices = self.request.sweep.variants().iter().map(|variant| (variant.name.as_str(), &variant.scene));
         let run =
             |(name, scene): (&str, _)| Ok((name.to_owned(), fields::leaving_compared(stretch.applied(name, scene)?)));
-        choices.chain(finer.iter().map(|(name, scene)| (*name, scene))).map(run).collect()
+        let all = choices.chain(finer.iter().map(|(name, scene)| (*name, scene))).map(run);
+        let mut runs = all.collect::<Result<Vec<(String, Checked)>, StudyError>>()?;
+        let count = runs.len();
+        for (number, run) in self.summary.further_seeds.iter().enumerate() {
+            let further = 1 + (number / count) as u32;
+            runs.push((run.name.clone(), reseeded(&runs[number % count].1, further)));
+        }
+        Ok(runs)
+    }
+
+    /// The number of choices and of runs that references are taken from: those of one seed.
+    fn runs_of_a_seed(&self) -> usize {
+        self.summary.choices.len() + self.summary.finer.len()
     }
 
     /// The choice whose run an entry shares: one that references are taken from may be a choice, too.
     fn twin(&self, runs: &[(String, Checked)], index: usize) -> Option<usize> {
-        let choices = self.summary.choices.len();
-        (0..choices).find(|twin| index >= choices && runs[*twin].1 == runs[index].1)
+        let (choices, all) = (self.summary.choices.len(), self.runs_of_a_seed());
+        let (seed, place) = (index / all, index % all);
+        (seed * all..seed * all + choices).find(|twin| place >= choices && runs[*twin].1 == runs[index].1)
     }
 
-    /// The runs that have to come to the end of the stretch: not those that became unstable, nor those that another
+    /// The runs that have to come to the end of the stretch: not those of choices that became unstable with any seed, nor those that another
     /// entry has.
     fn members(&mut self, runs: &[(String, Checked)]) -> Vec<Member> {
         let stretch = self.summary.stretch;
         let mut members = Vec::new();
         for (entry, (name, scene)) in runs.iter().enumerate() {
-            if self.twin(runs, entry).is_some() || self.entry(entry).state == ChoiceState::Unstable {
+            let first_seed = entry % self.runs_of_a_seed();
+            let is_unstable = [first_seed, entry].into_iter().any(|run| self.entry(run).state == ChoiceState::Unstable);
+            if self.twin(runs, entry).is_some() || is_unstable {
                 continue;
             }
             let steps = stretch.steps(scene);
@@ -250,12 +266,37 @@ impl StudyRun<TradeoffSummary> {
             self.save()?;
         }
         simulated?;
-        for index in self.summary.choices.len()..runs.len() {
+        for index in 0..runs.len() {
             if let Some(twin) = self.twin(runs, index) {
-                *self.entry(index) = self.summary.choices[twin].clone();
+                let twin = self.entry(twin).clone();
+                *self.entry(index) = twin;
             }
         }
-        self.compare_fields()
+        self.compare_fields()?;
+        self.average_seeds();
+        Ok(())
+    }
+
+    /// Replaces what runs with the first seed measured by the means over all seeds. A choice that is unstable with one of them is unstable.
+    fn average_seeds(&mut self) {
+        let all = self.runs_of_a_seed();
+        let TradeoffSummary { choices, finer, further_seeds, .. } = &mut self.summary;
+        for (place, run) in choices.iter_mut().chain(finer).enumerate() {
+            let others = further_seeds.iter().skip(place).step_by(all);
+            if run.state == ChoiceState::Finished
+                && let Some(unstable) = others.clone().find(|other| other.state == ChoiceState::Unstable)
+            {
+                (run.state, run.measured) = (ChoiceState::Unstable, Vec::new());
+                run.failure = unstable.failure.as_ref().map(|failure| format!("{}: {failure}", unstable.name));
+            }
+            let runs: Vec<&[Measured]> = std::iter::once(&run.measured)
+                .chain(others.clone().map(|other| &other.measured))
+                .map(Vec::as_slice)
+                .collect();
+            run.measured = measures::over_seeds(&runs);
+            let spoilt = run.unequilibrated.iter().chain(others.flat_map(|other| &other.unequilibrated)).cloned();
+            run.unequilibrated = each_once(spoilt);
+        }
     }
 
     /// Notes what a run measured, or that it became unstable.
@@ -284,39 +325,27 @@ impl StudyRun<TradeoffSummary> {
 
     /// The entry of a run in the summary.
     fn entry(&mut self, index: usize) -> &mut Choice {
-        let choices = self.summary.choices.len();
-        if index < choices { &mut self.summary.choices[index] } else { &mut self.summary.finer[index - choices] }
+        let TradeoffSummary { choices, finer, further_seeds, .. } = &mut self.summary;
+        let (first, all) = (choices.len(), choices.len() + finer.len());
+        if index >= all {
+            &mut further_seeds[index - all]
+        } else if index >= first {
+            &mut finer[index - first]
+        } else {
+            &mut choices[index]
+        }
     }
 
     /// Adds the distances of fields and curves from those of the finer run; how far the run with twice its step is from it, and one that is
     /// finer still, says how certain they are.
     fn compare_fields(&mut self) -> Result<(), StudyError> {
-        let directory = self.directory().to_path_buf();
-        let place = |run: &Choice| RunDirectory::open(directory.join(&run.name));
-        let TradeoffSummary { choices, finer, .. } = &mut self.summary;
-        // All of these may be runs of choices.
-        let Some((reference, others)) = finer.split_first() else { return Ok(()) };
-        if reference.state != ChoiceState::Finished {
-            return Ok(());
-        }
-        let finer = place(reference)?;
-        // Fields at another time differ for that alone: rows of tables end at different times where steps do not fit.
-        let is_comparable = |run: &Choice| {
-            let [time, other] = [run, reference].map(|run| run.steps as f64 * run.time_step);
-            run.state == ChoiceState::Finished && (time - other).abs() < 1e-6 * reference.time_step
-        };
-        let limits = others.iter().filter(|run| is_comparable(run)).map(|run| fields::distances(&place(run)?, &finer));
-        let limits = limits.collect::<Result<Vec<_>, _>>()?;
-        let limit = |measure: &str| {
-            let of_run = |found: &Vec<Measured>| Some(found.iter().find(|limit| limit.measure == measure)?.value);
-            let squares: Option<Vec<f64>> = limits.iter().map(of_run).map(|value| Some(value?.powi(2))).collect();
-            squares.filter(|squares| squares.len() == others.len()).map(|squares| squares.iter().sum::<f64>().sqrt())
-        };
-        for choice in choices.iter_mut().filter(|choice| is_comparable(choice)) {
-            let distances = fields::distances(&place(choice)?, &finer)?;
-            choice.measured.retain(|known| !known.measure.ends_with(fields::DISTANCE));
-            let limited = |distance: Measured| Measured { standard_error: limit(&distance.measure), ..distance };
-            choice.measured.extend(distances.into_iter().map(limited));
+        let (directory, all) = (self.directory().to_path_buf(), self.runs_of_a_seed());
+        let TradeoffSummary { choices, finer, further_seeds, .. } = &mut self.summary;
+        let count = choices.len();
+        compare_fields_of_a_seed(&directory, choices, finer)?;
+        for of_a_seed in further_seeds.chunks_mut(all) {
+            let (choices, finer) = of_a_seed.split_at_mut(count);
+            compare_fields_of_a_seed(&directory, choices, finer)?;
         }
         Ok(())
     }
@@ -387,4 +416,34 @@ impl StudyRun<TradeoffSummary> {
         }
         Ok(())
     }
+}
+
+/// Adds to the choices of a seed the distances of their fields and curves from those of its finer run.
+fn compare_fields_of_a_seed(directory: &Path, choices: &mut [Choice], finer: &[Choice]) -> Result<(), StudyError> {
+    let place = |run: &Choice| RunDirectory::open(directory.join(&run.name));
+    // All of these may be runs of choices.
+    let Some((reference, others)) = finer.split_first() else { return Ok(()) };
+    if reference.state != ChoiceState::Finished {
+        return Ok(());
+    }
+    let finer = place(reference)?;
+    // Fields at another time differ for that alone: rows of tables end at different times where steps do not fit.
+    let is_comparable = |run: &Choice| {
+        let [time, other] = [run, reference].map(|run| run.steps as f64 * run.time_step);
+        run.state == ChoiceState::Finished && (time - other).abs() < 1e-6 * reference.time_step
+    };
+    let limits = others.iter().filter(|run| is_comparable(run)).map(|run| fields::distances(&place(run)?, &finer));
+    let limits = limits.collect::<Result<Vec<_>, _>>()?;
+    let limit = |measure: &str| {
+        let of_run = |found: &Vec<Measured>| Some(found.iter().find(|limit| limit.measure == measure)?.value);
+        let squares: Option<Vec<f64>> = limits.iter().map(of_run).map(|value| Some(value?.powi(2))).collect();
+        squares.filter(|squares| squares.len() == others.len()).map(|squares| squares.iter().sum::<f64>().sqrt())
+    };
+    for choice in choices.iter_mut().filter(|choice| is_comparable(choice)) {
+        let distances = fields::distances(&place(choice)?, &finer)?;
+        choice.measured.retain(|known| !known.measure.ends_with(fields::DISTANCE));
+        let limited = |distance: Measured| Measured { standard_error: limit(&distance.measure), ..distance };
+        choice.measured.extend(distances.into_iter().map(limited));
+    }
+    Ok(())
 }

@@ -13,7 +13,7 @@ use crate::families::StepCheck;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, RunDirectory};
 use crate::scene::{PlotStyle, SceneError, WrittenScene};
-use crate::study::{self, ASKS_ELSE, Charts, Kind, Record, Setting, StudyError, TRADEOFF, Variant};
+use crate::study::{self, ASKS_ELSE, Charts, Kind, Record, SEED, Setting, StudyError, TRADEOFF, Variant, reseeded};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::Path;
@@ -54,6 +54,10 @@ pub struct TradeoffSummary {
     pub choices: Vec<Choice>,
     /// The runs that references are taken from.
     pub finer: Vec<Choice>,
+    /// The runs of all choices and of those that references are taken from with further seeds, seed by seed; the means of all seeds are in
+    /// `choices` and `finer`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub further_seeds: Vec<Choice>,
     /// The name of the cheapest choice that meets all targets.
     pub chosen: Option<String>,
 }
@@ -266,6 +270,15 @@ impl Record for TradeoffSummary {
             ..Choice::default()
         };
         let reference = |name: &str| Choice { name: name.to_owned(), label: name.to_owned(), ..Choice::default() };
+        let choices: Vec<Choice> = variants.iter().map(choice).collect();
+        let finer: Vec<Choice> = request.finer_names().into_iter().map(reference).collect();
+        let seeds = (1..request.seeds()).map(|further| reseeded(&request.base, further).seed);
+        let with_seed = |run: &Choice, seed: u64| {
+            let name = format!("{},{SEED}={seed}", run.name);
+            Choice { label: name.clone(), name, ..run.clone() }
+        };
+        let further_seeds = seeds.flat_map(|seed| choices.iter().chain(&finer).map(move |run| with_seed(run, seed)));
+        let further_seeds = further_seeds.collect();
         Self {
             mesoscope_version: env!("CARGO_PKG_VERSION").to_owned(),
             date: jiff::Timestamp::now().strftime("%Y-%m-%d").to_string(),
@@ -273,8 +286,9 @@ impl Record for TradeoffSummary {
             arguments: request.arguments.clone(),
             stretch: Stretch::of(&request.base),
             physical_keys: request.physical_keys().into_iter().map(str::to_owned).collect(),
-            choices: variants.iter().map(choice).collect(),
-            finer: request.finer_names().into_iter().map(reference).collect(),
+            choices,
+            finer,
+            further_seeds,
             ..Self::default()
         }
     }
@@ -290,7 +304,8 @@ impl Record for TradeoffSummary {
         let same_id = !self.is_of_this_version() || self.tradeoff_id == Self::id_of(request);
         let names = self.choices.iter().map(|choice| &choice.name);
         let same_runs = names.eq(request.sweep.variants().iter().map(|variant| &variant.name))
-            && self.finer.len() == request.finer_names().len();
+            && self.finer.len() == request.finer_names().len()
+            && self.further_seeds.len() == (request.seeds() as usize - 1) * (self.choices.len() + self.finer.len());
         let same_measures = self.measures.is_empty() || asked.all(|name| self.measures.iter().any(|own| own == name));
         vec![
             (same_id, ASKS_ELSE),
@@ -308,7 +323,7 @@ impl Record for TradeoffSummary {
     }
 
     fn runs(&self) -> Vec<&str> {
-        self.choices.iter().chain(&self.finer).map(|run| run.name.as_str()).collect()
+        self.choices.iter().chain(&self.finer).chain(&self.further_seeds).map(|run| run.name.as_str()).collect()
     }
 
     fn tables(&self, request: &Request) -> Vec<(&'static str, String)> {

@@ -32,6 +32,7 @@ fn row(summary: &TradeoffSummary, choice: &Choice, keys: &[&str]) -> Vec<(String
         ("float64_distance_after", number(stretch.map(|stretch| stretch.distance))),
     ];
     row.extend(of_run.map(|(name, cell)| (name.to_owned(), cell)));
+    row.extend(summary.arguments.seeds.map(|seeds| ("seeds".to_owned(), seeds.to_string())));
     for measure in &summary.measures {
         let (value, error) = (choice.value(measure), choice.error(measure));
         let of_measure = [

@@ -15,6 +15,7 @@ mod particles;
 mod ranks;
 mod report;
 mod schema;
+mod seeds;
 mod shallow_water;
 mod shards;
 mod stability;

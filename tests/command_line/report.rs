@@ -52,6 +52,18 @@ fn a_page_has_what_a_run_left_and_escapes_it() {
     {
         assert!(text.contains(said), "{said}");
     }
+    // The sheet holds the same pictures below its texts, and says which letters of the title it lacks.
+    let sheet = place.argument("sheet.png");
+    succeeds(&["report", &place.argument("run"), "--png", "--out", &sheet]);
+    let sheet = image::open(place.path("sheet.png")).unwrap().into_rgb8();
+    let energies = image::open(place.path("run/energies.png")).unwrap().into_rgb8();
+    assert_eq!(sheet.width(), 1654);
+    let ink = |rows: std::ops::Range<u32>| {
+        let pixels = rows.flat_map(|row| (0..sheet.width()).map(move |column| (column, row)));
+        pixels.filter(|(column, row)| sheet.get_pixel(*column, *row).0 != [255; 3]).count()
+    };
+    assert!(ink(0..90) == 0 && ink(90..150) > 1000, "the margin is blank, and the title is not");
+    assert!(sheet.height() > 1000 + 3 * energies.height() && ink(sheet.height() - 80..sheet.height()) == 0);
     let out = place.argument("page.html");
     fails(&["report", &place.argument("run"), "--out", &out], 5, &["page.html` exists", "--force"]);
 }

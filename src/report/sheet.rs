@@ -1,0 +1,254 @@
+//! The page as one sheet: a picture for slides and messages, which shows all that fits into a glance; scenes are left to the page.
+
+use super::ReportError;
+use super::entry::{Entry, Inside, TextTable};
+use crate::plot::{Sheet, SheetInk, SheetType, missing_glyphs};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use image::RgbImage;
+use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
+
+/// Width of a sheet and of its margins, in pixels: A4 at 200 dots an inch.
+const WIDTH: u32 = 1654;
+const MARGIN: f64 = 90.0;
+
+/// Room between columns and between blocks.
+const GUTTER: f64 = 34.0;
+
+const TITLE: SheetType = SheetType { size: 44.0, is_bold: true, ink: SheetInk::Text };
+const HEADING: SheetType = SheetType { size: 28.0, is_bold: true, ink: SheetInk::Text };
+const BODY: SheetType = SheetType { size: 22.0, is_bold: false, ink: SheetInk::Text };
+const LABEL: SheetType = SheetType { size: 20.0, is_bold: false, ink: SheetInk::Faint };
+const NOTE: SheetType = SheetType { size: 22.0, is_bold: false, ink: SheetInk::Mark };
+
+/// The pen on a sheet: all below it is blank.
+struct Pen {
+    sheet: Sheet,
+    top: f64,
+    /// Letters so far, to say which of them the fonts lack.
+    written: String,
+}
+
+/// The sheet of some entries, in their order.
+pub(super) fn sheet(entries: &[Entry]) -> Result<RgbImage, ReportError> {
+    let mut pen = Pen { sheet: Sheet::new(WIDTH)?, top: MARGIN, written: String::new() };
+    for (number, entry) in entries.iter().enumerate() {
+        if number > 0 {
+            pen.top += GUTTER;
+            pen.sheet.lay_rule(pen.top);
+            pen.top += 2.0 * GUTTER;
+        }
+        pen.write_entry(entry);
+    }
+    let missing = missing_glyphs(&pen.written);
+    if !missing.is_empty() {
+        pen.top += GUTTER;
+        pen.write(
+            &format!("□ stands for letters that the fonts of pictures lack: {} in all", missing.chars().count()),
+            NOTE,
+        );
+    }
+    let height = pen.top + MARGIN;
+    Ok(pen.sheet.painted(height)?)
+}
+
+impl Pen {
+    fn room() -> f64 {
+        f64::from(WIDTH) - 2.0 * MARGIN
+    }
+
+    fn write(&mut self, text: &str, style: SheetType) {
+        self.top = self.lay(text, style, [MARGIN, self.top], Self::room());
+    }
+
+    /// Lays down a text, and returns its bottom.
+    fn lay(&mut self, text: &str, style: SheetType, corner: [f64; 2], width: f64) -> f64 {
+        // The fonts have no nabla.
+        let text = text.replace("∇²", "Δ").replace('∇', "grad ");
+        self.written.push_str(&text);
+        self.sheet.lay_text(&text, style, corner, width)
+    }
+
+    fn write_heading(&mut self, text: &str) {
+        self.top += GUTTER;
+        self.write(text, HEADING);
+        self.top += 0.3 * GUTTER;
+    }
+
+    fn write_items<'t>(&mut self, texts: impl IntoIterator<Item = &'t str>, style: SheetType) {
+        for text in texts {
+            self.write(&format!("· {text}"), style);
+        }
+    }
+
+    fn write_entry(&mut self, entry: &Entry) {
+        self.write(&entry.title, TITLE);
+        let when = entry.when.as_ref().map(|when| format!(" · {when}")).unwrap_or_default();
+        self.write(&format!("{} in {}{when}", entry.kind, entry.directory), LABEL);
+        if let Some(description) = &entry.description {
+            self.top += 0.3 * GUTTER;
+            self.write(description, BODY);
+        }
+        if !entry.missing.is_empty() {
+            self.write_heading("Not all of it is here");
+            self.write_items(entry.missing.iter().map(String::as_str), NOTE);
+        }
+        if !entry.facts.is_empty() {
+            self.write_heading("What was computed");
+            let rows = entry.facts.iter().map(|fact| vec![fact.name.to_owned(), fact.text.clone()]);
+            self.write_table(&TextTable { rows: rows.collect(), ..TextTable::default() });
+        }
+        if !entry.differences.is_empty() {
+            let builtin = entry.builtin.as_deref().unwrap_or_default();
+            self.write_heading(&format!("Differences from the built-in scene {builtin}"));
+            let rows = entry.differences.iter().map(|d| vec![d.key.clone(), d.before.clone(), d.after.clone()]);
+            let header = ["key", "built-in", "here"].map(str::to_owned).to_vec();
+            self.write_table(&TextTable { header, rows: rows.collect(), ..TextTable::default() });
+        }
+        if !entry.warnings.is_empty() {
+            self.write_heading("Before trusting the numbers");
+            self.write_items(entry.warnings.iter().map(String::as_str), NOTE);
+        }
+        for table in &entry.tables {
+            self.write_heading(&table.heading);
+            self.write_table(table);
+        }
+        if let Some(markdown) = &entry.markdown {
+            self.write_markdown(markdown);
+        }
+        if !entry.conserved.is_empty() || !entry.not_conserved.is_empty() {
+            self.write_heading("What is conserved");
+            let exactly = entry.conserved.iter().map(|line| format!("to the last bit: {line}"));
+            let lines: Vec<String> =
+                exactly.chain(entry.not_conserved.iter().map(|line| format!("not: {line}"))).collect();
+            self.write_items(lines.iter().map(String::as_str), BODY);
+        }
+        if !entry.pictures.is_empty() {
+            self.write_heading("Pictures");
+            self.lay_pictures(&entry.pictures, 2);
+        }
+        if !entry.strip.is_empty() {
+            self.write_heading("As it went on");
+            self.lay_pictures(&entry.strip, 6);
+        }
+        self.write_heading("How to repeat it");
+        for line in &entry.repeat {
+            self.write(line, BODY);
+        }
+        let whole = format!(
+            "The page that `mesoscope report {}` makes has {} as well.",
+            entry.directory,
+            entry.scene_is.to_lowercase()
+        );
+        self.write(&whole, BODY);
+    }
+
+    fn write_table(&mut self, table: &TextTable) {
+        let rows = || std::iter::once(&table.header).filter(|header| !header.is_empty()).chain(&table.rows);
+        let count = rows().map(Vec::len).max().unwrap_or(0);
+        let widest = |column: usize| {
+            let cells = rows().filter_map(|row| row.get(column));
+            cells.map(|cell| self.sheet.width_of(cell, BODY)).fold(0.0, f64::max)
+        };
+        let natural: Vec<f64> = (0..count).map(widest).collect();
+        let widths = fitting(&natural, Self::room() - GUTTER * count.saturating_sub(1) as f64);
+        for (number, row) in rows().enumerate() {
+            let is_header = number == 0 && !table.header.is_empty();
+            let (mut left, mut bottom) = (MARGIN, self.top);
+            for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
+                let is_label = is_header || table.header.is_empty() && column == 0;
+                let style = if is_label { LABEL } else { BODY };
+                let own = self.sheet.width_of(cell, style);
+                let shift = if table.numbers.contains(&column) { (width - own).max(0.0) } else { 0.0 };
+                bottom = self.lay(cell, style, [left + shift, self.top], *width).max(bottom);
+                left += width + GUTTER;
+            }
+            self.top = bottom + 0.15 * GUTTER;
+        }
+        if let Some(note) = &table.note {
+            self.write(note, LABEL);
+        }
+    }
+
+    /// Pictures side by side, each with its name below.
+    fn lay_pictures(&mut self, pictures: &[Inside], columns: usize) {
+        let width = (Self::room() - GUTTER * (columns - 1) as f64) / columns as f64;
+        for row in pictures.chunks(columns) {
+            let mut bottom = self.top;
+            for (column, inside) in row.iter().enumerate() {
+                let left = MARGIN + column as f64 * (width + GUTTER);
+                // It was read before: a picture that cannot be is among what is missing.
+                let bytes = STANDARD.decode(&inside.data).unwrap_or_default();
+                let Ok(picture) = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png) else {
+                    continue;
+                };
+                let below = self.sheet.lay_picture(&picture.into_rgb8(), [left, self.top], width);
+                bottom = self.lay(&inside.name, LABEL, [left, below + 4.0], width).max(bottom);
+            }
+            self.top = bottom + 0.5 * GUTTER;
+        }
+    }
+
+    /// The page of a study.
+    fn write_markdown(&mut self, markdown: &str) {
+        let (mut text, mut table) = (String::new(), TextTable::default());
+        let (mut row, mut is_item) = (Vec::new(), false);
+        for event in Parser::new_ext(markdown, Options::ENABLE_TABLES) {
+            match event {
+                Event::Text(part) | Event::Code(part) | Event::Html(part) | Event::InlineHtml(part) => {
+                    text.push_str(&part);
+                }
+                Event::SoftBreak | Event::HardBreak => text.push(' '),
+                Event::Start(Tag::Item) => is_item = true,
+                Event::End(TagEnd::Item) => {
+                    self.write_items(
+                        [std::mem::take(&mut text).as_str()].into_iter().filter(|text| !text.is_empty()),
+                        BODY,
+                    );
+                    is_item = false;
+                }
+                Event::End(TagEnd::Heading(_)) => self.write_heading(&std::mem::take(&mut text)),
+                Event::End(TagEnd::Paragraph | TagEnd::CodeBlock) if !is_item => {
+                    self.write(&std::mem::take(&mut text), BODY);
+                    self.top += 0.3 * GUTTER;
+                }
+                Event::End(TagEnd::TableCell) => row.push(std::mem::take(&mut text)),
+                Event::End(TagEnd::TableHead) => table.header = std::mem::take(&mut row),
+                Event::End(TagEnd::TableRow) => table.rows.push(std::mem::take(&mut row)),
+                Event::End(TagEnd::Table) => {
+                    self.write_table(&std::mem::take(&mut table));
+                    self.top += 0.3 * GUTTER;
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Widths of columns that fit into a room: those wider than some common width are cut to it.
+fn fitting(natural: &[f64], room: f64) -> Vec<f64> {
+    let mut sorted = natural.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let (mut left, mut most) = (room, f64::INFINITY);
+    for (place, width) in sorted.iter().enumerate() {
+        let share = left / (sorted.len() - place) as f64;
+        if *width > share {
+            most = share;
+            break;
+        }
+        left -= width;
+    }
+    natural.iter().map(|width| width.min(most)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wide_columns_share_what_narrow_ones_leave() {
+        assert_eq!(fitting(&[10.0, 20.0], 100.0), [10.0, 20.0]);
+        assert_eq!(fitting(&[10.0, 200.0, 80.0], 100.0), [10.0, 45.0, 45.0]);
+        assert_eq!(fitting(&[], 100.0), [0.0; 0]);
+    }
+}
