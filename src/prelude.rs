@@ -11,7 +11,7 @@
 //! # Ok::<(), RunError>(())
 //! ```
 
-pub use crate::gpu::{AdapterChoice, Gpu};
+pub use crate::gpu::{AdapterChoice, Gpu, driver_environment};
 pub use crate::measure::statistics::Estimate;
 pub use crate::run::{Change, Event, Frame, Frames, Interrupt, Outcome, Rounding, Run, RunError, Simulation};
 pub use crate::scene::{self, Checked, Scene, SceneError};

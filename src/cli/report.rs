@@ -51,7 +51,8 @@ pub fn execute(
     let copies = processes.map(Processes::count);
     let division = ranks.division(simulation.scene(), copies)?;
     let warning = ranks.warning(division, copies);
-    let simulation = simulation.on_ranks(division).mixed(ranks.mixed);
+    let simulation = simulation.on_ranks(division);
+    let simulation = if ranks.mixed { simulation.mixed() } else { simulation };
     let choice = &ranks.adapter.choice_of_copy();
     // Other processes wait for word of this one; a run that goes on has its checkpoint.
     let begun = Arc::new(AtomicBool::new(processes.is_some() || simulation.first_step() > 0));

@@ -51,15 +51,15 @@ pub enum GreenKuboError {
 }
 
 impl StressCorrelation {
-    /// The viscosity at the longest lag; `every_step` says whether the samples are those of every step.
+    /// The viscosity at the longest lag, from samples of every so many steps.
     ///
     /// # Errors
     /// [`GreenKuboError`] where samples that are further apart forget the stress, or the second half of the lags adds more than a tenth and
     /// than statistics explain.
-    pub fn longest(&self, every_step: bool) -> Result<Estimate, GreenKuboError> {
+    pub fn longest(&self, every: u64) -> Result<Estimate, GreenKuboError> {
         let found = *self.viscosity.last().ok_or(GreenKuboError::Few)?;
         if let [first, second, ..] = self.autocorrelation[..]
-            && !every_step
+            && every > 1
             && second.value < KEPT_BY_A_SAMPLE * first.value
         {
             return Err(GreenKuboError::Coarse { kept: (second.value / first.value).max(0.0) });
@@ -111,7 +111,7 @@ pub fn shear_stresses(pressure: &[f64; 6], dimension: usize) -> Vec<f64> {
 /// });
 /// let series: Vec<[f64; 6]> = (0..20_000).map(tensor).collect();
 /// let found = stress_correlation(&series, 3, 2.0, 0.1, 4);
-/// let viscosity = found.longest(true)?;
+/// let viscosity = found.longest(1)?;
 /// assert_eq!(found.viscosity.len(), 5);
 /// // The sum of four products of independent numbers scatters by 2 · .1 · 6 · √(4/100 000).
 /// assert!((viscosity.value - 0.6).abs() < 4.0 * 0.0076, "{viscosity:?}");
@@ -189,7 +189,7 @@ mod tests {
             .collect();
         let found = stress_correlation(&series, 3, 1.0, interval, 80);
         let exact = 0.5 * interval * (1.0 + memory) / (1.0 - memory);
-        let viscosity = found.longest(false).unwrap();
+        let viscosity = found.longest(10).unwrap();
         // The sum up to a lag t scatters by 2√(t/T) of itself, T = 4000 for each of five components.
         let scatter = 2.0 * (8.0_f64 / (5.0 * 4000.0)).sqrt();
         assert!((viscosity.value - exact).abs() < 4.0 * scatter, "{viscosity:?} against {exact}");
@@ -201,19 +201,19 @@ mod tests {
         // Of a lag of one relaxation time, e^(-1/2) - e^(-1) of 1 - e^(-1) comes from the second half; samples ten times as far apart forget.
         let short = stress_correlation(&series, 3, 1.0, interval, 10);
         let part = ((-0.5_f64).exp() - (-1.0_f64).exp()) / (1.0 - (-1.0_f64).exp());
-        let error = short.longest(true).unwrap_err();
+        let error = short.longest(1).unwrap_err();
         assert!(matches!(error, GreenKuboError::Short { part: found } if (found - part).abs() < 0.04), "{error}");
         let coarse: Vec<[f64; 6]> = series.iter().step_by(10).copied().collect();
         let coarse = stress_correlation(&coarse, 3, 1.0, 10.0 * interval, 8);
-        assert!(matches!(coarse.longest(false), Err(GreenKuboError::Coarse { kept }) if (kept - 0.37).abs() < 0.05));
-        assert!(coarse.longest(true).is_ok());
+        assert!(matches!(coarse.longest(10), Err(GreenKuboError::Coarse { kept }) if (kept - 0.37).abs() < 0.05));
+        assert!(coarse.longest(1).is_ok());
     }
 
     #[test]
     fn short_series() {
         let series = vec![[1.0; 6]; 10];
-        assert_eq!(stress_correlation(&series, 2, 1.0, 1.0, 10).longest(true), Err(GreenKuboError::Few));
+        assert_eq!(stress_correlation(&series, 2, 1.0, 1.0, 10).longest(1), Err(GreenKuboError::Few));
         let one = stress_correlation(&series, 2, 1.0, 1.0, 4);
-        assert_eq!((one.viscosity.len(), one.longest(true).unwrap().error), (5, None));
+        assert_eq!((one.viscosity.len(), one.longest(1).unwrap().error), (5, None));
     }
 }

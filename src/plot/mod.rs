@@ -74,13 +74,13 @@ pub use chart::{Axis, AxisFit, Chart, Mean, Panel, ReferenceLine, Scale, Series,
 pub use color_map::ColorMap;
 pub use error::PlotError;
 pub use field::{FieldPicture, Interpolation, PeriodicCurve};
-pub use overlay::overlay_chart;
+pub(crate) use overlay::overlay_chart;
 pub use particles::ParticlePicture;
 pub(crate) use particles::snapshot_size;
 pub use presets::{autocorrelation_chart, circulation_chart, histogram_chart, radial_distribution_chart};
 pub use profile_charts::{ProfiledSpecies, profiles_chart};
-pub use quantities::{Averages, energies_chart, quantity_label};
-pub(crate) use quantities::{UNEQUILIBRATED, capitalised, means_note};
+pub use quantities::{Averages, energies_chart};
+pub(crate) use quantities::{UNEQUILIBRATED, capitalised, means_note, quantity_label};
 pub use renderer::{Plotter, vector_graphics};
 pub(crate) use sheet::{Sheet, SheetInk, SheetType};
 pub use stress_charts::{stress_chart, stress_correlation_chart};

@@ -8,20 +8,8 @@ const MOST_NAMES: usize = 12;
 
 /// The curves of a quantity over each other, against time, each with a name that tells its run from the others. Curves
 /// on a scale of colours are named at even distances where there are too many of them.
-///
-/// ```
-/// use mesoscope::plot::{Series, overlay_chart};
-///
-/// let curve = |friction: f64| {
-///     let points = (0..10).map(|step| [f64::from(step), (-friction * f64::from(step)).exp()]).collect();
-///     Series::line(&format!("friction = {friction}"), points)
-/// };
-/// let chart = overlay_chart("Damping", "", "kinetic_energy", true, vec![curve(1.0), curve(4.5)]);
-/// assert_eq!(chart.panels[0].y.label, "Kinetic energy relative to its first value");
-/// assert_eq!(chart.panels[0].series[1].name, "friction = 4.5");
-/// ```
 #[must_use]
-pub fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool, mut curves: Vec<Series>) -> Chart {
+pub(crate) fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool, mut curves: Vec<Series>) -> Chart {
     let on_scale: Vec<&mut Series> = curves
         .iter_mut()
         .filter(|curve| !curve.name.is_empty() && matches!(curve.ink, SeriesInk::Scale { .. }))

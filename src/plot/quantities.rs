@@ -166,14 +166,8 @@ pub(super) fn axis_label(name: &str, unit: Unit, dimension: usize) -> String {
 }
 
 /// The label of an axis for a column of the table of energies, with its unit.
-///
-/// ```
-/// use mesoscope::plot::quantity_label;
-/// assert_eq!(quantity_label("total_energy", false), "Total energy (energy units)");
-/// assert_eq!(quantity_label("total_energy", true), "Total energy relative to its first value");
-/// ```
 #[must_use]
-pub fn quantity_label(quantity: &str, relative: bool) -> String {
+pub(crate) fn quantity_label(quantity: &str, relative: bool) -> String {
     let name = capitalised(&quantity.replace("center", "centre").replace('_', " "));
     if relative {
         return format!("{name} relative to its first value");

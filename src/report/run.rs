@@ -97,7 +97,7 @@ fn describe(entry: &mut Entry, directory: &Path, summary: &Summary) {
     if let Some(state) = &scene.state {
         entry.repeat.push(format!("It starts from the file `{}`, which has to be where the scene says.", state.file));
     }
-    entry.scene_use = "Save the scene below as scene.json.".to_owned();
+    "Save the scene below as scene.json.".clone_into(&mut entry.scene_use);
     entry.command = Some("mesoscope run scene.json".to_owned());
     entry.scene = serde_json::to_string_pretty(scene).ok();
 }

@@ -157,8 +157,8 @@ impl Run {
 
     /// The same with ranks that need not compute alike: momentum is conserved to rounding only where they do not.
     #[must_use]
-    pub fn mixed(self, mixed: bool) -> Self {
-        Self { mixed, ..self }
+    pub fn mixed(self) -> Self {
+        Self { mixed: true, ..self }
     }
 
     /// The scene, with every default filled in.

@@ -52,7 +52,7 @@ fn a_page_has_what_a_run_left_and_escapes_it() {
     {
         assert!(text.contains(said), "{said}");
     }
-    // The sheet holds the same pictures below its texts, and says which letters of the title it lacks.
+    // The sheet holds the same pictures below its texts.
     let sheet = place.argument("sheet.png");
     succeeds(&["report", &place.argument("run"), "--png", "--out", &sheet]);
     let sheet = image::open(place.path("sheet.png")).unwrap().into_rgb8();

@@ -200,7 +200,7 @@ fn ranks_that_lose_momentum_are_refused() {
 fn mixed_ranks_are_told_of_and_claim_nothing() {
     let place = tempfile::tempdir().unwrap();
     let directory = place.path().join("out");
-    let simulation = Run::start(scene(), &directory).mixed(true);
+    let simulation = Run::start(scene(), &directory).mixed();
     // Of adapters nothing is told: each rank has a machine to itself.
     let (ended, warnings) = share(simulation, [stiffer, elsewhere]);
     let summary = ended.unwrap().summary;

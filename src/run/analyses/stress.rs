@@ -117,7 +117,7 @@ impl Descriptor for Stress {
             let interval = asked.every as f64 * model.time_step;
             let factor = model.units.volume() / model.temperature;
             let correlation = stress_correlation(&series, model.units.dimension, factor, interval, window as usize);
-            let found = correlation.longest(asked.every == 1);
+            let found = correlation.longest(asked.every);
             if let Ok(result) = &mut conclusion.result {
                 result[VISCOSITY] = json!(found.as_ref().ok());
             }
