@@ -103,7 +103,7 @@ impl Units {
 
     /// A real position in the box as an integer one: between walls the nearest place there.
     #[must_use]
-    pub fn place(&self, position: [f64; 3]) -> [u32; 3] {
+    pub(crate) fn place(&self, position: [f64; 3]) -> [u32; 3] {
         let ends = self.ends();
         let folded = self.fraction(position);
         std::array::from_fn(|axis| match ends[axis] {
@@ -207,13 +207,13 @@ impl From<State> for Reported {
 impl Reported {
     /// How often a particle has gone round the box along every axis, as far as that is known.
     #[must_use]
-    pub fn image(&self, particle: usize) -> [i32; 3] {
+    pub(crate) fn image(&self, particle: usize) -> [i32; 3] {
         self.images.get(particle).copied().unwrap_or_default()
     }
 
     /// The particles of these numbers, in their order; those that do not exist are left out.
     #[must_use]
-    pub fn of_particles(&self, numbers: &[u32]) -> Self {
+    pub(crate) fn of_particles(&self, numbers: &[u32]) -> Self {
         fn of<T: Copy>(array: &[T], numbers: &[u32]) -> Vec<T> {
             numbers.iter().filter_map(|number| array.get(*number as usize).copied()).collect()
         }
@@ -274,19 +274,19 @@ macro_rules! state_arrays {
 
             /// The name, also in a checkpoint.
             #[must_use]
-            pub const fn name(self) -> &'static str {
+            pub(crate) const fn name(self) -> &'static str {
                 match self { $(Self::$variant => stringify!($field),)* }
             }
 
             /// True if it has an element for every particle, if any.
             #[must_use]
-            pub const fn is_of_particles(self) -> bool {
+            pub(crate) const fn is_of_particles(self) -> bool {
                 match self { $(Self::$variant => $of_particles,)* }
             }
 
             /// Words of an element.
             #[must_use]
-            pub const fn width(self) -> usize {
+            pub(crate) const fn width(self) -> usize {
                 match self { $(Self::$variant => size_of::<$element>() / 4,)* }
             }
         }
@@ -472,13 +472,13 @@ impl WallImpulse {
 impl State {
     /// Number of elements of an array.
     #[must_use]
-    pub fn length(&self, array: StateArray) -> usize {
+    pub(crate) fn length(&self, array: StateArray) -> usize {
         self.words(array).len() / array.width()
     }
 
     /// The first array that has neither no element nor one for each particle, where it should.
     #[must_use]
-    pub fn misshapen(&self) -> Option<StateArray> {
+    pub(crate) fn misshapen(&self) -> Option<StateArray> {
         let wrong = |array: &StateArray| ![0, self.len()].contains(&self.length(*array));
         StateArray::ALL.into_iter().filter(|array| array.is_of_particles()).find(wrong)
     }

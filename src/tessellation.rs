@@ -53,13 +53,13 @@ pub struct Face {
 impl Face {
     /// |rₖ - rₗ|.
     #[must_use]
-    pub fn distance(&self) -> f64 {
+    pub(crate) fn distance(&self) -> f64 {
         self.separation[0].hypot(self.separation[1])
     }
 
     /// The unit vector e from l to k.
     #[must_use]
-    pub fn direction(&self) -> [f64; 2] {
+    pub(crate) fn direction(&self) -> [f64; 2] {
         let distance = self.distance();
         self.separation.map(|component| component / distance)
     }

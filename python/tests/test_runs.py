@@ -128,8 +128,10 @@ def test_what_is_missing_or_damaged_is_named(place, small):
 def test_a_tradeoff_says_what_to_choose(small):
     settings = small | {"output": {"energies": {"every": 5}}}
     found = ms.tradeoff(
-        "dpd-fluid", {"time.step": [0.02, 0.08]}, {"temperature": "50%"}, settings, "tradeoff", measures=["temperature"], steps=200, progress=False
-    )
+        "dpd-fluid", {"time.step": [0.02, 0.08]}, {"temperature": "50%"}, settings, "tradeoff",
+        measures=["temperature"], seeds=2, steps=200, progress=False,
+    )  # fmt: skip
+    assert "Every choice ran with 2 seeds" in found.page and found.table()["seeds"].tolist() == [2, 2]
     assert found.scene["time"]["step"] in (0.02, 0.08) and "Choose" in found.advice
     assert "# What accuracy costs" in found.page and len(found.table()["choice"]) == 2 and found.plots()
     assert isinstance(ms.open("tradeoff"), ms.Tradeoff)
@@ -139,7 +141,8 @@ def test_a_tradeoff_says_what_to_choose(small):
 
 def test_a_map_says_how_far_a_scene_may_go(small):
     settings = small | {"output": {"energies": {"every": 5}}}
-    found = ms.stability("dpd-fluid", {"time.step": "0.02..2/3"}, settings, "map", bisections=1, steps=200, progress=False)
+    found = ms.stability("dpd-fluid", {"time.step": "0.02..2/3"}, settings, "map", bisections=1, seeds=2, steps=200, progress=False)
+    assert "Means are over 2 seeds." in found.page
     assert found.rows[0]["unstable_from"] != "not seen" and len(found.table()["verdict"]) >= 3
     assert isinstance(ms.open("map"), ms.Stability)
 

@@ -43,7 +43,7 @@ impl Default for Bath {
 impl Bath {
     /// Whether it does anything to what has such a friction.
     #[must_use]
-    pub fn acts(&self, friction: f64) -> bool {
+    pub(crate) fn acts(&self, friction: f64) -> bool {
         match self {
             Self::White { .. } => friction > 0.0,
             Self::Memory { rate, coupling, .. } => coupling.unwrap_or(rate * friction) > 0.0,
@@ -52,7 +52,7 @@ impl Bath {
 
     /// The bath has memory.
     #[must_use]
-    pub fn remembers(&self) -> bool {
+    pub(crate) fn remembers(&self) -> bool {
         matches!(self, Self::Memory { .. })
     }
 

@@ -82,7 +82,15 @@ impl fmt::Display for Warning {
     }
 }
 
-/// Why a scene could not be loaded.
+/// The reason why a scene could not be loaded.
+///
+/// ```
+/// use mesoscope::prelude::*;
+///
+/// let wrong = ["temperature=-1", "time.step=0"].map(str::to_owned);
+/// let Err(SceneError::Invalid { problems, .. }) = scene::load("dpd-fluid", &wrong) else { return };
+/// assert_eq!(problems.len(), 2);
+/// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {

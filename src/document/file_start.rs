@@ -117,13 +117,13 @@ pub struct FileLinks<const LENGTH: usize> {
 impl<const LENGTH: usize> FileLinks<LENGTH> {
     /// Number of links in all copies.
     #[must_use]
-    pub fn count(&self) -> u64 {
+    pub(crate) fn count(&self) -> u64 {
         self.members.len() as u64 * number_of_copies(self.copies)
     }
 
     /// The particles of one of them, copy by copy.
     #[must_use]
-    pub fn link(&self, index: u64) -> [u32; LENGTH] {
+    pub(crate) fn link(&self, index: u64) -> [u32; LENGTH] {
         let each = self.members.len().max(1) as u64;
         let (copy, place) = (index / each, (index % each) as usize);
         let members = self.members[place];
@@ -169,7 +169,7 @@ impl FileStart {
 
     /// The species of a particle.
     #[must_use]
-    pub fn species_of(&self, particle: u32) -> Option<usize> {
+    pub(crate) fn species_of(&self, particle: u32) -> Option<usize> {
         self.species.get(particle as usize % self.species.len().max(1)).map(|species| *species as usize)
     }
 

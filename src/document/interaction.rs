@@ -32,7 +32,7 @@ pub enum Interaction {
 impl Interaction {
     /// Its name in a scene.
     #[must_use]
-    pub fn name(&self) -> &'static str {
+    pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Dpd(_) => "dpd",
             Self::Langevin(_) => "langevin",

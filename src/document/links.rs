@@ -34,7 +34,7 @@ impl<'a, const LENGTH: usize> Links<'a, LENGTH> {
     pub const NOUN: &'static str = if LENGTH == 2 { "bonds" } else { "angles" };
 
     /// Their source. Links that name nothing are those of a file or of molecules, where groups have no chains.
-    pub fn source(&self, scene: &Scene) -> LinkSource<'a, LENGTH> {
+    pub(crate) fn source(&self, scene: &Scene) -> LinkSource<'a, LENGTH> {
         let are_chained = || scene.particles.iter().any(|group| group.chain.is_some());
         if !self.listed.is_empty() {
             LinkSource::Listed(self.listed)
@@ -47,13 +47,13 @@ impl<'a, const LENGTH: usize> Links<'a, LENGTH> {
     }
 
     /// True if links of a type in a file or of molecules are among them.
-    pub fn include(&self, kind: &str, scene: &Scene) -> bool {
+    pub(crate) fn include(&self, kind: &str, scene: &Scene) -> bool {
         let named = self.types.is_none_or(|types| types.iter().any(|name| name == kind));
         named && matches!(self.source(scene), LinkSource::Start(_))
     }
 
     /// Their number.
-    pub fn count(&self, scene: &Scene) -> u64 {
+    pub(crate) fn count(&self, scene: &Scene) -> u64 {
         match self.source(scene) {
             LinkSource::Listed(listed) => listed.len() as u64,
             LinkSource::Start(links) => links.iter().map(|links| links.count()).fold(0, u64::saturating_add),

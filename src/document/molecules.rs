@@ -42,7 +42,7 @@ pub struct Molecule {
 impl Molecule {
     /// Number of molecules, whichever way the scene gives it.
     #[must_use]
-    pub fn resolved_count(&self, volume: f64) -> u64 {
+    pub(crate) fn resolved_count(&self, volume: f64) -> u64 {
         match (self.count, self.number_density) {
             (Some(count), _) => count,
             (None, Some(density)) => (density * volume).round() as u64,
@@ -52,7 +52,7 @@ impl Molecule {
 
     /// Bonds from end to end: along the shortest way between the two beads that are farthest apart, exactly where there are no rings.
     #[must_use]
-    pub fn longest_way(&self) -> usize {
+    pub(crate) fn longest_way(&self) -> usize {
         let mut bonded = vec![Vec::new(); self.beads.len()];
         for [a, b] in self.bonds.iter().map(|ends| ends.map(|end| end as usize)) {
             bonded[a].push(b);

@@ -89,7 +89,7 @@ pub struct UnitNames {
 impl UnitNames {
     /// True if no unit has another name.
     #[must_use]
-    pub fn are_usual(&self) -> bool {
+    pub(crate) fn are_usual(&self) -> bool {
         *self == Self::default()
     }
 
@@ -253,7 +253,7 @@ pub struct SnapshotSlice {
 impl SnapshotSlice {
     /// True if it holds a coordinate along its axis, which repeats after `period`, or does not.
     #[must_use]
-    pub fn holds(&self, coordinate: f64, period: Option<f64>) -> bool {
+    pub(crate) fn holds(&self, coordinate: f64, period: Option<f64>) -> bool {
         let distance = coordinate - self.position;
         let distance = period.map_or(distance, |period| distance - period * (distance / period).round());
         distance.abs() <= 0.5 * self.thickness

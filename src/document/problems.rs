@@ -14,7 +14,7 @@ pub(crate) struct Problems {
 }
 
 impl Problems {
-    pub fn push(&mut self, problem: Problem) {
+    pub(crate) fn push(&mut self, problem: Problem) {
         if self.is_full() {
             self.unlisted += 1;
         } else {
@@ -23,12 +23,12 @@ impl Problems {
     }
 
     /// Adds a mistake: the value found at a path, and what is accepted there. No text is made of what is only counted.
-    pub fn refuse(&mut self, path: impl Display, found: impl Display, accepted: impl Display) {
+    pub(crate) fn refuse(&mut self, path: impl Display, found: impl Display, accepted: impl Display) {
         self.add(path, format_args!("found {found}"), accepted);
     }
 
     /// Adds a mistake that is another than a value in its place, as a phrase.
-    pub fn add(&mut self, path: impl Display, phrase: impl Display, accepted: impl Display) {
+    pub(crate) fn add(&mut self, path: impl Display, phrase: impl Display, accepted: impl Display) {
         if self.is_full() {
             self.unlisted += 1;
         } else {
@@ -36,38 +36,38 @@ impl Problems {
         }
     }
 
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.listed.is_empty()
     }
 
     /// Whether further mistakes are only counted, so that their text is not needed.
-    pub fn is_full(&self) -> bool {
+    pub(crate) fn is_full(&self) -> bool {
         self.listed.len() >= MOST
     }
 
     /// Number of mistakes.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.listed.len() + self.unlisted
     }
 
     /// Adds those that another found.
-    pub fn append(&mut self, other: Self) {
+    pub(crate) fn append(&mut self, other: Self) {
         let unlisted = other.unlisted;
         self.extend(other.listed);
         self.unlisted += unlisted;
     }
 
-    pub fn iter(&self) -> impl Iterator<Item = &Problem> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Problem> {
         self.listed.iter()
     }
 
     /// Keeps those of which a predicate holds; what is only counted is not asked about.
-    pub fn retain(&mut self, keep: impl FnMut(&Problem) -> bool) {
+    pub(crate) fn retain(&mut self, keep: impl FnMut(&Problem) -> bool) {
         self.listed.retain(keep);
     }
 
     /// The mistakes, and how many are not among them.
-    pub fn into_parts(self) -> (Vec<Problem>, usize) {
+    pub(crate) fn into_parts(self) -> (Vec<Problem>, usize) {
         (self.listed, self.unlisted)
     }
 }

@@ -20,7 +20,7 @@ pub enum CorrelatedQuantity {
 impl CorrelatedQuantity {
     /// The name in a scene.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Velocity => "velocity",
             Self::Force => "force",
@@ -71,7 +71,7 @@ pub enum CountedQuantity {
 impl CountedQuantity {
     /// The name in a scene.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Velocity => "velocity",
             Self::Speed => "speed",
@@ -104,7 +104,7 @@ impl ProfiledQuantity {
 
     /// The name in a scene.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Density => "density",
             Self::Velocity => "velocity",
@@ -129,7 +129,7 @@ pub enum Axis {
 impl Axis {
     /// The name in a scene.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::X => "x",
             Self::Y => "y",

@@ -14,7 +14,7 @@ pub(crate) struct SpeciesNames<'a> {
 }
 
 impl<'a> SpeciesNames<'a> {
-    pub fn of(scene: &'a Scene) -> Self {
+    pub(crate) fn of(scene: &'a Scene) -> Self {
         let mut known = HashSet::new();
         let all = scene.particles.iter().map(|group| group.species.as_str());
         let names = all.filter(|name| known.insert(*name)).collect();
@@ -22,27 +22,27 @@ impl<'a> SpeciesNames<'a> {
     }
 
     /// How many there are.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.names.len()
     }
 
     /// The place of a name.
-    pub fn place(&self, name: &str) -> Option<usize> {
+    pub(crate) fn place(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| *known == name)
     }
 
     /// All names, in order of first appearance.
-    pub fn names(&self) -> &[&'a str] {
+    pub(crate) fn names(&self) -> &[&'a str] {
         &self.names
     }
 
     /// All names, for a scene that is going to change.
-    pub fn to_owned(&self) -> Vec<String> {
+    pub(crate) fn to_owned(&self) -> Vec<String> {
         self.names.iter().map(|name| (*name).to_owned()).collect()
     }
 
     /// A name has to be that of the species of some group.
-    pub fn check(&self, name: &str, path: &str, problems: &mut Problems) -> bool {
+    pub(crate) fn check(&self, name: &str, path: &str, problems: &mut Problems) -> bool {
         if self.known.contains(name) {
             return true;
         }
@@ -72,7 +72,7 @@ pub(crate) struct NumberedSpecies<'a> {
 }
 
 impl<'a> NumberedSpecies<'a> {
-    pub fn new(scene: &'a Scene) -> Self {
+    pub(crate) fn new(scene: &'a Scene) -> Self {
         let names = SpeciesNames::of(scene);
         let end = |numbered: NumberedGroup<'_>| {
             (numbered.first.saturating_add(numbered.count), names.place(&numbered.group.species).unwrap_or(0))
@@ -81,7 +81,7 @@ impl<'a> NumberedSpecies<'a> {
     }
 
     /// The same with further species, whose particles follow, in these numbers.
-    pub fn with(mut self, counts: impl Iterator<Item = u64>) -> Self {
+    pub(crate) fn with(mut self, counts: impl Iterator<Item = u64>) -> Self {
         let mut end = self.ends.last().map_or(0, |(end, _)| *end);
         self.ends.extend(counts.enumerate().map(|(species, count)| {
             end = end.saturating_add(count);
@@ -91,7 +91,7 @@ impl<'a> NumberedSpecies<'a> {
     }
 
     /// The species of a particle, if there is one.
-    pub fn of(&self, particle: u32) -> Option<usize> {
+    pub(crate) fn of(&self, particle: u32) -> Option<usize> {
         if let Some(start) = self.start {
             return start.species_of(particle);
         }

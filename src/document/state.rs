@@ -69,7 +69,7 @@ pub enum StateVelocities {
 impl StateFile {
     /// Copies along every axis.
     #[must_use]
-    pub fn copies(&self) -> [u32; 3] {
+    pub(crate) fn copies(&self) -> [u32; 3] {
         std::array::from_fn(|axis| self.replicate.get(axis).copied().unwrap_or(1).max(1))
     }
 }

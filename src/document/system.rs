@@ -50,7 +50,7 @@ impl SystemKind {
 
     /// The name of the kind in the schema; that of its interaction, where it has one of its own.
     #[must_use]
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Particles => "particles",
             Self::ShallowWater => "shallow-water",
@@ -60,7 +60,7 @@ impl SystemKind {
 
     /// The kind, as messages call it.
     #[must_use]
-    pub const fn in_words(self) -> &'static str {
+    pub(crate) const fn in_words(self) -> &'static str {
         match self {
             Self::Particles => "particles",
             Self::ShallowWater => "shallow water",
@@ -81,7 +81,7 @@ impl System {
 
     /// The kind of the system.
     #[must_use]
-    pub const fn kind(&self) -> SystemKind {
+    pub(crate) const fn kind(&self) -> SystemKind {
         match self {
             Self::Particles { .. } => SystemKind::Particles,
             Self::ShallowWater { .. } => SystemKind::ShallowWater,
@@ -117,7 +117,7 @@ impl System {
 
     /// The interactions of particles, of which systems of other kinds have none.
     #[must_use]
-    pub fn interactions(&self) -> &[Interaction] {
+    pub(crate) fn interactions(&self) -> &[Interaction] {
         if let Self::Particles { interactions, .. } = self { interactions } else { &[] }
     }
 
@@ -129,7 +129,7 @@ impl System {
 
     /// Shallow water, in a system of it.
     #[must_use]
-    pub fn shallow_water(&self) -> Option<&ShallowWaterInteraction> {
+    pub(crate) fn shallow_water(&self) -> Option<&ShallowWaterInteraction> {
         if let Self::ShallowWater { water, .. } = self { Some(water) } else { None }
     }
 
@@ -141,7 +141,7 @@ impl System {
 
     /// The fluid of Voronoi cells, in a system of them.
     #[must_use]
-    pub fn voronoi(&self) -> Option<&VoronoiInteraction> {
+    pub(crate) fn voronoi(&self) -> Option<&VoronoiInteraction> {
         if let Self::Voronoi { cells, .. } = self { Some(cells) } else { None }
     }
 

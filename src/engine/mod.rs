@@ -245,12 +245,6 @@ impl<'a> Engine<'a> {
         &self.plan
     }
 
-    /// The name of the adapter.
-    #[must_use]
-    pub fn adapter(&self) -> &str {
-        &self.gpu.description().name
-    }
-
     /// The current step.
     #[must_use]
     pub fn step(&self) -> u64 {
@@ -337,7 +331,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// [`EngineError::Crowded`] if they are more than the part can store.
-    pub fn upload_part(&mut self, step: u64, particles: &[u32], others: &[Vec<u32>]) -> Result<(), EngineError> {
+    pub(crate) fn upload_part(&mut self, step: u64, particles: &[u32], others: &[Vec<u32>]) -> Result<(), EngineError> {
         let exchange = self.exchange.as_mut().ok_or_else(no_part)?;
         let bytes: &[u8] = bytemuck::cast_slice(particles);
         let buffer = &self.buffers[&Array::Particles];
@@ -449,7 +443,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// As [`Self::upload`].
-    pub fn renumber(&mut self, plan: &Plan, state: &State) -> Result<bool, EngineError> {
+    pub(crate) fn renumber(&mut self, plan: &Plan, state: &State) -> Result<bool, EngineError> {
         let bytes = |plan: &Plan| plan.buffers.iter().map(|buffer| (buffer.array, buffer.bytes)).collect::<Vec<_>>();
         let kernels = || self.plan.kernels.iter().zip(&plan.kernels).zip(&self.stages);
         let order = |plan: &Plan| {
@@ -489,7 +483,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// [`EngineError`] if the device fails or the run becomes unstable.
-    pub fn wait(&mut self) -> Result<(), EngineError> {
+    pub(crate) fn wait(&mut self) -> Result<(), EngineError> {
         self.wait_all()
     }
 
@@ -497,7 +491,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// As [`Self::reported`].
-    pub fn report_of(&mut self, state: &State) -> Result<Reported, EngineError> {
+    pub(crate) fn report_of(&mut self, state: &State) -> Result<Reported, EngineError> {
         if !self.plan.has_buffer(Array::ReportedMomenta) {
             return self.reported();
         }
@@ -512,7 +506,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// As [`Self::reported`].
-    pub fn measure(&mut self, samplers: &[usize]) -> Result<Vec<Sample>, EngineError> {
+    pub(crate) fn measure(&mut self, samplers: &[usize]) -> Result<Vec<Sample>, EngineError> {
         self.report_now()?;
         let mut recording = Recording::new(&self.gpu, "samples");
         for &number in samplers {
@@ -528,7 +522,7 @@ impl<'a> Engine<'a> {
     }
 
     /// Samples of the batches that have finished so far, in order.
-    pub fn take_samples(&mut self) -> Vec<Sample> {
+    pub(crate) fn take_samples(&mut self) -> Vec<Sample> {
         std::mem::take(&mut self.collected)
     }
 
@@ -547,7 +541,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// As [`Self::state`], or if the plan is of no part.
-    pub fn own_state(&mut self) -> Result<Vec<Vec<u32>>, EngineError> {
+    pub(crate) fn own_state(&mut self) -> Result<Vec<Vec<u32>>, EngineError> {
         self.check_advanced()?;
         let particles = self.words(Array::Particles)?;
         let particles = self.part()?.own_of(&particles);
@@ -593,7 +587,7 @@ impl<'a> Engine<'a> {
 
     /// What has been exchanged with other ranks.
     #[must_use]
-    pub fn traffic(&self) -> Traffic {
+    pub(crate) fn traffic(&self) -> Traffic {
         self.exchange.as_ref().map(|exchange| exchange.traffic).unwrap_or_default()
     }
 
@@ -629,7 +623,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// As [`Self::reported`], or if the plan is of no part.
-    pub fn own_momenta(&mut self) -> Result<Vec<Vec<u32>>, EngineError> {
+    pub(crate) fn own_momenta(&mut self) -> Result<Vec<Vec<u32>>, EngineError> {
         self.part()?;
         self.report_now()?;
         let words = self.words(Array::ReportedMomenta)?;
@@ -641,7 +635,7 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// As [`Self::reported`], or if the plan is of no part.
-    pub fn own_reported(&mut self) -> Result<Vec<Vec<u32>>, EngineError> {
+    pub(crate) fn own_reported(&mut self) -> Result<Vec<Vec<u32>>, EngineError> {
         self.part()?;
         self.report_now()?;
         let (particles, counts) = (self.words(Array::Particles)?, self.words(Array::OutgoingCounts)?);

@@ -88,7 +88,7 @@ impl Shown {
 
     /// The place of a particle, if it is shown.
     #[must_use]
-    pub fn place(&self, number: u32) -> Option<usize> {
+    pub(crate) fn place(&self, number: u32) -> Option<usize> {
         match &self.numbers {
             None => Some(number as usize),
             Some(numbers) => numbers.binary_search(&number).ok(),

@@ -41,7 +41,7 @@ impl BathStep {
 
     /// Whether the bath has a memory.
     #[must_use]
-    pub fn remembers(&self) -> bool {
+    pub(crate) fn remembers(&self) -> bool {
         self.continuous_coupling.is_finite()
     }
 
@@ -61,7 +61,7 @@ impl BathStep {
 
     /// The step of white noise with a friction: the limit of a fast bath at λ/α = γ.
     #[must_use]
-    pub fn without_memory(friction: f64, time_step: f64) -> Self {
+    pub(crate) fn without_memory(friction: f64, time_step: f64) -> Self {
         Self { persistence: 0.0, coupling: 2.0 * friction / time_step, continuous_coupling: f64::INFINITY }
     }
 
@@ -74,7 +74,7 @@ impl BathStep {
 
     /// λₑ (1 + e)/2: what a change of h adds to s.
     #[must_use]
-    pub fn response(&self) -> f64 {
+    pub(crate) fn response(&self) -> f64 {
         0.5 * self.coupling * (1.0 + self.persistence)
     }
 

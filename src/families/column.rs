@@ -24,7 +24,7 @@ enum Value {
 impl Column {
     /// Its value in a row, given the time step.
     #[must_use]
-    pub fn value(&self, row: &Observables, time_step: f64) -> f64 {
+    pub(crate) fn value(&self, row: &Observables, time_step: f64) -> f64 {
         match self.value {
             Value::Number(number) => number(row, time_step),
             Value::Component(vector, axis) => vector(row)[axis],

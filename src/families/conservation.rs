@@ -30,13 +30,13 @@ impl KeptQuantity {
 
     /// True if it is kept only if both ends of a pair are computed alike, as by ranks that round alike.
     #[must_use]
-    pub fn is_exchanged(self) -> bool {
+    pub(crate) fn is_exchanged(self) -> bool {
         !matches!(self, Self::Mass | Self::MeshMass)
     }
 
     /// Its name in a summary.
     #[must_use]
-    pub fn name(self) -> String {
+    pub(crate) fn name(self) -> String {
         match self {
             Self::Mass => "mass".to_owned(),
             Self::MeshMass => "mass on the mesh".to_owned(),
@@ -72,7 +72,7 @@ pub struct KeptSum {
 impl KeptSum {
     /// The kept sum, from the sums of a report.
     #[must_use]
-    pub fn of(&self, sums: &[i64]) -> Option<i64> {
+    pub(crate) fn of(&self, sums: &[i64]) -> Option<i64> {
         self.parts
             .iter()
             .try_fold(0_i64, |sum, (place, sign)| Some(sum.wrapping_add(sums.get(*place)?.wrapping_mul(*sign))))

@@ -81,7 +81,7 @@ impl Field {
     ///
     /// # Errors
     /// [`FieldError`] says what does not fit.
-    pub fn check(&self) -> Result<(), FieldError> {
+    pub(crate) fn check(&self) -> Result<(), FieldError> {
         let (nodes, lengths) = (self.nodes, self.lengths);
         let name = || self.name.clone();
         if nodes.contains(&0) {
@@ -123,7 +123,8 @@ impl Field {
     /// The value at a position, in units of length, interpolated between the four nodes around it; any position is
     /// taken back into the box. NaN if one of the nodes has no value or the position is not finite.
     #[must_use]
-    pub fn linear_at(&self, position: [f64; 2]) -> f64 {
+    #[cfg(test)]
+    fn linear_at(&self, position: [f64; 2]) -> f64 {
         self.interpolated(position, |t| [1.0 - t, t], 0)
     }
 

@@ -117,7 +117,7 @@ impl Model {
     /// What noise and forces that depend on time go by at a step: the steps since the first of the earlier runs that it goes on with. At zero
     /// momenta are those of the report point; later they are half a step behind.
     #[must_use]
-    pub fn clock(&self, step: u64) -> u64 {
+    pub(crate) fn clock(&self, step: u64) -> u64 {
         self.steps_before.wrapping_add(step)
     }
 
@@ -135,7 +135,7 @@ impl Model {
 
     /// Whether any force derives from a potential.
     #[must_use]
-    pub fn has_potential(&self) -> bool {
+    pub(crate) fn has_potential(&self) -> bool {
         self.physics().has_potential()
     }
 
@@ -147,14 +147,14 @@ impl Model {
 
     /// Whether some particles are held where they start; those behind walls are not among them.
     #[must_use]
-    pub fn has_fixed_particles(&self) -> bool {
+    pub(crate) fn has_fixed_particles(&self) -> bool {
         self.species.iter().any(|species| species.fixed && !species.frozen && species.count > 0)
     }
 
     /// Whether it is counted how often particles go round the box: for trajectories and displacements, and not where boundaries shear,
     /// for then that is no whole number.
     #[must_use]
-    pub fn follows_paths(&self, output: &Output) -> bool {
+    pub(crate) fn follows_paths(&self, output: &Output) -> bool {
         (output.trajectory.is_some() || output.diffusion.is_some()) && self.particles().shear.is_none()
     }
 
@@ -174,7 +174,7 @@ impl Model {
 
     /// Whether there are frozen particles behind walls.
     #[must_use]
-    pub fn has_frozen_particles(&self) -> bool {
+    pub(crate) fn has_frozen_particles(&self) -> bool {
         self.species.iter().any(|species| species.frozen && species.count > 0)
     }
 
@@ -186,13 +186,13 @@ impl Model {
 
     /// The number of a species.
     #[must_use]
-    pub fn species_named(&self, name: &str) -> Option<usize> {
+    pub(crate) fn species_named(&self, name: &str) -> Option<usize> {
         self.species.iter().position(|species| species.name == name)
     }
 
     /// Number of particles of a species that can move; without a name of all.
     #[must_use]
-    pub fn mobile_particles_of(&self, species: Option<&str>) -> u64 {
+    pub(crate) fn mobile_particles_of(&self, species: Option<&str>) -> u64 {
         let asked = |known: &&Species| !known.fixed && species.is_none_or(|name| known.name == name);
         self.species.iter().filter(asked).map(|species| species.count).sum()
     }
@@ -224,7 +224,7 @@ impl Model {
     /// Whether temperatures are about the velocity of the centre of mass: where that is constant, and where it is driven by
     /// nothing but a random force.
     #[must_use]
-    pub fn measures_about_centre_of_mass(&self) -> bool {
+    pub(crate) fn measures_about_centre_of_mass(&self) -> bool {
         self.physics().is_free()
             && !self.has_fixed_particles()
             && self.particles().walls.is_empty()

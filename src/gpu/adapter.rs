@@ -2,7 +2,14 @@
 
 use super::GpuError;
 
-/// Which adapter to use.
+/// The adapter to use.
+///
+/// ```
+/// use mesoscope::prelude::*;
+///
+/// assert_eq!(AdapterChoice::parse(Some("software")), AdapterChoice::Software);
+/// assert_eq!(AdapterChoice::parse(None), AdapterChoice::Best);
+/// ```
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum AdapterChoice {
     /// The best available: a discrete GPU before an integrated one before any other; software last.

@@ -66,6 +66,19 @@ const SERIAL_FEATURES: wgpu::Features =
 const STORAGE_TEXTURES: u32 = 8;
 
 /// An opened device with its queue. A clone is another handle of the same device, which closes with the last of them.
+///
+/// ```
+/// use mesoscope::prelude::*;
+///
+/// // Two simulations share a device, and its compiled kernels.
+/// let scene = scene::load("dpd-fluid", &["space.box=[4,4,4]", "output={}"].map(str::to_owned))?;
+/// let first = Simulation::new(&scene, &AdapterChoice::Best)?;
+/// let gpu: Gpu = first.gpu().clone();
+/// let mut second = Simulation::on(&gpu, &scene)?;
+/// drop((first, gpu));
+/// second.advance(10)?;
+/// # Ok::<(), RunError>(())
+/// ```
 #[derive(Clone)]
 pub struct Gpu {
     adapter: wgpu::Adapter,
@@ -132,7 +145,7 @@ impl Gpu {
 
     /// Whether the device meets requirements.
     #[must_use]
-    pub fn meets(&self, requirements: Requirements) -> bool {
+    pub(crate) fn meets(&self, requirements: Requirements) -> bool {
         let limits = self.device.limits();
         requirements.storage_buffers <= limits.max_storage_buffers_per_shader_stage
             && requirements.largest_buffer <= limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)

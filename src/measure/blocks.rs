@@ -40,12 +40,12 @@ impl BlockSums {
 
     /// Begins with rows of so many numbers in at most so many blocks: 64 know an error to some tenth, in an eighth of the memory.
     #[must_use]
-    pub fn with_most(width: usize, most: u64) -> Self {
+    pub(crate) fn with_most(width: usize, most: u64) -> Self {
         Self { width, most: most.max(2), samples: 0, blocks: Vec::new() }
     }
 
     /// Continues from the sums of blocks that so many samples have left.
-    pub fn restore(&mut self, samples: u64, blocks: &[f64]) {
+    pub(crate) fn restore(&mut self, samples: u64, blocks: &[f64]) {
         self.samples = samples;
         self.blocks = blocks.to_vec();
     }
@@ -57,7 +57,7 @@ impl BlockSums {
 
     /// Number of blocks after so many samples, the last of which may not be full.
     #[must_use]
-    pub fn blocks_after(&self, samples: u64) -> u64 {
+    pub(crate) fn blocks_after(&self, samples: u64) -> u64 {
         samples.div_ceil(self.length(samples))
     }
 
@@ -88,19 +88,19 @@ impl BlockSums {
 
     /// Numbers in a row.
     #[must_use]
-    pub fn width(&self) -> usize {
+    pub(crate) fn width(&self) -> usize {
         self.width
     }
 
     /// Number of samples.
     #[must_use]
-    pub fn samples(&self) -> u64 {
+    pub(crate) fn samples(&self) -> u64 {
         self.samples
     }
 
     /// The sums of all blocks, one row after the other.
     #[must_use]
-    pub fn sums(&self) -> &[f64] {
+    pub(crate) fn sums(&self) -> &[f64] {
         &self.blocks
     }
 
@@ -146,7 +146,7 @@ impl BlockSums {
 
     /// The mean over samples of a number that is made of their sums.
     #[must_use]
-    pub fn mean(&self, number: impl Fn(&[f64]) -> f64) -> Option<Estimate> {
+    pub(crate) fn mean(&self, number: impl Fn(&[f64]) -> f64) -> Option<Estimate> {
         // What every sample counts once is a quantity of its own.
         let length = self.length(self.samples) as f64;
         let last = self.rows().count().saturating_sub(1);
@@ -159,7 +159,7 @@ impl BlockSums {
     /// A number that is made of the means of all quantities, by a jackknife over the blocks that are full; none where it does not exist, if
     /// only without one of them. There is no error with fewer than two.
     #[must_use]
-    pub fn jackknife(&self, number: impl Fn(&[f64]) -> Option<f64>) -> Option<Estimate> {
+    pub(crate) fn jackknife(&self, number: impl Fn(&[f64]) -> Option<f64>) -> Option<Estimate> {
         let totals: Vec<f64> = (0..self.width).map(|quantity| self.total(quantity)).collect();
         let mean = |row: Option<&[f64]>| {
             let less = if row.is_some() { self.length(self.samples) } else { 0 };

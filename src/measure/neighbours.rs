@@ -46,19 +46,19 @@ impl NeighbourCounts {
 
     /// Number of samples.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.samples.len()
     }
 
     /// Whether there is no sample.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.samples.is_empty()
     }
 
     /// The fraction of cells with so many neighbours.
     #[must_use]
-    pub fn fraction(&self, neighbours: usize) -> Option<Estimate> {
+    pub(crate) fn fraction(&self, neighbours: usize) -> Option<Estimate> {
         self.estimate(|counts| counts[neighbours] / counts.iter().sum::<f64>())
     }
 
@@ -70,7 +70,7 @@ impl NeighbourCounts {
 
     /// The variance of the number of neighbours between the cells of a sample; 1.78 for random points.
     #[must_use]
-    pub fn variance(&self) -> Option<Estimate> {
+    pub(crate) fn variance(&self) -> Option<Estimate> {
         self.estimate(|counts| moment(counts, 2) - moment(counts, 1).powi(2))
     }
 

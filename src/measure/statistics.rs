@@ -20,6 +20,13 @@ const LEAST_INEFFICIENCY: f64 = 0.5;
 const ENOUGH_FREEDOM: f64 = 8.0;
 
 /// A measured number: a mean, a transport coefficient, a parameter of a fit.
+///
+/// ```
+/// use mesoscope::prelude::*;
+///
+/// let pressure = Estimate::new(23.635, Some(0.012), 200);
+/// assert_eq!((pressure.to_string().as_str(), pressure.few), ("23.635 ± 0.012", false));
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Estimate {
     /// Its value.

@@ -25,12 +25,6 @@ impl Components {
         Self { dimension }
     }
 
-    /// The number of dimensions.
-    #[must_use]
-    pub fn dimension(self) -> usize {
-        self.dimension
-    }
-
     /// Name and place of each.
     pub fn iter(self) -> impl Iterator<Item = (&'static str, usize)> {
         let all = COMPONENTS.iter().enumerate();

@@ -122,7 +122,7 @@ impl RunDirectory {
 
     /// Where the directory is.
     #[must_use]
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 

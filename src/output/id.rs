@@ -110,7 +110,7 @@ impl Id {
 
     /// What files call it.
     #[must_use]
-    pub fn key(self) -> &'static str {
+    pub(crate) fn key(self) -> &'static str {
         self.kind.words()[1]
     }
 }

@@ -114,7 +114,7 @@ pub struct MeshSummary {
 impl MeshSummary {
     /// The nodes of a box with edges of these lengths.
     #[must_use]
-    pub fn new(nodes: [usize; 2], lengths: [f64; 2]) -> Self {
+    pub(crate) fn new(nodes: [usize; 2], lengths: [f64; 2]) -> Self {
         Self { nodes, spacing: std::array::from_fn(|axis| lengths[axis] / nodes[axis] as f64) }
     }
 }
@@ -138,7 +138,7 @@ pub struct ColumnSummary {
 impl ColumnSummary {
     /// A column of a quantity in a box of this dimension.
     #[must_use]
-    pub fn new(name: &str, quantity: &Quantity, dimension: usize) -> Self {
+    pub(crate) fn new(name: &str, quantity: &Quantity, dimension: usize) -> Self {
         let Quantity { symbol, unit, meaning, .. } = quantity;
         let error = if name.ends_with("_error") { "standard error of: " } else { "" };
         let (unit, meaning) = (unit.in_words(Some(dimension)).to_owned(), format!("{error}{meaning}"));
@@ -147,7 +147,7 @@ impl ColumnSummary {
 
     /// The columns of the table of energies of a model.
     #[must_use]
-    pub fn of_energies(model: &Model) -> Vec<Self> {
+    pub(crate) fn of_energies(model: &Model) -> Vec<Self> {
         let columns = model.physics().columns(model).into_iter();
         let summary =
             |column: Column| Some(Self::new(column.name, Quantity::of_column(column.name)?, model.units.dimension));
@@ -169,7 +169,7 @@ pub struct StartSummary {
 impl StartSummary {
     /// That of a scene and its model, if its particles are from a file.
     #[must_use]
-    pub fn new(scene: &Checked) -> Option<Self> {
+    pub(crate) fn new(scene: &Checked) -> Option<Self> {
         let model = scene.model();
         let what = start_in_words(scene)?;
         Some(Self { what, steps_before: model.steps_before, noise_seed: model.seed })
@@ -346,7 +346,7 @@ impl Summary {
 
     /// Whether everything that the run was to leave in its directory is there, and its tables are those that it wrote.
     #[must_use]
-    pub fn is_complete(&self, directory: &RunDirectory) -> bool {
+    pub(crate) fn is_complete(&self, directory: &RunDirectory) -> bool {
         let written = |name: &String| directory.file(name).is_file();
         self.files.as_ref().is_some_and(|files| files.iter().all(written)) && self.check_tables(directory).is_ok()
     }
@@ -356,7 +356,7 @@ impl Summary {
     /// # Errors
     /// [`OutputError::Altered`] names the first that is not, [`OutputError::Continued`] means that the run went on and was
     /// killed, [`OutputError::Io`] names the first that cannot be read.
-    pub fn check_tables(&self, directory: &RunDirectory) -> Result<(), OutputError> {
+    pub(crate) fn check_tables(&self, directory: &RunDirectory) -> Result<(), OutputError> {
         self.tables.keys().try_for_each(|name| self.check_table(directory, name))
     }
 
@@ -387,7 +387,7 @@ impl Summary {
     ///
     /// # Errors
     /// [`OutputError::OtherRun`] or [`OutputError::OtherScene`], with the path of the summary.
-    pub fn check_run(&self, run_id: Id, scene: &Scene, path: &Path) -> Result<(), OutputError> {
+    pub(crate) fn check_run(&self, run_id: Id, scene: &Scene, path: &Path) -> Result<(), OutputError> {
         run_id.check(path, Some(self.run_id), files::CHECKPOINT)?;
         if of_one_run(&self.scene, scene) { Ok(()) } else { Err(OutputError::OtherScene { path: path.to_path_buf() }) }
     }

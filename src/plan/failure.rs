@@ -45,7 +45,8 @@ impl FailureKind {
 
     /// The constant of the shaders.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    #[cfg(test)]
+    fn name(self) -> &'static str {
         match self {
             Self::Impulse => "FAILURE_IMPULSE",
             Self::Momentum => "FAILURE_MOMENTUM",
@@ -75,7 +76,6 @@ impl FailureKind {
 ///
 /// let failure = Failure { step: 12, bits: FailureKind::Bond.bit(), place: 7 };
 /// assert!(failure.is(FailureKind::Bond) && !failure.is(FailureKind::Momentum));
-/// assert_eq!(failure.kinds().collect::<Vec<_>>(), [FailureKind::Bond]);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Failure {
@@ -92,12 +92,6 @@ impl Failure {
     #[must_use]
     pub fn is(&self, kind: FailureKind) -> bool {
         self.bits & kind.bit() != 0
-    }
-
-    /// All its kinds.
-    pub fn kinds(&self) -> impl Iterator<Item = FailureKind> + use<> {
-        let failure = *self;
-        FailureKind::ALL.into_iter().filter(move |kind| failure.is(*kind))
     }
 }
 

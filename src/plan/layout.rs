@@ -68,7 +68,7 @@ pub enum Length {
 impl Length {
     /// Number of elements, as far as it is known beforehand.
     #[must_use]
-    pub fn expected(self) -> usize {
+    pub(crate) fn expected(self) -> usize {
         match self {
             Self::Exactly(count) | Self::AfterFirstStep(count) | Self::About(count) => count,
         }
@@ -76,7 +76,7 @@ impl Length {
 
     /// Whether an array of a state at a step may have so many elements.
     #[must_use]
-    pub fn allows(self, count: usize, step: u64) -> bool {
+    pub(crate) fn allows(self, count: usize, step: u64) -> bool {
         match self {
             Self::Exactly(expected) => count == expected,
             Self::AfterFirstStep(expected) => count == expected || (step == 0 && count == 0),
@@ -157,7 +157,7 @@ pub struct Places(Vec<bool>);
 impl Places {
     /// Of so many particles.
     #[must_use]
-    pub fn of(count: usize) -> Self {
+    pub(crate) fn of(count: usize) -> Self {
         Self(vec![false; count])
     }
 
@@ -165,7 +165,7 @@ impl Places {
     ///
     /// # Errors
     /// An id that came already, or is none.
-    pub fn take(&mut self, id: u32) -> Result<usize, String> {
+    pub(crate) fn take(&mut self, id: u32) -> Result<usize, String> {
         let place = id as usize;
         let fresh = self.0.get_mut(place).is_some_and(|taken| !std::mem::replace(taken, true));
         if fresh { Ok(place) } else { Err(format!("a particle came back with number {id}")) }

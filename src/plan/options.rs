@@ -92,7 +92,7 @@ impl Options {
 
     /// Whether longer bonds may be expected.
     #[must_use]
-    pub fn may_lengthen(&self) -> bool {
+    pub(crate) fn may_lengthen(&self) -> bool {
         self.part.is_some() && self.lengthened < 31
     }
 
@@ -104,7 +104,7 @@ impl Options {
 
     /// Whether kernels are adapted to lanes that run one after the other.
     #[must_use]
-    pub fn suits_serial_memory(&self, hardware: Hardware) -> bool {
+    pub(crate) fn suits_serial_memory(&self, hardware: Hardware) -> bool {
         self.serial_memory.unwrap_or(hardware.serial_memory)
     }
 

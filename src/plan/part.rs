@@ -61,7 +61,7 @@ pub struct Cells {
 impl Cells {
     /// Their part of a grid of so many cells.
     #[must_use]
-    pub fn share(&self, of: [u32; 3]) -> f64 {
+    pub(crate) fn share(&self, of: [u32; 3]) -> f64 {
         (0..3).map(|axis| f64::from(self.count[axis]) / f64::from(of[axis])).product()
     }
 }
@@ -149,7 +149,7 @@ impl Division {
 
     /// The ranks around a rank with anything nearer to its part than a distance, each once and without it.
     #[must_use]
-    pub fn peers(&self, rank: u32, units: &Units, distance: f64) -> Vec<u32> {
+    pub(crate) fn peers(&self, rank: u32, units: &Units, distance: f64) -> Vec<u32> {
         let place = self.place(rank);
         let along = |axis: usize| {
             let (parts, here) = (self.parts[axis], place[axis]);
@@ -173,13 +173,14 @@ impl Division {
     /// Whether a part, with a halo of this width around it, is smaller than the box, and so wide that a particle that leaves it within
     /// a step is no concern of the part after the next.
     #[must_use]
-    pub fn suits(&self, units: &Units, halo: f64, reach: f64) -> bool {
+    #[cfg(test)]
+    fn suits(&self, units: &Units, halo: f64, reach: f64) -> bool {
         (0..3).all(|axis| self.parts[axis] <= Self::most_parts(units, halo, reach, axis))
     }
 
     /// The most parts of an axis that suit.
     #[must_use]
-    pub fn most_parts(units: &Units, halo: f64, reach: f64, axis: usize) -> u32 {
+    pub(crate) fn most_parts(units: &Units, halo: f64, reach: f64, axis: usize) -> u32 {
         if axis >= units.dimension {
             return 1;
         }
@@ -196,7 +197,7 @@ impl Division {
 impl Domain {
     /// The same with what is nearer than a distance.
     #[must_use]
-    pub fn with_halo(mut self, units: &Units, distance: f64) -> Self {
+    pub(crate) fn with_halo(mut self, units: &Units, distance: f64) -> Self {
         for axis in 0..3 {
             if self.width[axis] == 0 {
                 continue;
@@ -211,7 +212,7 @@ impl Domain {
 
     /// The same without what is nearer than a distance to its faces, if anything is left. It must not go round the box.
     #[must_use]
-    pub fn without_edge(mut self, units: &Units, distance: f64) -> Option<Self> {
+    pub(crate) fn without_edge(mut self, units: &Units, distance: f64) -> Option<Self> {
         for axis in 0..3 {
             if self.width[axis] == 0 {
                 continue;
@@ -237,7 +238,7 @@ impl Domain {
     /// assert_eq!((cells.first, cells.count), ([0, 0, 3], [3, 3, 5]));
     /// ```
     #[must_use]
-    pub fn cells_within(&self, cells: [u32; 3]) -> Option<Cells> {
+    pub(crate) fn cells_within(&self, cells: [u32; 3]) -> Option<Cells> {
         let mut within = Cells { first: [0; 3], count: cells };
         for axis in (0..3).filter(|&axis| self.width[axis] > 0) {
             let (low, count) = (i64::from(self.low[axis]), i64::from(cells[axis]));
@@ -251,7 +252,7 @@ impl Domain {
 
     /// The cells of a grid that hold anything of it.
     #[must_use]
-    pub fn cells_around(&self, cells: [u32; 3]) -> Cells {
+    pub(crate) fn cells_around(&self, cells: [u32; 3]) -> Cells {
         let mut around = Cells { first: [0; 3], count: cells };
         for axis in (0..3).filter(|&axis| self.width[axis] > 0) {
             let (low, count) = (i64::from(self.low[axis]), i64::from(cells[axis]));
@@ -267,7 +268,7 @@ impl Domain {
 
     /// Whether it is the whole box.
     #[must_use]
-    pub fn is_whole(&self) -> bool {
+    pub(crate) fn is_whole(&self) -> bool {
         self.width == [0; 4]
     }
 
@@ -282,7 +283,7 @@ impl Domain {
 
     /// Its part of the volume of the box.
     #[must_use]
-    pub fn share(&self) -> f64 {
+    pub(crate) fn share(&self) -> f64 {
         let along = |width: u32| if width == 0 { 1.0 } else { f64::from(width) / 2_f64.powi(32) };
         self.width[..3].iter().map(|width| along(*width)).product()
     }
@@ -399,7 +400,7 @@ pub struct Stretch {
 impl SharedSum {
     /// The parts of a stretch in the array, each from where on and how many words: one, or two of a stretch that goes past the end.
     #[must_use]
-    pub fn pieces(&self, stretch: Stretch) -> [Stretch; 2] {
+    pub(crate) fn pieces(&self, stretch: Stretch) -> [Stretch; 2] {
         let before_end = stretch.count.min(self.length - stretch.first);
         [Stretch { count: before_end, ..stretch }, Stretch { first: 0, count: stretch.count - before_end }]
     }
@@ -408,7 +409,7 @@ impl SharedSum {
 impl PlannedPart {
     /// Bytes of what is summed that it sends in a step.
     #[must_use]
-    pub fn summed_bytes(&self) -> u64 {
+    pub(crate) fn summed_bytes(&self) -> u64 {
         let own = |sum: &SharedSum| sum.stretches.get(self.part.rank as usize).map_or(0, |stretch| stretch.count);
         4 * self.sum.as_ref().map_or(0, own) * self.others().len() as u64
     }
@@ -421,13 +422,13 @@ impl PlannedPart {
 
     /// Whether it knows particles of others, at some steps at least.
     #[must_use]
-    pub fn has_halo(&self) -> bool {
+    pub(crate) fn has_halo(&self) -> bool {
         self.halo > 0.0 || self.wider.is_some()
     }
 
     /// All other ranks.
     #[must_use]
-    pub fn others(&self) -> Vec<u32> {
+    pub(crate) fn others(&self) -> Vec<u32> {
         self.part.division.others(self.part.rank)
     }
 }

@@ -35,7 +35,7 @@ pub(crate) struct Measured {
 
 impl Measured {
     /// Whether an analysis needs something.
-    pub fn needs(&self, need: Need) -> bool {
+    pub(crate) fn needs(&self, need: Need) -> bool {
         self.needs.contains(&need)
     }
 }

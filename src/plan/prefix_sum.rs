@@ -18,7 +18,7 @@ pub(crate) struct PrefixSum<'a> {
 
 impl PrefixSum<'_> {
     /// The kernels, in order.
-    pub fn kernels(&self, options: Options) -> Vec<Kernel> {
+    pub(crate) fn kernels(&self, options: Options) -> Vec<Kernel> {
         let kernel = |name, entry, workgroups| Kernel::new(name, entry, self.choices.clone(), workgroups);
         if !needs_levels(self.cells, options) {
             return vec![kernel("scan", Entry::ScanCells, 1)];

@@ -38,14 +38,14 @@ impl Sums {
 
     /// These sums, and one more that an account keeps; none of no components.
     #[must_use]
-    pub fn with_account(mut self, sum: Sum, components: usize) -> Self {
+    pub(crate) fn with_account(mut self, sum: Sum, components: usize) -> Self {
         self.accounts.extend((components > 0).then_some((sum, components)));
         self
     }
 
     /// The number of all components.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.in_order().map(|(_, components)| components).sum()
     }
 
@@ -57,13 +57,13 @@ impl Sums {
 
     /// The place of a sum, or of its first component, in a row; nothing if the report lacks it.
     #[must_use]
-    pub fn place(&self, sum: Sum) -> Option<usize> {
+    pub(crate) fn place(&self, sum: Sum) -> Option<usize> {
         self.place_of_component(sum, 0)
     }
 
     /// A row of a report with its values by name.
     #[must_use]
-    pub fn row<'a>(&'a self, values: &'a [i64]) -> ReportRow<'a> {
+    pub(crate) fn row<'a>(&'a self, values: &'a [i64]) -> ReportRow<'a> {
         ReportRow { sums: self, values }
     }
 
@@ -105,13 +105,13 @@ pub struct ReportRow<'a> {
 impl ReportRow<'_> {
     /// The value of a sum; nothing if the report lacks it.
     #[must_use]
-    pub fn value(&self, sum: Sum) -> Option<i64> {
+    pub(crate) fn value(&self, sum: Sum) -> Option<i64> {
         self.component(sum, 0)
     }
 
     /// The value of a component of a sum; nothing if the report lacks it.
     #[must_use]
-    pub fn component(&self, sum: Sum, component: usize) -> Option<i64> {
+    pub(crate) fn component(&self, sum: Sum, component: usize) -> Option<i64> {
         self.values.get(self.sums.place_of_component(sum, component)?).copied()
     }
 

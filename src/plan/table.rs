@@ -37,7 +37,7 @@ pub struct Table(Arc<dyn Words>);
 impl Table {
     /// A table of these words.
     #[must_use]
-    pub fn new(words: impl Words) -> Self {
+    pub(crate) fn new(words: impl Words) -> Self {
         Self(Arc::new(words))
     }
 

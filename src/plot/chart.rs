@@ -92,20 +92,20 @@ pub struct Axis {
 impl Axis {
     /// A linear axis that fits its data.
     #[must_use]
-    pub fn linear(label: &str) -> Self {
+    pub(crate) fn linear(label: &str) -> Self {
         Self { label: label.to_owned(), ..Self::default() }
     }
 
     /// An axis of names, with the same width for each.
     #[must_use]
-    pub fn categories(label: &str, names: Vec<String>) -> Self {
+    pub(crate) fn categories(label: &str, names: Vec<String>) -> Self {
         let range = Some([-0.5, names.len().max(1) as f64 - 0.5]);
         Self { label: label.to_owned(), scale: Scale::Linear, range, categories: names, ..Self::default() }
     }
 
     /// A logarithmic axis that fits its data; what is not positive is left out and the subtitle says so.
     #[must_use]
-    pub fn log(label: &str) -> Self {
+    pub(crate) fn log(label: &str) -> Self {
         Self { label: label.to_owned(), scale: Scale::Log, ..Self::default() }
     }
 }
@@ -174,7 +174,7 @@ impl Series {
 
     /// A line that others are compared with, dashed in the ink of the axes: a fit, or what is exact.
     #[must_use]
-    pub fn compared(name: &str, points: Vec<[f64; 2]>) -> Self {
+    pub(crate) fn compared(name: &str, points: Vec<[f64; 2]>) -> Self {
         Self::line(name, points).with_ink(SeriesInk::Ink { pattern: 1 })
     }
 
@@ -186,21 +186,21 @@ impl Series {
 
     /// The series drawn with this ink.
     #[must_use]
-    pub fn with_ink(mut self, ink: SeriesInk) -> Self {
+    pub(crate) fn with_ink(mut self, ink: SeriesInk) -> Self {
         self.ink = ink;
         self
     }
 
     /// The series with hollow markers for points whose error is from few samples.
     #[must_use]
-    pub fn with_few(mut self, few: Vec<bool>) -> Self {
+    pub(crate) fn with_few(mut self, few: Vec<bool>) -> Self {
         self.few = few;
         self
     }
 
     /// The series with a word beside every point.
     #[must_use]
-    pub fn with_labels(mut self, labels: Vec<String>) -> Self {
+    pub(crate) fn with_labels(mut self, labels: Vec<String>) -> Self {
         self.labels = labels;
         self
     }

@@ -9,7 +9,13 @@ const MOST_NAMES: usize = 12;
 /// The curves of a quantity over each other, against time, each with a name that tells its run from the others. Curves
 /// on a scale of colours are named at even distances where there are too many of them.
 #[must_use]
-pub(crate) fn overlay_chart(title: &str, subtitle: &str, quantity: &str, relative: bool, mut curves: Vec<Series>) -> Chart {
+pub(crate) fn overlay_chart(
+    title: &str,
+    subtitle: &str,
+    quantity: &str,
+    relative: bool,
+    mut curves: Vec<Series>,
+) -> Chart {
     let on_scale: Vec<&mut Series> = curves
         .iter_mut()
         .filter(|curve| !curve.name.is_empty() && matches!(curve.ink, SeriesInk::Scale { .. }))

@@ -129,7 +129,7 @@ impl<'a> Team<'a> {
     ///
     /// # Errors
     /// [`EngineError`] if it does not fit, or of the first rank that has one.
-    pub fn upload(&mut self, state: &State) -> Result<(), EngineError> {
+    pub(crate) fn upload(&mut self, state: &State) -> Result<(), EngineError> {
         self.species.clone_from(&state.species);
         self.incomplete.clear();
         self.collected.clear();

@@ -63,7 +63,7 @@ pub struct Threads {
 
 impl Threads {
     /// Takes the threads of the other ranks, to wait for them at the end: they unload drivers, and a process that ends meanwhile crashes.
-    pub fn keep(&mut self, ranks: Vec<JoinHandle<()>>) {
+    pub(crate) fn keep(&mut self, ranks: Vec<JoinHandle<()>>) {
         self.ranks = ranks;
     }
 }
@@ -113,7 +113,7 @@ pub fn links(count: u32) -> Vec<Links> {
 
 /// The same with another time until a rank counts as lost.
 #[must_use]
-pub fn links_with(count: u32, patience: Duration) -> Vec<Links> {
+pub(crate) fn links_with(count: u32, patience: Duration) -> Vec<Links> {
     let channels = Lines::among(count, patience).into_iter().map(|lines| Threads { lines, ranks: Vec::new() });
     let peers = Lines::among(count, patience).into_iter().map(Peers);
     channels.zip(peers).map(|(channel, peers)| Links { channel, peers }).collect()

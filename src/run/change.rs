@@ -12,6 +12,17 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 /// A change to a simulation, as its checkpoints keep it.
+///
+/// ```
+/// use mesoscope::prelude::*;
+///
+/// let scene = scene::load("dpd-fluid", &["space.box=[4,4,4]", "output={}"].map(str::to_owned))?;
+/// let mut simulation = Simulation::new(&scene, &AdapterChoice::Best)?;
+/// let rounding: Rounding = simulation.set("temperature", 0.5)?;
+/// let [Change { step, key, value, .. }] = simulation.changes() else { return Ok(()) };
+/// assert_eq!((*step, key.as_str(), value.as_f64(), rounding.momentum), (0, "temperature", Some(0.5), [0.0; 3]));
+/// # Ok::<(), RunError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Change {
     /// The step before which it was made.

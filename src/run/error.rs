@@ -11,6 +11,16 @@ use crate::shaders::Array;
 use std::path::{Path, PathBuf};
 
 /// A failure of a run.
+///
+/// ```
+/// use mesoscope::prelude::*;
+///
+/// let scene = scene::load("dpd-fluid", &["space.box=[4,4,4]", "output={}"].map(str::to_owned))?;
+/// let mut simulation = Simulation::new(&scene, &AdapterChoice::Best)?;
+/// let refused: RunError = simulation.set("time.step", 0.02).unwrap_err();
+/// assert!(refused.to_string().contains("time.step"), "{refused}");
+/// # Ok::<(), RunError>(())
+/// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RunError {

@@ -44,7 +44,7 @@ impl Interrupt {
 
     /// Whether they have been asked.
     #[must_use]
-    pub fn is_asked(&self) -> bool {
+    pub(crate) fn is_asked(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }

@@ -21,6 +21,23 @@ use crate::ranks::{Processes, computes_alike, sharing_anywhere};
 use std::path::PathBuf;
 
 /// A run to be executed: a scene, where it begins and where its files go.
+///
+/// ```
+/// use mesoscope::prelude::*;
+///
+/// # let place = tempfile::tempdir()?;
+/// # let results = place.path().join("results");
+/// let small = ["space.box=[4,4,4]", "time.equilibration=0", "time.steps=40", "output={}"].map(str::to_owned);
+/// let scene = scene::load("dpd-fluid", &small)?;
+/// let mut last = 0;
+/// let outcome: Outcome = Run::start(scene, &results).execute(&AdapterChoice::Best, &mut |event| {
+///     if let Event::Advanced(progress) = event {
+///         last = progress.step;
+///     }
+/// })?;
+/// assert!(last == 40 && outcome.files.contains(&"energies.csv"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Run {
     scene: Checked,

@@ -597,6 +597,16 @@ impl Simulation {
 }
 
 /// Frames of a simulation, while it advances.
+///
+/// ```
+/// use mesoscope::prelude::*;
+///
+/// let scene = scene::load("dpd-fluid", &["space.box=[4,4,4]", "output={}"].map(str::to_owned))?;
+/// let mut simulation = Simulation::new(&scene, &AdapterChoice::Best)?;
+/// let steps: Vec<u64> = simulation.frames(25, 10).map(|frame| Ok(frame?.step)).collect::<Result<_, RunError>>()?;
+/// assert_eq!(steps, [10, 20, 25]);
+/// # Ok::<(), RunError>(())
+/// ```
 pub struct Frames<'s> {
     simulation: &'s mut Simulation,
     last: u64,

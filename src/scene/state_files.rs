@@ -22,7 +22,7 @@ struct FileRead {
 
 impl StateFiles {
     /// Those of a scene of that name, none of which has been read yet.
-    pub fn of(name: &str) -> Self {
+    pub(crate) fn of(name: &str) -> Self {
         let beside = start::path(name, "");
         let directory = std::path::absolute(if beside.as_os_str().is_empty() { Path::new(".") } else { &beside }).ok();
         // A path that is no text cannot be written into a summary: there it stays relative.
@@ -30,12 +30,12 @@ impl StateFiles {
     }
 
     /// Whether no scene has a file.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.read.is_empty()
     }
 
     /// Notes what a scene was read from, if that is new.
-    pub fn note(&mut self, scene: &Scene) {
+    pub(crate) fn note(&mut self, scene: &Scene) {
         if let Some(state) = &scene.state
             && let Some(checksum) = state.checksum.clone()
             && self.known(state).is_none()
@@ -45,7 +45,7 @@ impl StateFiles {
     }
 
     /// Where the file of a scene of that name is.
-    pub fn path(&self, name: &str, file: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str, file: &str) -> PathBuf {
         match &self.directory {
             Some(directory) => Path::new(directory).join(file),
             None => start::path(name, file),
@@ -53,7 +53,7 @@ impl StateFiles {
     }
 
     /// The checksum that was read, if the file was.
-    pub fn known(&self, state: &StateFile) -> Option<&str> {
+    pub(crate) fn known(&self, state: &StateFile) -> Option<&str> {
         let found = self.read.iter().find(|read| read.file == state.file && read.frame == state.frame);
         found.map(|read| read.checksum.as_str())
     }
@@ -62,7 +62,7 @@ impl StateFiles {
     ///
     /// # Errors
     /// [`SceneError::StateChanged`] if it is not.
-    pub fn check(&self, path: &Path, state: &StateFile, found: &str) -> Result<(), SceneError> {
+    pub(crate) fn check(&self, path: &Path, state: &StateFile, found: &str) -> Result<(), SceneError> {
         match self.known(state).filter(|known| *known != found) {
             None => Ok(()),
             Some(known) => {

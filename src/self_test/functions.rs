@@ -73,7 +73,7 @@ impl Function {
 
     /// As WGSL writes it.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Quotient => "x / y",
             Self::SquareRoot => "sqrt",

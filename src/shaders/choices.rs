@@ -13,17 +13,10 @@ impl Choice {
     /// use mesoscope::shaders::{Choice, baths::Pairs};
     ///
     /// assert_eq!(Choice::from(Pairs::White).path(), "baths/pairs/white");
-    /// assert_eq!(Choice::from(Pairs::White).slot(), "baths/pairs");
     /// ```
     #[must_use]
     pub fn path(self) -> &'static str {
         FILES[usize::from(self.0)].0
-    }
-
-    /// The slot, `domain/slot`.
-    #[must_use]
-    pub fn slot(self) -> &'static str {
-        self.path().rsplit_once('/').map_or("", |(slot, _)| slot)
     }
 
     /// Whether the other is of the same slot.
@@ -52,7 +45,7 @@ impl Choices {
     }
 
     /// Chooses a variant, in place of one that was chosen for its slot.
-    pub fn choose(&mut self, variant: impl Into<Choice>) {
+    pub(crate) fn choose(&mut self, variant: impl Into<Choice>) {
         let choice = variant.into();
         self.0.retain(|known| !known.replaces(choice));
         let place = self.0.partition_point(|known| *known < choice);
@@ -68,13 +61,13 @@ impl Choices {
 
     /// These and a variant, under a condition.
     #[must_use]
-    pub fn with_if(self, condition: bool, variant: impl Into<Choice>) -> Self {
+    pub(crate) fn with_if(self, condition: bool, variant: impl Into<Choice>) -> Self {
         if condition { self.with(variant) } else { self }
     }
 
     /// These and a variant, if there is one.
     #[must_use]
-    pub fn with_any(self, variant: Option<impl Into<Choice>>) -> Self {
+    pub(crate) fn with_any(self, variant: Option<impl Into<Choice>>) -> Self {
         match variant {
             Some(variant) => self.with(variant),
             None => self,
@@ -83,14 +76,14 @@ impl Choices {
 
     /// These and others, which replace those of the same slots.
     #[must_use]
-    pub fn and(mut self, others: &Self) -> Self {
+    pub(crate) fn and(mut self, others: &Self) -> Self {
         others.0.iter().for_each(|choice| self.choose(*choice));
         self
     }
 
     /// Whether a variant is chosen.
     #[must_use]
-    pub fn has(&self, variant: impl Into<Choice>) -> bool {
+    pub(crate) fn has(&self, variant: impl Into<Choice>) -> bool {
         self.0.contains(&variant.into())
     }
 

@@ -136,7 +136,7 @@ impl Library {
 
     /// The same files, some of which are parts of others, by their paths.
     #[must_use]
-    pub fn with_sources(mut self, sources: &[(&'static str, &'static str)]) -> Self {
+    pub(crate) fn with_sources(mut self, sources: &[(&'static str, &'static str)]) -> Self {
         for file in &mut self.files {
             let shared = sources.iter().find(|(path, _)| *path == file.path);
             file.source = shared.map_or(file.path, |(_, source)| source);

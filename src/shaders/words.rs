@@ -19,7 +19,7 @@ pub struct Word<'a> {
 }
 
 /// The words of a text, in order.
-pub fn words(text: &str) -> impl Iterator<Item = Word<'_>> {
+pub(crate) fn words(text: &str) -> impl Iterator<Item = Word<'_>> {
     let bytes = text.as_bytes();
     let starts = |byte: u8| byte.is_ascii_alphabetic() || byte == b'_';
     let continues = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'_';

@@ -220,7 +220,7 @@ impl Request {
 
     /// Scenes of the grid.
     #[must_use]
-    pub fn cell_count(&self) -> usize {
+    pub(crate) fn cell_count(&self) -> usize {
         self.row_count() * self.along.values.len()
     }
 

@@ -87,7 +87,7 @@ pub struct Chunk {
 impl Chunk {
     /// Bytes of a number; none of an unknown type.
     #[must_use]
-    pub fn size(self) -> Option<u64> {
+    pub(crate) fn size(self) -> Option<u64> {
         match self.kind {
             1 | 5 | 11 => Some(1),
             2 | 6 => Some(2),
@@ -99,7 +99,7 @@ impl Chunk {
 
     /// Where it begins in the file.
     #[must_use]
-    pub fn location(&self) -> u64 {
+    pub(crate) fn location(&self) -> u64 {
         self.location
     }
 
@@ -207,7 +207,7 @@ impl GsdReader {
 
     /// The program that wrote the file.
     #[must_use]
-    pub fn application(&self) -> Cow<'_, str> {
+    pub(crate) fn application(&self) -> Cow<'_, str> {
         text(&self.header.application)
     }
 
@@ -225,7 +225,7 @@ impl GsdReader {
 
     /// The name of an array; none where the list has no such place.
     #[must_use]
-    pub fn name(&self, chunk: Chunk) -> Option<&str> {
+    pub(crate) fn name(&self, chunk: Chunk) -> Option<&str> {
         self.names.get(usize::from(chunk.name)).map(String::as_str)
     }
 
@@ -233,7 +233,7 @@ impl GsdReader {
     ///
     /// # Errors
     /// [`GsdError`] where the index cannot be read or makes no sense.
-    pub fn next(&mut self, cursor: &mut Cursor) -> Result<Option<Chunk>, GsdError> {
+    pub(crate) fn next(&mut self, cursor: &mut Cursor) -> Result<Option<Chunk>, GsdError> {
         let [index, room] = self.header.index;
         if cursor.seen == cursor.piece.len() {
             let more = (room - cursor.read).min(PIECE as u64 / ENTRY);
@@ -271,7 +271,7 @@ impl GsdReader {
     ///
     /// # Errors
     /// [`GsdError`] where they cannot be read, or do not lie in the file.
-    pub fn content(&mut self, chunk: Chunk) -> Result<impl Read + '_, GsdError> {
+    pub(crate) fn content(&mut self, chunk: Chunk) -> Result<impl Read + '_, GsdError> {
         let is_inside = |bytes: &u64| chunk.location.checked_add(*bytes).is_some_and(|end| end <= self.length);
         let bytes = chunk.bytes().filter(is_inside).ok_or(GsdError::Cut)?;
         self.file.seek(SeekFrom::Start(chunk.location))?;
@@ -372,7 +372,7 @@ impl GsdWriter {
     ///
     /// # Errors
     /// [`GsdError`] where its index cannot be read, or it has another version.
-    pub fn append_to(mut reader: GsdReader) -> Result<Self, GsdError> {
+    pub(crate) fn append_to(mut reader: GsdReader) -> Result<Self, GsdError> {
         let version = reader.header.version >> 16;
         if version != VERSION >> 16 {
             return Err(GsdError::Version(version));
@@ -413,7 +413,7 @@ impl GsdWriter {
     ///
     /// # Errors
     /// As [`write`](Self::write), and [`GsdError`] of the other file.
-    pub fn copy(&mut self, reader: &mut GsdReader, chunk: Chunk) -> Result<(), GsdError> {
+    pub(crate) fn copy(&mut self, reader: &mut GsdReader, chunk: Chunk) -> Result<(), GsdError> {
         let name = reader.name(chunk).ok_or(GsdError::Index)?;
         let copy = Chunk { rows: chunk.rows, ..self.begin(name, chunk.kind, chunk.columns)? };
         let mut content = reader.content(chunk)?;

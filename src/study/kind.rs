@@ -100,7 +100,7 @@ impl Kind {
 
     /// Whether it may have written a file of this name.
     #[must_use]
-    pub fn has_file(&self, name: &str) -> bool {
+    pub(crate) fn has_file(&self, name: &str) -> bool {
         name == self.summary || self.files.contains(&name) || self.has_plots && self.is_plot(name)
     }
 

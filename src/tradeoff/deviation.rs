@@ -56,7 +56,7 @@ impl Deviation {
 
     /// Whether it is a part of something: of the reference, or what a drift, a distance or a share is one of.
     #[must_use]
-    pub fn is_part(&self) -> bool {
+    pub(crate) fn is_part(&self) -> bool {
         self.relative || measures::is_part(&self.measure)
     }
 
@@ -92,7 +92,7 @@ impl Deviation {
 
     /// Whether the error may as well be zero: it is within two standard errors.
     #[must_use]
-    pub fn is_within_noise(&self) -> bool {
+    pub(crate) fn is_within_noise(&self) -> bool {
         self.uncertainty.is_some_and(|uncertainty| self.size() <= CONFIDENCE * uncertainty)
     }
 }

@@ -140,7 +140,7 @@ impl Request {
 
     /// The independent runs of each choice.
     #[must_use]
-    pub fn seeds(&self) -> u32 {
+    pub(crate) fn seeds(&self) -> u32 {
         self.arguments.seeds.unwrap_or(1)
     }
 
@@ -236,7 +236,7 @@ impl Request {
 
     /// What is varied.
     #[must_use]
-    pub fn sweep(&self) -> &Sweep {
+    pub(crate) fn sweep(&self) -> &Sweep {
         &self.sweep
     }
 

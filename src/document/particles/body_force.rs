@@ -44,7 +44,7 @@ pub enum ForceProfile {
 impl ForceProfile {
     /// Whether it is the same everywhere.
     #[must_use]
-    pub fn is_uniform(&self) -> bool {
-        *self == Self::Uniform
+    pub(crate) fn is_uniform(self) -> bool {
+        self == Self::Uniform
     }
 }

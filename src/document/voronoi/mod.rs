@@ -143,7 +143,7 @@ impl Default for FrictionSolver {
 impl VoronoiInteraction {
     /// Viscosity η of the law of friction.
     #[must_use]
-    pub fn friction_viscosity(&self) -> f64 {
+    pub(crate) fn friction_viscosity(&self) -> f64 {
         self.viscosity.or_else(|| Some(self.shear_viscosity? / NETWORK_VISCOSITY)).unwrap_or(1.0)
     }
 
@@ -156,7 +156,7 @@ impl VoronoiInteraction {
 }
 
 /// Groups that start with a shear wave, with its amplitude and number of periods.
-pub fn shear_waves(scene: &Scene) -> impl Iterator<Item = (usize, f64, u32)> {
+pub(crate) fn shear_waves(scene: &Scene) -> impl Iterator<Item = (usize, f64, u32)> {
     scene.particles.iter().enumerate().filter_map(|(index, group)| match group.velocities {
         Velocities::ShearWave { amplitude, periods } => Some((index, amplitude, periods)),
         _ => None,

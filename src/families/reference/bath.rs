@@ -66,7 +66,7 @@ pub(crate) struct BathSums {
 
 impl BathSums {
     /// Adds a bath in, if it remembers and is coupled at all.
-    pub fn add(&mut self, step: &BathStep, value: f64) {
+    pub(crate) fn add(&mut self, step: &BathStep, value: f64) {
         if let Some(energy) = energy(step, value * value) {
             self.count += 1;
             self.squares += value * value;

@@ -56,7 +56,7 @@ impl<'a> Surface<'a> {
 
     /// Whether there are no features.
     #[must_use]
-    pub fn is_flat(&self) -> bool {
+    pub(crate) fn is_flat(&self) -> bool {
         self.features.is_empty()
     }
 

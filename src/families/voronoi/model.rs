@@ -59,14 +59,14 @@ impl Voronoi {
 
     /// Whether cells exchange mass.
     #[must_use]
-    pub fn exchanges_mass(&self) -> bool {
+    pub(crate) fn exchanges_mass(&self) -> bool {
         self.form != VoronoiForm::Gradient
     }
 
     /// Whether the limit on what crosses a face may act, on mass, heat or the volume that a turning face sweeps over:
     /// always, but for cells without any pressure.
     #[must_use]
-    pub fn has_limits(&self, temperature: f64) -> bool {
+    pub(crate) fn has_limits(&self, temperature: f64) -> bool {
         self.exchanges_mass() || self.keeps_energy() || temperature > 0.0
     }
 

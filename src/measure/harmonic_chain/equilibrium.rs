@@ -24,20 +24,9 @@ pub fn momentum_variance(chain: &HarmonicChain, temperature: f64) -> f64 {
 }
 
 /// `⟨X_μ X_ν⟩` of the clusters of a chain of beads.
-///
-/// ```
-/// use mesoscope::measure::harmonic_chain::equilibrium::cluster_covariance;
-/// use mesoscope::families::HarmonicChain;
-///
-/// let chain = HarmonicChain { clusters: 14, cluster_size: 16, mass: 1.0, stiffness: 1.0, reduced_friction: 0.5 };
-///
-/// // In the middle a cluster is freer than beside an end, and moves with its neighbour.
-/// let middle = cluster_covariance(&chain, 0.25, [7, 7]);
-/// assert!(middle > 3.0 * cluster_covariance(&chain, 0.25, [0, 0]));
-/// assert!(cluster_covariance(&chain, 0.25, [7, 8]) > 0.8 * middle);
-/// ```
 #[must_use]
-pub fn cluster_covariance(chain: &HarmonicChain, temperature: f64, clusters: [usize; 2]) -> f64 {
+#[cfg(test)]
+fn cluster_covariance(chain: &HarmonicChain, temperature: f64, clusters: [usize; 2]) -> f64 {
     let size = chain.cluster_size as f64;
     let length = chain.micro().beads as f64 + 1.0;
     let [left, right] = [clusters[0].min(clusters[1]), clusters[0].max(clusters[1])]

@@ -62,19 +62,20 @@ impl MemoryKernel {
 
     /// Number n of beads in a cluster.
     #[must_use]
-    pub fn cluster_size(&self) -> usize {
+    pub(crate) fn cluster_size(&self) -> usize {
         self.cluster_size
     }
 
     /// K at a time ω₀t, in units of ω₀².
     #[must_use]
-    pub fn value(&self, time: f64) -> f64 {
+    #[cfg(test)]
+    fn value(&self, time: f64) -> f64 {
         self.modes.iter().map(|[frequency, weight]| weight * (frequency * time).cos()).sum()
     }
 
     /// n/2 ∫K from 0 to a time ω₀t: the friction γ* = γ/√(mκ) that a kernel so short would amount to.
     #[must_use]
-    pub fn running_friction(&self, time: f64) -> f64 {
+    pub(crate) fn running_friction(&self, time: f64) -> f64 {
         self.integral(time, 0.0)
     }
 
@@ -87,7 +88,8 @@ impl MemoryKernel {
 
     /// The lowest frequency of the clamped beads, in units of ω₀.
     #[must_use]
-    pub fn lowest_frequency(&self) -> f64 {
+    #[cfg(test)]
+    fn lowest_frequency(&self) -> f64 {
         self.modes.iter().map(|[frequency, _]| *frequency).fold(f64::INFINITY, f64::min)
     }
 

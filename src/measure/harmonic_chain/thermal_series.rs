@@ -39,7 +39,7 @@ impl ThermalSeries {
     /// `(X_{μ+1} - X_μ)²` of all pairs of neighbours, and one after the other the means over the chain of P² and of
     /// `(X_{μ+1} - X_μ)²`.
     #[must_use]
-    pub fn from_parts(momenta: &[f64], separations: &[f64], history: &[[f64; 2]]) -> Self {
+    pub(crate) fn from_parts(momenta: &[f64], separations: &[f64], history: &[[f64; 2]]) -> Self {
         let clusters = momenta.len().checked_div(history.len()).unwrap_or(0);
         Self { clusters, momenta: momenta.to_vec(), separations: separations.to_vec(), history: history.to_vec() }
     }
@@ -47,7 +47,7 @@ impl ThermalSeries {
     /// The numbers that a sample adds to those of [`Self::from_parts`]: its momenta, the squares of its pairs, and the
     /// two means.
     #[must_use]
-    pub fn numbers_of(displacements: &[f64], momenta: &[f64]) -> Vec<f64> {
+    pub(crate) fn numbers_of(displacements: &[f64], momenta: &[f64]) -> Vec<f64> {
         let squares: Vec<f64> =
             displacements.windows(2).map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0])).collect();
         let momentum: f64 = momenta.iter().map(|momentum| momentum * momentum).sum();
@@ -70,7 +70,7 @@ impl ThermalSeries {
 
     /// Means over the chain of P² and of `(X_{μ+1} - X_μ)²`, sample after sample.
     #[must_use]
-    pub fn history(&self) -> &[[f64; 2]] {
+    pub(crate) fn history(&self) -> &[[f64; 2]] {
         &self.history
     }
 

@@ -58,7 +58,7 @@ pub(super) struct PairHistogram<'a> {
 
 impl PairHistogram<'_> {
     /// Adds the kernel, what records its counts, and the sampler.
-    pub fn add(self, planner: &mut Planner<'_>, ordered: &Ordered) {
+    pub(crate) fn add(self, planner: &mut Planner<'_>, ordered: &Ordered) {
         let plan = &mut *planner.plan;
         let mut kernels = ordered.kernels.clone();
         let bins = u64::from(self.asked.bins) * self.pairs.curves();

@@ -24,7 +24,7 @@ pub(super) enum SpeciesPairs {
 
 impl SpeciesPairs {
     /// The pairs that a scene asks for.
-    pub fn of(asked: Option<&CountedPairs>, model: &Model) -> Self {
+    pub(crate) fn of(asked: Option<&CountedPairs>, model: &Model) -> Self {
         let number = |name: &String| model.species_named(name).unwrap_or_default();
         match asked {
             None => Self::Alike,
@@ -38,7 +38,7 @@ impl SpeciesPairs {
     }
 
     /// Two species of each curve, in their order; nothing for all particles alike.
-    pub fn species(self) -> Vec<[usize; 2]> {
+    pub(crate) fn species(self) -> Vec<[usize; 2]> {
         match self {
             Self::Alike => Vec::new(),
             Self::Between(pair) => vec![pair],
@@ -47,7 +47,7 @@ impl SpeciesPairs {
     }
 
     /// The columns of a curve end with the numbers of its species, where there are several curves.
-    pub fn suffix(self, place: usize) -> String {
+    pub(crate) fn suffix(self, place: usize) -> String {
         match (self, self.species().get(place)) {
             (Self::All(_), Some([a, b])) => format!("_{a}_{b}"),
             _ => String::new(),
@@ -55,22 +55,22 @@ impl SpeciesPairs {
     }
 
     /// The names of the two species of a curve; none of all particles alike.
-    pub fn names(self, place: usize, model: &Model) -> Option<[&str; 2]> {
+    pub(crate) fn names(self, place: usize, model: &Model) -> Option<[&str; 2]> {
         self.species().get(place).map(|pair| pair.map(|number| model.species[number].name.as_str()))
     }
 
     /// The result of curves, of which there is one unless all pairs are asked for.
-    pub fn result(self, mut of_curves: Vec<Value>) -> Value {
+    pub(crate) fn result(self, mut of_curves: Vec<Value>) -> Value {
         if self.are_all() { json!({ PAIRS: of_curves }) } else { of_curves.swap_remove(0) }
     }
 
     /// True if results are those of several curves.
-    pub fn are_all(self) -> bool {
+    pub(crate) fn are_all(self) -> bool {
         matches!(self, Self::All(_))
     }
 
     /// Number of curves.
-    pub fn curves(self) -> u64 {
+    pub(crate) fn curves(self) -> u64 {
         self.species().len().max(1) as u64
     }
 }

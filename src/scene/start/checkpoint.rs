@@ -28,7 +28,7 @@ pub(super) struct Run {
 
 impl Run {
     /// What a scene has of it that goes on with it.
-    pub fn earlier(&self) -> EarlierRun {
+    pub(crate) fn earlier(&self) -> EarlierRun {
         EarlierRun {
             seed: self.scene.model().seed,
             steps: self.scene.model().clock(self.state.step),
@@ -38,28 +38,28 @@ impl Run {
     }
 
     /// The integrator of it, whose rule of relaxation a scene takes that names none.
-    pub fn integrator(&self) -> &Integrator {
+    pub(crate) fn integrator(&self) -> &Integrator {
         &self.scene.model().particles().integrator
     }
 
     /// Whether a scene has the seed, forces, baths and time step of it, so that it goes on with it: a model of the scene was made with
     /// [`Self::earlier`].
-    pub fn goes_on_with(&self, seed: u64, model: &Model) -> bool {
+    pub(crate) fn goes_on_with(&self, seed: u64, model: &Model) -> bool {
         seed == self.scene.seed && model.has_the_steps_of(self.scene.model())
     }
 
     /// The state where the other run begins.
-    pub fn state(&self) -> State {
+    pub(crate) fn state(&self) -> State {
         State { step: 0, ..self.state.clone() }
     }
 
     /// Its scene.
-    pub fn scene(&self) -> &Checked {
+    pub(crate) fn scene(&self) -> &Checked {
         &self.scene
     }
 
     /// What of it a scene with other steps cannot take, in words.
-    pub fn forgotten(&self) -> impl Iterator<Item = &'static str> {
+    pub(crate) fn forgotten(&self) -> impl Iterator<Item = &'static str> {
         let there = StateArray::ALL.into_iter().filter(|array| self.state.length(*array) > 0);
         let mut lost: Vec<&str> = there.filter_map(lost).collect();
         // Arrays of one kind follow each other.
@@ -69,7 +69,7 @@ impl Run {
 
     /// Velocities at the report point, where those in a checkpoint are half a step behind: the float64 reference closes the step with
     /// the forces, baths and time step of the run itself.
-    pub fn velocities(&self) -> Result<Vec<[f64; 3]>, Mistake> {
+    pub(crate) fn velocities(&self) -> Result<Vec<[f64; 3]>, Mistake> {
         let reference = self.scene.model().physics().reference(self.scene.model(), &self.state);
         let momenta = reference.and_then(|reference| reference.reported_momenta().ok());
         let momenta = momenta.ok_or_else(|| damaged("the last step of its run cannot be completed"))?;

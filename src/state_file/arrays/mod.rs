@@ -39,7 +39,7 @@ const FORMATS: &str = "an `.npz` file as `numpy.savez` writes it, or a file in a
 
 impl ArrayFile {
     /// Reads a file and the list of its arrays.
-    pub fn open(path: &Path) -> Result<Self, Mistake> {
+    pub(crate) fn open(path: &Path) -> Result<Self, Mistake> {
         let mut bytes = Vec::new();
         let read = open_regular_file(path).and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes));
         read.map_err(|error| Mistake::new("", format!("it cannot be read ({error})"), FORMATS))?;
@@ -64,7 +64,7 @@ impl ArrayFile {
     }
 
     /// The names of the arrays, in the order of the file.
-    pub fn names(&self) -> Vec<&str> {
+    pub(crate) fn names(&self) -> Vec<&str> {
         match &self.content {
             Content::Npz(members) => members.iter().map(|member| member.name.as_str()).collect(),
             Content::Netcdf(header) => header.variables.iter().map(|variable| variable.name.as_str()).collect(),
@@ -72,7 +72,7 @@ impl ArrayFile {
     }
 
     /// The array of a name that is there.
-    pub fn read(&self, name: &str) -> Result<Array, Mistake> {
+    pub(crate) fn read(&self, name: &str) -> Result<Array, Mistake> {
         match &self.content {
             Content::Npz(members) => npz::read(&self.bytes, members, name),
             Content::Netcdf(header) => header.values(&self.bytes, name),

@@ -103,7 +103,7 @@ impl<'a> Reader<'a> {
 
 impl Header {
     /// The header at the beginning of a file.
-    pub fn read(bytes: &[u8]) -> Result<Self, Mistake> {
+    pub(crate) fn read(bytes: &[u8]) -> Result<Self, Mistake> {
         let version = bytes.get(3).copied().unwrap_or_default();
         if ![1, 2, 5].contains(&version) {
             return Err(Mistake::new("", format!("its format is CDF-{version}"), "CDF-1, CDF-2 or CDF-5"));
@@ -161,7 +161,7 @@ impl Header {
     }
 
     /// The values of a variable.
-    pub fn values(&self, bytes: &[u8], name: &str) -> Result<Array, Mistake> {
+    pub(crate) fn values(&self, bytes: &[u8], name: &str) -> Result<Array, Mistake> {
         let place = of_array(name);
         let damaged = || Mistake::new(&place, "its values are cut short", ACCEPTED);
         let variable = self.variables.iter().find(|variable| variable.name == name).ok_or_else(damaged)?;

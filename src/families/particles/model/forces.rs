@@ -76,12 +76,12 @@ impl<'a> Particles<'a> {
     }
 
     /// The longest edge of the box.
-    pub fn longest_edge(&self) -> f64 {
+    pub(crate) fn longest_edge(&self) -> f64 {
         self.scene.space.lengths.iter().copied().fold(0.0, f64::max)
     }
 
     /// The mass of the heaviest species that can move.
-    pub fn heaviest_mobile(&self) -> f64 {
+    pub(crate) fn heaviest_mobile(&self) -> f64 {
         self.masses.iter().flatten().copied().fold(0.0, f64::max)
     }
 
@@ -111,7 +111,7 @@ impl<'a> Particles<'a> {
     }
 
     /// The mass that angles move.
-    pub fn mass_of_angles(&self, angles: &AnglesInteraction) -> f64 {
+    pub(crate) fn mass_of_angles(&self, angles: &AnglesInteraction) -> f64 {
         let of_triple = |triple: &[u32; 3]| moved(triple.map(|particle| self.mass_of(particle)));
         match angles.links(self.scene).source(self.scene) {
             LinkSource::Listed(triples) => triples.iter().map(of_triple).fold(0.0, f64::max),
@@ -121,7 +121,7 @@ impl<'a> Particles<'a> {
     }
 
     /// The largest momentum that bonds of a stiffness, a length at rest and an extent give.
-    pub fn momentum_of_bonds(&self, bonds: &BondsInteraction, stiffness: f64, length: f64, extent: f64) -> f64 {
+    pub(crate) fn momentum_of_bonds(&self, bonds: &BondsInteraction, stiffness: f64, length: f64, extent: f64) -> f64 {
         let least = RESOLUTION * self.longest_edge();
         let of = |start: Start| start.mass.sqrt() * start.extension.min(extent).max(least);
         stiffness.sqrt() * self.starts(bonds, length).into_iter().map(of).fold(0.0, f64::max)

@@ -23,13 +23,13 @@ impl BondedMolecules {
 
     /// Number of molecules.
     #[must_use]
-    pub fn count(&self) -> u32 {
+    pub(crate) fn count(&self) -> u32 {
         (self.walks.len() / self.steps.max(1) as usize) as u32
     }
 
     /// Number of particles in a molecule.
     #[must_use]
-    pub fn beads(&self) -> u32 {
+    pub(crate) fn beads(&self) -> u32 {
         self.composition.values().sum()
     }
 }
@@ -110,7 +110,7 @@ pub(crate) struct Neighbours {
 }
 
 impl Neighbours {
-    pub fn new(bonds: impl Iterator<Item = [u32; 2]>, particles: u32) -> Self {
+    pub(crate) fn new(bonds: impl Iterator<Item = [u32; 2]>, particles: u32) -> Self {
         let mut bonds: Vec<[u32; 2]> = bonds.flat_map(|[a, b]| [[a, b], [b, a]]).collect();
         bonds.retain(|[a, b]| a != b);
         bonds.sort_unstable();
@@ -125,7 +125,7 @@ impl Neighbours {
     }
 
     /// All particles that bonds join with one.
-    pub fn joined(&self, particle: u32, is_known: &mut [bool]) -> Vec<u32> {
+    pub(crate) fn joined(&self, particle: u32, is_known: &mut [bool]) -> Vec<u32> {
         let mut members = vec![particle];
         is_known[particle as usize] = true;
         let mut next = 0;

@@ -67,7 +67,7 @@ pub enum Alike<'a, const LENGTH: usize> {
 
 impl<const LENGTH: usize> Runs<LENGTH> {
     /// Adds links from wherever they come.
-    pub fn add(&mut self, kind: u32, links: &Links<'_, LENGTH>, scene: &Scene, species: &[Species]) {
+    pub(crate) fn add(&mut self, kind: u32, links: &Links<'_, LENGTH>, scene: &Scene, species: &[Species]) {
         let shapes: Vec<Shape<LENGTH>> = match links.source(scene) {
             LinkSource::Listed(listed) => vec![Shape::Listed(listed.to_vec())],
             LinkSource::Start(links) => links.into_iter().map(|links| Shape::File(Arc::clone(links))).collect(),
@@ -86,25 +86,25 @@ impl<const LENGTH: usize> Runs<LENGTH> {
     }
 
     /// Number of runs.
-    pub fn count(&self) -> u64 {
+    pub(crate) fn count(&self) -> u64 {
         self.count_of(|_| true)
     }
 
     /// Number of runs of some kinds.
-    pub fn count_of(&self, asked: impl Fn(u32) -> bool) -> u64 {
+    pub(crate) fn count_of(&self, asked: impl Fn(u32) -> bool) -> u64 {
         let stretches = self.stretches.iter().filter(|stretch| asked(stretch.kind));
         stretches.fold(0, |sum, stretch| sum.saturating_add(stretch.shape.count()))
     }
 
     /// All runs with their kinds, in order.
-    pub fn iter(&self) -> impl Iterator<Item = Link<LENGTH>> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Link<LENGTH>> {
         self.stretches.iter().flat_map(|stretch| {
             (0..stretch.shape.count()).map(|index| Link { ends: stretch.shape.run(index), kind: stretch.kind })
         })
     }
 
     /// Kinds and what their runs have in common.
-    pub fn alike(&self) -> impl Iterator<Item = (u32, Alike<'_, LENGTH>)> {
+    pub(crate) fn alike(&self) -> impl Iterator<Item = (u32, Alike<'_, LENGTH>)> {
         let of_some = |stretch: &&Stretch<LENGTH>| stretch.shape.count() > 0;
         self.stretches.iter().filter(of_some).map(|stretch| (stretch.kind, stretch.shape.alike()))
     }
@@ -112,14 +112,21 @@ impl<const LENGTH: usize> Runs<LENGTH> {
 
 impl Runs<2> {
     /// Adds the neighbours along `beads` particles from `first` on, and those of its ends with two particles elsewhere.
-    pub fn add_strand(&mut self, kind: u32, [before, after]: [u32; 2], first: u32, beads: u32, species: [usize; 2]) {
+    pub(crate) fn add_strand(
+        &mut self,
+        kind: u32,
+        [before, after]: [u32; 2],
+        first: u32,
+        beads: u32,
+        species: [usize; 2],
+    ) {
         let [species, end_species] = species;
         self.stretches
             .push(Stretch { kind, shape: Shape::Strand { before, first, beads, after, species, end_species } });
     }
 
     /// The largest number of different partners that a particle has in runs of some kinds.
-    pub fn most_partners(&self, asked: impl Fn(u32) -> bool) -> usize {
+    pub(crate) fn most_partners(&self, asked: impl Fn(u32) -> bool) -> usize {
         let mut most = 0;
         let mut listed = HashSet::new();
         // Groups of chains by their first particle: chains, beads, and whether they are closed.

@@ -47,19 +47,19 @@ pub(crate) struct Scales<'a> {
 
 impl Scales<'_> {
     /// Impulse of half a step by a unit force, in momentum units.
-    pub fn impulse(&self) -> f64 {
+    pub(crate) fn impulse(&self) -> f64 {
         0.5 * self.model.time_step / self.model.units.momentum
     }
 
     /// Adds the constant of the law of baths, which another coupling may have added already.
-    pub fn add_bath_impulse(&self, plan: &mut Plan) {
+    pub(crate) fn add_bath_impulse(&self, plan: &mut Plan) {
         if !plan.constants.iter().any(|(name, _)| *name == Constant::BathImpulse) {
             plan.constants.push((Constant::BathImpulse, self.impulse()));
         }
     }
 
     /// Constants of a report that sums whatever has two ends once, while a traversal of pairs visits it from both.
-    pub fn once(&self, asked: &[Constant]) -> Vec<(Constant, f64)> {
+    pub(crate) fn once(&self, asked: &[Constant]) -> Vec<(Constant, f64)> {
         let to_force = 1.0 / self.impulse();
         let cutoff = self.model.particles().pair_force.as_ref().map_or(1.0, |force| force.cutoff);
         let all = [
@@ -71,13 +71,13 @@ impl Scales<'_> {
     }
 
     /// Displacement of a species in a step per unit of momentum, rounded where particles drift.
-    pub fn drift_per_momentum(&self, species: usize) -> f32 {
+    pub(crate) fn drift_per_momentum(&self, species: usize) -> f32 {
         let drift = (self.model.time_step * self.model.units.momentum / self.species.mass()) as f32;
         if self.species.have_one_mass() { drift } else { drift * self.inverse_mass(species) as f32 }
     }
 
     /// Inverse masses; none of what is held.
-    pub fn inverse_mass(&self, species: usize) -> f64 {
+    pub(crate) fn inverse_mass(&self, species: usize) -> f64 {
         let species = &self.model.species[species];
         if species.fixed { 0.0 } else { 1.0 / species.mass }
     }

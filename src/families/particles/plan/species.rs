@@ -21,7 +21,7 @@ pub(crate) struct Species {
 }
 
 impl Species {
-    pub fn of(model: &Model) -> Self {
+    pub(crate) fn of(model: &Model) -> Self {
         let mut masses = model.species.iter().map(|species| (!species.fixed).then_some(species.mass));
         let first = masses.next().unwrap_or(Some(1.0));
         let mass = first.filter(|mass| masses.all(|other| other == Some(*mass)));
@@ -32,23 +32,23 @@ impl Species {
 
     /// True if there is a table: all coefficients of a single species that can move are constants, unless it has
     /// several cutoffs.
-    pub fn have_table(self) -> bool {
+    pub(crate) fn have_table(self) -> bool {
         self.count > 1 || self.mass.is_none() || self.ranges
     }
 
     /// Whether all particles have the same mass. Friction then acts on differences of momentum, else of velocity.
-    pub fn have_one_mass(self) -> bool {
+    pub(crate) fn have_one_mass(self) -> bool {
         self.mass.is_some()
     }
 
     /// The mass in the constants: that of all particles, or 1 where they differ.
-    pub fn mass(self) -> f64 {
+    pub(crate) fn mass(self) -> f64 {
         self.mass.unwrap_or(1.0)
     }
 
     /// The inverse mass of a species in the table: zero if it is fixed, and negative if it is frozen and moves with its
     /// wall.
-    pub fn inverse_mass(species: &families::Species) -> f64 {
+    pub(crate) fn inverse_mass(species: &families::Species) -> f64 {
         match (species.fixed, species.frozen) {
             (_, true) => -1.0 / species.mass,
             (true, false) => 0.0,
@@ -57,7 +57,7 @@ impl Species {
     }
 
     /// Where kernels find coefficients.
-    pub fn choices(self) -> Choices {
+    pub(crate) fn choices(self) -> Choices {
         Choices::new()
             .with_if(self.sheared, RelativeMotion::Sheared)
             .with(MassOfParticle::OfSpecies)
@@ -65,7 +65,7 @@ impl Species {
     }
 
     /// The constants that say whose masses differ, and whether some particles do not move.
-    pub fn constants(self) -> [(Constant, f64); 2] {
+    pub(crate) fn constants(self) -> [(Constant, f64); 2] {
         [switch(Constant::OneMass, self.have_one_mass()), switch(Constant::Held, self.held)]
     }
 }

@@ -47,12 +47,12 @@ impl<'a> Configuration<'a> {
     }
 
     /// The part of what a pair adds that belongs to ends that can move.
-    pub fn mobile_share(&self, pair: &Pair) -> f64 {
+    pub(crate) fn mobile_share(&self, pair: &Pair) -> f64 {
         0.5 * [pair.first, pair.second].into_iter().filter(|end| !self.held[*end]).count() as f64
     }
 
     /// Adds the potential of a pair or a bond.
-    pub fn add(&mut self, pair: &Pair, potential: &Potential) {
+    pub(crate) fn add(&mut self, pair: &Pair, potential: &Potential) {
         self.potential += potential.energy;
         self.virial += self.mobile_share(pair) * potential.virial(pair.distance);
         let gradient = potential.gradient(pair);

@@ -84,12 +84,12 @@ impl Kicks {
     }
 
     /// Adds an impulse to that of one particle, rounded half to even to whole units.
-    pub fn push(&mut self, model: &Model, particle: usize, impulse: [f64; 3]) {
+    pub(crate) fn push(&mut self, model: &Model, particle: usize, impulse: [f64; 3]) {
         round(&mut self.both[particle], impulse, model.units.momentum);
     }
 
     /// Adds the impulses and virials of forces that push a pair apart.
-    pub fn push_apart(&mut self, model: &Model, pair: &Pair, conservative: f64, frictional: f64) {
+    pub(crate) fn push_apart(&mut self, model: &Model, pair: &Pair, conservative: f64, frictional: f64) {
         let force = conservative + frictional;
         let impulse = pair.direction().map(|component| 0.5 * model.time_step * force * component);
         exchange(&mut self.both, pair, impulse, model.units.momentum);

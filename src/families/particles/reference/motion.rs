@@ -22,7 +22,7 @@ pub(crate) struct Motion {
 
 impl Motion {
     /// The drifts that the momenta in the state have made; at step 0 they are taken to have made one.
-    pub fn of(model: &Model, state: &State, masses: &[f64]) -> Self {
+    pub(crate) fn of(model: &Model, state: &State, masses: &[f64]) -> Self {
         let length = |axis: usize| model.units.lengths[axis] / 4_294_967_296.0;
         let drifts = end_of_step::drifts(model, masses, &state.momenta, 1);
         let seen = if state.predicted.is_empty() { &state.momenta } else { &state.predicted };
@@ -42,12 +42,12 @@ impl Motion {
     }
 
     /// The way of a particle in the last step, which a bath with memory sees.
-    pub fn way(&self, particle: usize) -> [f64; 3] {
+    pub(crate) fn way(&self, particle: usize) -> [f64; 3] {
         self.ways.as_ref().unwrap_or(&self.drifts)[particle]
     }
 
     /// What a bath without memory takes for the drift of a particle.
-    pub fn drift_seen(&self, particle: usize) -> [f64; 3] {
+    pub(crate) fn drift_seen(&self, particle: usize) -> [f64; 3] {
         match &self.velocities {
             Some(velocities) => velocities[particle].map(|velocity| velocity * self.time_step),
             None => self.drifts[particle],
@@ -63,18 +63,18 @@ impl Motion {
     }
 
     /// The distance of a pair before the last drift.
-    pub fn distance_before(&self, pair: &Pair) -> f64 {
+    pub(crate) fn distance_before(&self, pair: &Pair) -> f64 {
         let before = self.separation_before(pair, |particle| self.drifts[particle]);
         dot(before, before).sqrt()
     }
 
     /// By how much the distance of a pair has changed over the last drift, as a bath without memory sees it.
-    pub fn drift_of_distance(&self, pair: &Pair) -> f64 {
+    pub(crate) fn drift_of_distance(&self, pair: &Pair) -> f64 {
         Self::change(pair, self.separation_before(pair, |particle| self.drifts[particle]))
     }
 
     /// By how much the distance of a pair has changed in the last step, as a bath with memory sees it.
-    pub fn change_of_distance(&self, pair: &Pair) -> f64 {
+    pub(crate) fn change_of_distance(&self, pair: &Pair) -> f64 {
         Self::change(pair, self.separation_before(pair, |particle| self.way(particle)))
     }
 
@@ -88,7 +88,7 @@ impl Motion {
     }
 
     /// dt e·(vᵢ - vⱼ), where baths without memory see velocities.
-    pub fn approach(&self, pair: &Pair) -> Option<f64> {
+    pub(crate) fn approach(&self, pair: &Pair) -> Option<f64> {
         let velocities = self.velocities.as_ref()?;
         let (first, second) = (velocities[pair.first], velocities[pair.second]);
         let mut relative: [f64; 3] = std::array::from_fn(|axis| first[axis] - second[axis]);

@@ -23,13 +23,13 @@ pub(crate) struct Pair {
 
 impl Pair {
     /// Two particles where they are, i < j or the ends of a bond.
-    pub fn of(images: &Images<'_>, positions: &[[u32; 3]], first: usize, second: usize) -> Self {
+    pub(crate) fn of(images: &Images<'_>, positions: &[[u32; 3]], first: usize, second: usize) -> Self {
         let (separation, boxes_up) = images.displacement(positions[first], positions[second]);
         Self { first, second, separation, distance: dot(separation, separation).sqrt(), boxes_up }
     }
 
     /// The unit vector e along rᵢ - rⱼ. Two particles in the same place have none: e = 0, and they exert no force.
-    pub fn direction(&self) -> [f64; 3] {
+    pub(crate) fn direction(&self) -> [f64; 3] {
         if self.distance == 0.0 { [0.0; 3] } else { self.separation.map(|component| component / self.distance) }
     }
 }
@@ -174,7 +174,7 @@ pub(crate) struct Forces {
 
 impl Forces {
     /// The forces between two particles; none at all without a pair force, and each within its own cutoff.
-    pub fn between(model: &Model, species: &[u32], pair: &Pair) -> Self {
+    pub(crate) fn between(model: &Model, species: &[u32], pair: &Pair) -> Self {
         let Some(force) = model.particles().pair_force.as_ref() else { return Self::default() };
         let [a, b] = [species[pair.first] as usize, species[pair.second] as usize];
         let potential = Potential::of_pair(force, [a, b], pair.distance);

@@ -17,7 +17,7 @@ pub(crate) struct Potential {
 
 impl Potential {
     /// The conservative force between particles of two species: the sum of their repulsions, each within its cutoff.
-    pub fn of_pair(force: &PairForce, [a, b]: [usize; 2], distance: f64) -> Self {
+    pub(crate) fn of_pair(force: &PairForce, [a, b]: [usize; 2], distance: f64) -> Self {
         let acting = force.repulsions(a, b).filter(|own| distance < own.cutoff);
         acting.map(|own| Self::of_repulsion(own, distance)).fold(Self::default(), |sum, own| Self {
             energy: sum.energy + own.energy,
@@ -35,7 +35,7 @@ impl Potential {
     }
 
     /// Of a bond of some length; none for a length that is out of reach.
-    pub fn of_bond(potential: Option<&BondPotential>, distance: f64) -> Option<Self> {
+    pub(crate) fn of_bond(potential: Option<&BondPotential>, distance: f64) -> Option<Self> {
         match *potential.unwrap_or(&BondPotential::Harmonic { stiffness: 0.0, length: 0.0 }) {
             BondPotential::Harmonic { stiffness, length } => {
                 let extension = distance - length;
@@ -58,23 +58,23 @@ impl Potential {
     }
 
     /// The force that pushes both ends apart.
-    pub fn force(&self) -> f64 {
+    pub(crate) fn force(&self) -> f64 {
         -self.slope
     }
 
     /// r·F.
-    pub fn virial(&self, distance: f64) -> f64 {
+    pub(crate) fn virial(&self, distance: f64) -> f64 {
         distance * self.force()
     }
 
     /// ∇²V by the position of either end, V'' + (d - 1) V'/r. Two particles in the same place have no direction, and no
     /// derivatives.
-    pub fn laplacian(&self, distance: f64, dimension: usize) -> f64 {
+    pub(crate) fn laplacian(&self, distance: f64, dimension: usize) -> f64 {
         if distance == 0.0 { 0.0 } else { self.curvature + (dimension - 1) as f64 * self.slope / distance }
     }
 
     /// ∇V by the position of the first end; by that of the second it is the opposite.
-    pub fn gradient(&self, pair: &Pair) -> [f64; 3] {
+    pub(crate) fn gradient(&self, pair: &Pair) -> [f64; 3] {
         pair.direction().map(|component| self.slope * component)
     }
 }

@@ -30,13 +30,13 @@ pub(crate) struct Virials {
 }
 
 impl Virials {
-    pub fn new(model: &Model, state: &State) -> Self {
+    pub(crate) fn new(model: &Model, state: &State) -> Self {
         let counts = |particle: usize| if held::is_held(model, state, particle) { 0.0 } else { 1.0 };
         Self { total: 0.0, each: vec![Virial::default(); state.len()], counts: (0..state.len()).map(counts).collect() }
     }
 
     /// Adds the forces of a pair or a bond along the line of centres, positive apart.
-    pub fn add(&mut self, pair: &Pair, conservative: f64, frictional: f64) {
+    pub(crate) fn add(&mut self, pair: &Pair, conservative: f64, frictional: f64) {
         let counts = 0.5 * (self.counts[pair.first] + self.counts[pair.second]);
         self.total += counts * pair.distance * (conservative + frictional);
         let direction = pair.direction();
@@ -51,7 +51,7 @@ impl Virials {
     }
 
     /// Adds the conservative force on the end of an arm from the vertex of an angle.
-    pub fn add_arm(&mut self, vertex: usize, arm: [f64; 3], force: [f64; 3]) {
+    pub(crate) fn add_arm(&mut self, vertex: usize, arm: [f64; 3], force: [f64; 3]) {
         for (component, [a, b]) in AXES.into_iter().enumerate() {
             // Both arms together are symmetric.
             self.each[vertex].conservative[component] += 0.5 * (arm[a] * force[b] + arm[b] * force[a]);

@@ -61,7 +61,7 @@ impl Builder<'_> {
     }
 
     /// Adds impulses to particles in any order.
-    pub fn kicks(&self) -> Choices {
+    pub(crate) fn kicks(&self) -> Choices {
         bonded::kicks(self.model.units.dimension)
     }
 
@@ -77,12 +77,12 @@ impl Builder<'_> {
     }
 
     /// True if pairs are found in a list.
-    pub fn lists_pairs(&self) -> bool {
+    pub(crate) fn lists_pairs(&self) -> bool {
         self.order == Order::WithList
     }
 
     /// Adds the kernels of bonds, angles or excluded pairs.
-    pub fn couple(&mut self, bonded: &Bonded, rows: &mut u32, kernels: &mut GatheringKernels) {
+    pub(crate) fn couple(&mut self, bonded: &Bonded, rows: &mut u32, kernels: &mut GatheringKernels) {
         self.plan.constants.extend(bonded.constants.iter().copied());
         let kicks = self.kicks();
         let kick = self.bonded_kernel(bonded.name, bonded, &bonded.choices.clone().and(&kicks));
@@ -131,7 +131,7 @@ impl Builder<'_> {
     }
 
     /// A kernel of a report leaves rows of sums after the given number of rows, which it raises.
-    pub fn leaves_rows(&mut self, kernel: usize, rows: &mut u32) {
+    pub(crate) fn leaves_rows(&mut self, kernel: usize, rows: &mut u32) {
         self.plan.kernels[kernel].constants.push((Constant::FirstGroup, f64::from(*rows)));
         *rows += self.plan.kernels[kernel].workgroups;
     }

@@ -261,7 +261,7 @@ impl<'a> Builder<'a> {
         if self.relaxes_in_two_stages() && excess > 1.0 { RATE_UNIT / excess.log2().ceil().exp2() } else { RATE_UNIT }
     }
 
-    pub fn scales(&self) -> Scales<'a> {
+    pub(crate) fn scales(&self) -> Scales<'a> {
         Scales { model: self.model, species: self.species, quanta: self.plan.quanta }
     }
 
@@ -290,12 +290,12 @@ impl<'a> Builder<'a> {
     }
 
     /// A kernel with a lane for each of some things.
-    pub fn kernel(&mut self, name: &'static str, entry: Entry, choices: Choices, things: u64) -> usize {
+    pub(crate) fn kernel(&mut self, name: &'static str, entry: Entry, choices: Choices, things: u64) -> usize {
         self.plan.add_kernel(Kernel::new(name, entry, choices, things.div_ceil(self.workgroup_size())))
     }
 
     /// What is chosen for every kernel: the space, the species, where particles are and how they are ordered.
-    pub fn choices(&self) -> Choices {
+    pub(crate) fn choices(&self) -> Choices {
         self.space()
             .and(&self.species.choices())
             .and(&self.sorted.choices())
@@ -370,7 +370,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Whether steps are split: friction needs a second pass over the pairs.
-    pub fn splits(&self) -> bool {
+    pub(crate) fn splits(&self) -> bool {
         self.model.particles().splits()
     }
 
@@ -386,12 +386,12 @@ impl<'a> Builder<'a> {
     }
 
     /// Whether boundaries shear.
-    pub fn is_sheared(&self) -> bool {
+    pub(crate) fn is_sheared(&self) -> bool {
         self.model.particles().shear.is_some()
     }
 
     /// Whether steps relax the momentum of every particle by itself.
-    pub fn relaxes_particles(&self) -> bool {
+    pub(crate) fn relaxes_particles(&self) -> bool {
         self.model.particles().relaxes_particles()
     }
 
@@ -401,12 +401,12 @@ impl<'a> Builder<'a> {
         self.force.acts() && self.splits() && !self.relaxes_pairs() && !self.measured.needs(Need::Forces)
     }
 
-    pub fn relaxes_pairs(&self) -> bool {
+    pub(crate) fn relaxes_pairs(&self) -> bool {
         self.model.particles().relaxes_pairs()
     }
 
     /// Whether friction has two stages.
-    pub fn relaxes_in_two_stages(&self) -> bool {
+    pub(crate) fn relaxes_in_two_stages(&self) -> bool {
         self.model.particles().relaxes_in_two_stages()
     }
 
@@ -420,7 +420,13 @@ impl<'a> Builder<'a> {
     }
 
     /// A kernel that visits all pairs.
-    pub fn traversal(&mut self, name: &'static str, traversal: Traversal, masks: Masks, pass: &Choices) -> usize {
+    pub(crate) fn traversal(
+        &mut self,
+        name: &'static str,
+        traversal: Traversal,
+        masks: Masks,
+        pass: &Choices,
+    ) -> usize {
         let visits = self.prefilter_source().and(&shear::of_visits(self.model));
         let choices = self.choices().and(&visits).and(pass).with_any(match masks {
             Masks::Unkept => self.is_sheared().then_some(pairs::Hits::Sheared),
@@ -569,12 +575,12 @@ impl<'a> Builder<'a> {
         }
     }
 
-    pub fn workgroup_size(&self) -> u64 {
+    pub(crate) fn workgroup_size(&self) -> u64 {
         self.options.workgroup()
     }
 
     /// Room for the copies in the frames: a quarter more than the share of the end cells, and never more than all particles.
-    pub fn frame_capacity(&self) -> u64 {
+    pub(crate) fn frame_capacity(&self) -> u64 {
         if self.order == Order::EveryStep && self.grid.framed() {
             self.options.copies.unwrap_or(5 * self.slots / (2 * u64::from(self.grid.cells[0])) + 512).min(self.slots)
         } else {

@@ -127,7 +127,7 @@ impl Builder<'_> {
     }
 
     /// The longest bond along which friction is passed on, if there are several ranks; of any length if they all know the whole box.
-    pub fn longest_bond(&self) -> Option<(Constant, f64)> {
+    pub(crate) fn longest_bond(&self) -> Option<(Constant, f64)> {
         let [_, needed, ..] = self.plan.part.as_ref()?.domains[..] else { return None };
         Some((Constant::BondReach, if needed.is_whole() { LONGEST } else { self.bond_reach() }))
     }

@@ -44,7 +44,7 @@ impl Builder<'_> {
     }
 
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup, from a row on.
-    pub fn observation(&mut self, name: &'static str, first_group: u32, pass: Choices) -> usize {
+    pub(crate) fn observation(&mut self, name: &'static str, first_group: u32, pass: Choices) -> usize {
         let pass = pass.with_if(self.traversal == Traversal::Clusters, core::Reduction::OfEight);
         let kernel = self.traversal(name, self.traversal, Masks::Unkept, &pass);
         self.plan.kernels[kernel].constants.push((Constant::FirstGroup, f64::from(first_group)));
@@ -155,7 +155,7 @@ impl Builder<'_> {
     }
 
     /// Whether baths and random forces on single particles are part of the forces of a split step's report.
-    pub fn reports_own_forces(&self) -> bool {
+    pub(crate) fn reports_own_forces(&self) -> bool {
         self.splits() && self.model.particles().acts_on_particles() && self.measured.needs(Need::Forces)
     }
 
@@ -165,7 +165,7 @@ impl Builder<'_> {
     }
 
     /// Says whether a kernel of a report adds its forces to those that an earlier one has left.
-    pub fn adds_forces(&mut self, kernel: usize, adds: bool) {
+    pub(crate) fn adds_forces(&mut self, kernel: usize, adds: bool) {
         if adds && self.measured.needs(Need::Forces) {
             self.plan.kernels[kernel].constants.push((Constant::ForcesBegun, 1.0));
         }

@@ -28,7 +28,7 @@ pub(super) struct Sorted {
 }
 
 impl Sorted {
-    pub fn new(builder: &Builder<'_>, hardware: Hardware) -> Self {
+    pub(crate) fn new(builder: &Builder<'_>, hardware: Hardware) -> Self {
         let (options, cells) = (builder.options, builder.grid.count());
         let serial = options.suits_serial_memory(hardware);
         let in_textures =
@@ -50,7 +50,7 @@ impl Sorted {
     }
 
     /// The choices of all kernels.
-    pub fn choices(self) -> Choices {
+    pub(crate) fn choices(self) -> Choices {
         Choices::new()
             .with_if(self.in_textures, arrays::Sorted::Apart)
             .with_if(self.in_textures, grid::Sorted::Apart)
@@ -58,7 +58,7 @@ impl Sorted {
     }
 
     /// The choices of the kernel that ends a step.
-    pub fn end_of_step(self) -> Choices {
+    pub(crate) fn end_of_step(self) -> Choices {
         Choices::new()
             .with_if(self.scans_at_end, grid::EndOfStep::LastWorkgroup)
             .with_if(self.scans_at_end, grid::ScanWidth::Narrow)
@@ -66,17 +66,17 @@ impl Sorted {
     }
 
     /// The form in which particles are sorted; the first pass of a split step keeps its hits in the buffer of the particles.
-    pub const fn copied(self, splits: bool) -> grid::Copied {
+    pub(crate) const fn copied(self, splits: bool) -> grid::Copied {
         if self.in_textures && !splits { grid::Copied::Particles } else { grid::Copied::Fours }
     }
 
     /// The array that the prefilter of pairs reads.
-    pub const fn prefilter_source(self) -> pairs::PrefilterSource {
+    pub(crate) const fn prefilter_source(self) -> pairs::PrefilterSource {
         if self.probes { pairs::PrefilterSource::Words } else { pairs::PrefilterSource::Positions }
     }
 
     /// The choices of the first of two stages of friction, which leaves momenta for the second.
-    pub fn staged_choices(self) -> Choices {
+    pub(crate) fn staged_choices(self) -> Choices {
         Choices::new()
             .with_if(self.in_textures, pairs::Staged::Apart)
             .with_if(self.in_textures, arrays::StagedMomenta::Texture)
@@ -87,7 +87,7 @@ impl Sorted {
     }
 
     /// Adds arrays of some sorted particles, twice where friction has two stages.
-    pub fn add_arrays(self, plan: &mut Plan, count: u64, stages: bool) {
+    pub(crate) fn add_arrays(self, plan: &mut Plan, count: u64, stages: bool) {
         let (momenta, staged) = self.staged();
         for array in [momenta].into_iter().chain(stages.then_some(staged)) {
             if self.in_textures {

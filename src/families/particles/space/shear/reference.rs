@@ -21,28 +21,28 @@ pub(crate) struct Images<'a> {
 impl<'a> Images<'a> {
     /// Of a box whose boundaries are at rest.
     #[cfg(test)]
-    pub fn at_rest(units: &'a Units) -> Self {
+    pub(crate) fn at_rest(units: &'a Units) -> Self {
         Self { units, shift: None }
     }
 
     /// Those of a model after some halves of time steps.
-    pub fn after(model: &'a Model, halves: u64) -> Self {
+    pub(crate) fn after(model: &'a Model, halves: u64) -> Self {
         let shift = |shear: &ShearedBox| (shear.gradient, shear.shift(halves));
         Self { units: &model.units, shift: model.particles().shear.as_ref().map(shift) }
     }
 
     /// Those of a model where a step begins.
-    pub fn of_step(model: &'a Model, step: u64) -> Self {
+    pub(crate) fn of_step(model: &'a Model, step: u64) -> Self {
         Self::after(model, model.clock(step).wrapping_mul(2))
     }
 
     /// Whether boundaries shear.
-    pub fn shear(&self) -> bool {
+    pub(crate) fn shear(&self) -> bool {
         self.shift.is_some()
     }
 
     /// The displacement from the nearest image of b to a, and by how many boxes that image is above b.
-    pub fn displacement(&self, a: [u32; 3], mut b: [u32; 3]) -> ([f64; 3], i64) {
+    pub(crate) fn displacement(&self, a: [u32; 3], mut b: [u32; 3]) -> ([f64; 3], i64) {
         let Some((axis, shift)) = self.shift else { return (self.units.displacement(a, b), 0) };
         let nearest = i64::from(a[axis].wrapping_sub(b[axis]) as i32);
         let boxes_up = (i64::from(a[axis]) - i64::from(b[axis]) - nearest) / BOX;

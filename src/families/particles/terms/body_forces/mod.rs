@@ -34,13 +34,13 @@ impl FixedImpulse {
 
     /// Whole units and the rest, which is not negative.
     #[must_use]
-    pub fn parts(self) -> (i32, u32) {
+    pub(crate) fn parts(self) -> (i32, u32) {
         ((self.0 >> 32) as i32, self.0 as u32)
     }
 
     /// Whole units of a step: n steps add up to n times the impulse, less than a unit off.
     #[must_use]
-    pub fn in_step(self, step: u64) -> i64 {
+    pub(crate) fn in_step(self, step: u64) -> i64 {
         // Beyond the last number of a step there is one more.
         let until = |steps: i128| (i128::from(self.0) * steps) >> 32;
         (until(i128::from(step) + 1) - until(i128::from(step))) as i64
@@ -70,7 +70,7 @@ impl Term for BodyForces {
 impl BodyForces {
     /// The impulse of half a step on a particle of a species where the force is as large as it gets; none on one that is not there.
     #[must_use]
-    pub fn impulse(&self, model: &Model, species: usize) -> [FixedImpulse; 3] {
+    pub(crate) fn impulse(&self, model: &Model, species: usize) -> [FixedImpulse; 3] {
         let units = 0.5 * model.time_step / model.units.momentum * FixedImpulse::FRACTIONS;
         let force = self.forces.get(species).copied().unwrap_or_default();
         force.map(|force| FixedImpulse((force * units).round() as i64))

@@ -23,7 +23,7 @@ pub struct SpringChain {
 impl SpringChain {
     /// √(κ/m).
     #[must_use]
-    pub fn frequency(&self) -> f64 {
+    pub(crate) fn frequency(&self) -> f64 {
         (self.stiffness / self.mass).sqrt()
     }
 

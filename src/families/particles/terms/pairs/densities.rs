@@ -22,7 +22,7 @@ pub(crate) struct Densities {
 
 impl Densities {
     /// Those of the particles of the pairs that are found, which are all within the range; none if no force depends on them.
-    pub fn of(model: &Model, particles: usize, found: &[Pair]) -> Option<Self> {
+    pub(crate) fn of(model: &Model, particles: usize, found: &[Pair]) -> Option<Self> {
         let law = model.particles().pair_force.as_ref()?.many_body?;
         let mut sums = Self { law, dimension: model.units.dimension, of_particles: vec![0.0; particles] };
         for pair in found {
@@ -34,7 +34,7 @@ impl Densities {
     }
 
     /// Adds the potential of the densities of some pairs.
-    pub fn observe(&self, found: &[Pair], sums: &mut Configuration<'_>) {
+    pub(crate) fn observe(&self, found: &[Pair], sums: &mut Configuration<'_>) {
         sums.potential += self.energy();
         for pair in found {
             let (force, laplacian) = (self.force(pair), self.laplacian(pair));
@@ -74,17 +74,17 @@ impl Densities {
     }
 
     /// The force that pushes both particles apart.
-    pub fn force(&self, pair: &Pair) -> f64 {
+    pub(crate) fn force(&self, pair: &Pair) -> f64 {
         -self.slopes(pair) * self.weight(pair.distance)[1]
     }
 
     /// V.
-    pub fn energy(&self) -> f64 {
+    pub(crate) fn energy(&self) -> f64 {
         self.strength() * self.of_particles.iter().map(|density| density * density).sum::<f64>()
     }
 
     /// The parts of ∇²V by the positions of both ends that belong to a pair; two particles in one place have none.
-    pub fn laplacian(&self, pair: &Pair) -> f64 {
+    pub(crate) fn laplacian(&self, pair: &Pair) -> f64 {
         if pair.distance == 0.0 {
             return 0.0;
         }
@@ -94,7 +94,7 @@ impl Densities {
     }
 
     /// The rest of ∇²V, ψ'' |∇ρ̄ᵢ|², of every particle.
-    pub fn laplacians_of_particles(&self, found: &[Pair]) -> Vec<f64> {
+    pub(crate) fn laplacians_of_particles(&self, found: &[Pair]) -> Vec<f64> {
         let mut gradients = vec![[0.0; 3]; self.of_particles.len()];
         for pair in found {
             let slope = self.weight(pair.distance)[1];
