@@ -1,6 +1,6 @@
 //! Stochastic mesoscale particle simulations on any GPU through wgpu.
 //!
-//! The [`prelude`] is the interface: a scene, a [`Simulation`](prelude::Simulation) of it that is advanced step by step, a [`Run`](prelude::Run) that
+//! The [`prelude`] is the interface: a scene, a [`Simulation`] of it that is advanced step by step, a [`Run`](prelude::Run) that
 //! writes files, and what these return. It keeps its meaning within a major version.
 //!
 //! ```
@@ -60,7 +60,6 @@ pub mod ranks;
 pub mod report;
 #[cfg_attr(not(feature = "internals"), doc(hidden))]
 pub mod run;
-#[cfg_attr(not(feature = "internals"), doc(hidden))]
 pub mod scene;
 #[cfg_attr(not(feature = "internals"), doc(hidden))]
 pub mod self_test;
