@@ -56,7 +56,7 @@ impl StressCorrelation {
     /// # Errors
     /// [`GreenKuboError`] where samples that are further apart forget the stress, or the second half of the lags adds more than a tenth and
     /// than statistics explain.
-    pub(crate) fn longest(&self, every: u64) -> Result<Estimate, GreenKuboError> {
+    pub fn longest(&self, every: u64) -> Result<Estimate, GreenKuboError> {
         let found = *self.viscosity.last().ok_or(GreenKuboError::Few)?;
         if let [first, second, ..] = self.autocorrelation[..]
             && every > 1

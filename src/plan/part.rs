@@ -238,7 +238,7 @@ impl Domain {
     /// assert_eq!((cells.first, cells.count), ([0, 0, 3], [3, 3, 5]));
     /// ```
     #[must_use]
-    pub(crate) fn cells_within(&self, cells: [u32; 3]) -> Option<Cells> {
+    pub fn cells_within(&self, cells: [u32; 3]) -> Option<Cells> {
         let mut within = Cells { first: [0; 3], count: cells };
         for axis in (0..3).filter(|&axis| self.width[axis] > 0) {
             let (low, count) = (i64::from(self.low[axis]), i64::from(cells[axis]));
@@ -252,7 +252,7 @@ impl Domain {
 
     /// The cells of a grid that hold anything of it.
     #[must_use]
-    pub(crate) fn cells_around(&self, cells: [u32; 3]) -> Cells {
+    pub fn cells_around(&self, cells: [u32; 3]) -> Cells {
         let mut around = Cells { first: [0; 3], count: cells };
         for axis in (0..3).filter(|&axis| self.width[axis] > 0) {
             let (low, count) = (i64::from(self.low[axis]), i64::from(cells[axis]));

@@ -38,7 +38,7 @@ impl Sums {
 
     /// These sums, and one more that an account keeps; none of no components.
     #[must_use]
-    pub(crate) fn with_account(mut self, sum: Sum, components: usize) -> Self {
+    pub fn with_account(mut self, sum: Sum, components: usize) -> Self {
         self.accounts.extend((components > 0).then_some((sum, components)));
         self
     }

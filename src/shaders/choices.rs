@@ -83,7 +83,7 @@ impl Choices {
 
     /// Whether a variant is chosen.
     #[must_use]
-    pub(crate) fn has(&self, variant: impl Into<Choice>) -> bool {
+    pub fn has(&self, variant: impl Into<Choice>) -> bool {
         self.0.contains(&variant.into())
     }
 
