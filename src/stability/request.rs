@@ -168,7 +168,7 @@ impl Request {
     /// [`StudyError::Arguments`] unless there are 1 to [`study::MOST_SEEDS`], and where the seed is varied.
     pub fn with_seeds(mut self, seeds: u32) -> Result<Self, StudyError> {
         check_seeds(seeds)?;
-        if self.keys().contains(&SEED) {
+        if seeds > 1 && self.keys().contains(&SEED) {
             return Err(StudyError::mistake(format!(
                 "`{SEED}` cannot be varied where all scenes run with {seeds} seeds"
             )));
