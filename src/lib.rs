@@ -6,7 +6,7 @@
 //! ```
 //! use mesoscope::prelude::*;
 //!
-//! let small = ["space.box=[4,4,4]", r#"output={"energies": {"every": 10}}"#].map(str::to_owned);
+//! let small = ["space.box=[4,4,4]", "time.equilibration=100", r#"output={"energies": {"every": 10}}"#].map(str::to_owned);
 //! let scene = scene::load("dpd-fluid", &small)?;
 //! let mut simulation = Simulation::new(&scene, &AdapterChoice::Best)?;
 //! simulation.advance(300)?;

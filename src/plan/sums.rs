@@ -45,7 +45,7 @@ impl Sums {
 
     /// The number of all components.
     #[must_use]
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.in_order().map(|(_, components)| components).sum()
     }
 
@@ -57,13 +57,13 @@ impl Sums {
 
     /// The place of a sum, or of its first component, in a row; nothing if the report lacks it.
     #[must_use]
-    pub(crate) fn place(&self, sum: Sum) -> Option<usize> {
+    pub fn place(&self, sum: Sum) -> Option<usize> {
         self.place_of_component(sum, 0)
     }
 
     /// A row of a report with its values by name.
     #[must_use]
-    pub(crate) fn row<'a>(&'a self, values: &'a [i64]) -> ReportRow<'a> {
+    pub fn row<'a>(&'a self, values: &'a [i64]) -> ReportRow<'a> {
         ReportRow { sums: self, values }
     }
 
@@ -111,7 +111,7 @@ impl ReportRow<'_> {
 
     /// The value of a component of a sum; nothing if the report lacks it.
     #[must_use]
-    pub(crate) fn component(&self, sum: Sum, component: usize) -> Option<i64> {
+    pub fn component(&self, sum: Sum, component: usize) -> Option<i64> {
         self.values.get(self.sums.place_of_component(sum, component)?).copied()
     }
 
