@@ -179,7 +179,7 @@ impl Pen {
                 let left = MARGIN + column as f64 * (width + GUTTER);
                 // It was read before: a picture that cannot be is among what is missing.
                 let bytes = STANDARD.decode(&inside.data).unwrap_or_default();
-                let Ok(picture) = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png) else {
+                let Ok(picture) = image::load_from_memory(&bytes) else {
                     continue;
                 };
                 let below = self.sheet.lay_picture(&picture.into_rgb8(), [left, self.top], width);
