@@ -7,7 +7,7 @@ use mesoscope::plan::{Hardware, Options};
 use mesoscope::run::{self, Event, Interrupt, Run, RunError};
 use mesoscope::scene::{self, Checked, SceneError, WrittenScene};
 use mesoscope::stability::{Request as StabilityRequest, StabilityRun, StabilitySummary};
-use mesoscope::study::{Observer, Record, StudyError, StudyEvent, StudyRun, variation_of_seeds};
+use mesoscope::study::{Observer, Record, StudyError, StudyEvent, StudyRun};
 use mesoscope::sweep::{Sweep, SweepRun, SweepSummary};
 use mesoscope::tradeoff::{Length, References, Request as TradeoffRequest, Target, TradeoffRun, TradeoffSummary};
 use pyo3::prelude::*;
@@ -282,10 +282,9 @@ where
 #[pyfunction]
 pub fn sweep(py: Python<'_>, study: Study) -> PyResult<Vec<(String, String)>> {
     let Study { settings, vary, also, steps, seeds, .. } = &study;
-    let request = |source: &str| {
-        let seeds = seeds.map(|seeds| variation_of_seeds(source, settings, seeds)).transpose()?;
-        let vary: Vec<String> = vary.iter().cloned().chain(seeds).collect();
-        Sweep::load(source, settings, *steps, &vary, also)
+    let request = |source: &str| match seeds {
+        Some(seeds) => Sweep::load_seeded(source, settings, *steps, vary, also, *seeds),
+        None => Sweep::load(source, settings, *steps, vary, also),
     };
     let outcome = execute_study::<SweepSummary, _>(py, &study, request, SweepRun::execute)?;
     let name = |number: usize| outcome.summary.variants[number].name.clone();

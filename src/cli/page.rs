@@ -39,6 +39,12 @@ pub struct Arguments {
 
 /// Writes the page.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let is_picture = |path: &PathBuf| path.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"));
+    if let Some(out) = arguments.out.as_ref().filter(|out| is_picture(out) != arguments.png) {
+        let (shown, accepted) =
+            (printable::path(out), if arguments.png { "a name that ends in .png" } else { "--png beside it" });
+        return Err(Failure::usage(format!("`--out {shown}`: accepted: {accepted}")));
+    }
     let default = || PathBuf::from(if arguments.png { "report.png" } else { "report.html" });
     let out = arguments.out.clone().unwrap_or_else(default);
     let shown = printable::path(&out);

@@ -257,7 +257,7 @@ pub fn marks(rows: &[Vec<String>], unequilibrated: Option<&Unequilibrated>) -> S
     let mut notes = String::new();
     if has('*') {
         notes.push_str(
-            "  * from few samples: the error may be larger; more steps tell, or independent runs (--seeds 8)\n",
+            "  * from few samples: the error may be larger; more steps tell, or independent runs (--seeds 10)\n",
         );
     }
     if has('†') {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use mesoscope::printable;
 use mesoscope::ranks::Processes;
 use mesoscope::run::Run;
+use mesoscope::study::Kind;
 
 use super::event_lines::WritingArguments;
 use super::report::{self, Telling};
@@ -67,6 +68,10 @@ fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<
     let scene = arguments.ranks.load(&arguments.scene, processes.map(Processes::count))?;
     let directory = arguments.directory();
     let shown = printable::path(&directory);
+    if let Some(kind) = Kind::of(&directory) {
+        let message = format!("`{shown}` has a {}: choose another directory with --out", kind.noun);
+        return Err(Failure::input_output(message));
+    }
     let started = if arguments.how.force { Run::replace(scene, directory) } else { Run::start(scene, directory) };
     let simulation = if arguments.writing.no_pictures { started.without_pictures() } else { started };
     report::execute(

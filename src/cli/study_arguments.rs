@@ -97,7 +97,8 @@ impl StudyArguments {
             seeds: Some(seeds),
             out: Some(directory),
             resume: None,
-            yes: false,
+            // A run may take as long as it takes.
+            yes: true,
             adapter: adapter.clone(),
             how: how.clone(),
         }

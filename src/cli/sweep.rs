@@ -3,7 +3,6 @@
 use mesoscope::numbers::counted;
 use mesoscope::printable;
 use mesoscope::run::RunError;
-use mesoscope::study::variation_of_seeds;
 use mesoscope::sweep::{Look, Shard, Sweep, SweepOutcome, SweepRun, Variant};
 
 use super::{Failure, StudyArguments, VariantArguments, heading, launcher, print, sweep_report};
@@ -84,9 +83,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut run: SweepRun = study.study(|scene| {
         let seed = arguments.seed.map(|seed| format!("seed={seed}"));
         let set: Vec<String> = study.set.iter().cloned().chain(seed).collect();
-        let seeds = study.seeds.map(|seeds| variation_of_seeds(scene, &set, seeds)).transpose()?;
-        let vary: Vec<String> = vary.iter().cloned().chain(seeds).collect();
-        Ok(Sweep::load(scene, &set, study.steps, &vary, also)?)
+        Ok(match study.seeds {
+            Some(seeds) => Sweep::load_seeded(scene, &set, study.steps, vary, also, seeds)?,
+            None => Sweep::load(scene, &set, study.steps, vary, also)?,
+        })
     })?;
     let look = Look { relative: arguments.relative, quantities: arguments.plot.clone() };
     if look != Look::default() {

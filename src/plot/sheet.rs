@@ -37,6 +37,9 @@ pub(crate) struct Sheet {
     rules: Vec<u32>,
 }
 
+/// The height of the highest pictures over the width they may have.
+const HIGHEST: f64 = 1.6;
+
 const PAPER: [u8; 3] = [255; 3];
 const RULE: [u8; 3] = [217, 221, 227];
 
@@ -73,7 +76,8 @@ impl Sheet {
 
     /// Lays down a text in lines no wider than `width`, below and right of `corner`. Returns the bottom of the last line.
     pub(crate) fn lay_text(&mut self, text: &str, style: SheetType, [left, top]: [f64; 2], width: f64) -> f64 {
-        let lines = self.typesetter.wrap(text, style.weight(), style.size, width, usize::MAX);
+        let text = self.with_breaks(text, style, width);
+        let lines = self.typesetter.wrap(&text, style.weight(), style.size, width, usize::MAX);
         let height = LINE_HEIGHT * style.size;
         let count = lines.len() as f64;
         for (number, text) in lines.into_iter().enumerate() {
@@ -82,9 +86,30 @@ impl Sheet {
         top + count * height
     }
 
-    /// Lays down a picture in a width. Returns its bottom.
+    /// A text with spaces in words that are wider than a line, so that nothing of them is cut.
+    fn with_breaks(&self, text: &str, style: SheetType, width: f64) -> String {
+        let mut broken = String::new();
+        for word in text.split_inclusive(char::is_whitespace) {
+            let mut line = 0.0;
+            let is_wide = self.width_of(word.trim_end(), style) > width;
+            for letter in word.chars() {
+                let own = if is_wide { self.width_of(letter.encode_utf8(&mut [0; 4]), style) } else { 0.0 };
+                if line > 0.0 && line + own > width {
+                    broken.push(' ');
+                    line = 0.0;
+                }
+                line += own;
+                broken.push(letter);
+            }
+        }
+        broken
+    }
+
+    /// Lays down a picture in a width, not larger than it is and not much higher than wide. Returns its bottom.
     pub(crate) fn lay_picture(&mut self, picture: &RgbImage, [left, top]: [f64; 2], width: f64) -> f64 {
-        let height = width * f64::from(picture.height()) / f64::from(picture.width().max(1));
+        let [own_width, own_height] = [picture.width(), picture.height()].map(|edge| f64::from(edge.max(1)));
+        let scale = (width / own_width).min(HIGHEST * width / own_height).min(1.0);
+        let (width, height) = (scale * own_width, scale * own_height);
         let size = [width, height].map(|edge| (edge.round() as u32).max(1));
         let scaled = imageops::resize(picture, size[0], size[1], imageops::FilterType::CatmullRom);
         self.pictures.push((scaled, [left, top].map(|place| place.round() as u32)));

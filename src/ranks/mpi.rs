@@ -59,14 +59,14 @@ impl World {
     ///
     /// # Errors
     /// In words, if MPI has been started before.
-    pub(crate) fn join(patience: Option<Duration>, alarm: fn(&str)) -> Result<Self, String> {
+    pub fn join(patience: Option<Duration>, alarm: fn(&str)) -> Result<Self, String> {
         let universe = mpi::initialize().ok_or_else(|| "MPI has been started before".to_owned())?;
         Ok(Self { universe, patience: patience.unwrap_or(PATIENCE), alarm, rounds: Cell::new(0) })
     }
 
     /// This rank.
     #[must_use]
-    pub(crate) fn rank(&self) -> u32 {
+    pub fn rank(&self) -> u32 {
         self.universe.world().rank().cast_unsigned()
     }
 
@@ -76,7 +76,7 @@ impl World {
 }
 
 /// Ends all ranks at once.
-pub(crate) fn abort(exit_code: i32) -> ! {
+pub fn abort(exit_code: i32) -> ! {
     SimpleCommunicator::world().abort(exit_code)
 }
 

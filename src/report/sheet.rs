@@ -135,6 +135,9 @@ impl Pen {
         for line in &entry.repeat {
             self.write(line, BODY);
         }
+        if entry.scene.is_none() {
+            return;
+        }
         let whole = format!(
             "The page that `mesoscope report {}` makes has {} as well.",
             entry.directory,
@@ -143,27 +146,35 @@ impl Pen {
         self.write(&whole, BODY);
     }
 
+    /// A table, in parts below each other where its columns do not fit side by side: each begins with the first column.
     fn write_table(&mut self, table: &TextTable) {
         let rows = || std::iter::once(&table.header).filter(|header| !header.is_empty()).chain(&table.rows);
         let count = rows().map(Vec::len).max().unwrap_or(0);
         let widest = |column: usize| {
             let cells = rows().filter_map(|row| row.get(column));
-            cells.map(|cell| self.sheet.width_of(cell, BODY)).fold(0.0, f64::max)
+            let widest = cells.map(|cell| self.sheet.width_of(cell, BODY)).fold(0.0, f64::max);
+            // Longer texts are set in several lines.
+            widest.min(0.45 * Self::room())
         };
         let natural: Vec<f64> = (0..count).map(widest).collect();
-        let widths = fitting(&natural, Self::room() - GUTTER * count.saturating_sub(1) as f64);
-        for (number, row) in rows().enumerate() {
-            let is_header = number == 0 && !table.header.is_empty();
-            let (mut left, mut bottom) = (MARGIN, self.top);
-            for (column, (cell, width)) in row.iter().zip(&widths).enumerate() {
-                let is_label = is_header || table.header.is_empty() && column == 0;
-                let style = if is_label { LABEL } else { BODY };
-                let own = self.sheet.width_of(cell, style);
-                let shift = if table.numbers.contains(&column) { (width - own).max(0.0) } else { 0.0 };
-                bottom = self.lay(cell, style, [left + shift, self.top], *width).max(bottom);
-                left += width + GUTTER;
+        for columns in parts(&natural, Self::room()) {
+            let room = Self::room() - GUTTER * columns.len().saturating_sub(1) as f64;
+            let widths = fitting(&columns.iter().map(|column| natural[*column]).collect::<Vec<_>>(), room);
+            for (number, row) in rows().enumerate() {
+                let is_header = number == 0 && !table.header.is_empty();
+                let (mut left, mut bottom) = (MARGIN, self.top);
+                for (column, width) in columns.iter().zip(&widths) {
+                    let cell = row.get(*column).map(String::as_str).unwrap_or_default();
+                    let is_label = is_header || table.header.is_empty() && *column == 0;
+                    let style = if is_label { LABEL } else { BODY };
+                    let own = self.sheet.width_of(cell, style);
+                    let shift = if table.numbers.contains(column) { (width - own).max(0.0) } else { 0.0 };
+                    bottom = self.lay(cell, style, [left + shift, self.top], width - shift).max(bottom);
+                    left += width + GUTTER;
+                }
+                self.top = bottom + 0.15 * GUTTER;
             }
-            self.top = bottom + 0.15 * GUTTER;
+            self.top += 0.5 * GUTTER;
         }
         if let Some(note) = &table.note {
             self.write(note, LABEL);
@@ -208,7 +219,13 @@ impl Pen {
                     is_item = false;
                 }
                 Event::End(TagEnd::Heading(_)) => self.write_heading(&std::mem::take(&mut text)),
-                Event::End(TagEnd::Paragraph | TagEnd::CodeBlock) if !is_item => {
+                Event::End(TagEnd::CodeBlock) => {
+                    for line in std::mem::take(&mut text).lines() {
+                        self.write(line, BODY);
+                    }
+                    self.top += 0.3 * GUTTER;
+                }
+                Event::End(TagEnd::Paragraph) if !is_item => {
                     self.write(&std::mem::take(&mut text), BODY);
                     self.top += 0.3 * GUTTER;
                 }
@@ -223,6 +240,23 @@ impl Pen {
             }
         }
     }
+}
+
+/// Columns in parts, each with the first column and as many others as fit into a room.
+fn parts(widths: &[f64], room: f64) -> Vec<Vec<usize>> {
+    let first = widths.first().copied().unwrap_or(0.0);
+    let mut parts: Vec<Vec<usize>> = vec![(0..widths.len().min(1)).collect()];
+    let mut used = first;
+    for (column, width) in widths.iter().enumerate().skip(1) {
+        if used + GUTTER + width > room && parts[parts.len() - 1].len() > 1 {
+            parts.push(vec![0]);
+            used = first;
+        }
+        used += GUTTER + width;
+        let last = parts.len() - 1;
+        parts[last].push(column);
+    }
+    parts
 }
 
 /// Widths of columns that fit into a room: those wider than some common width are cut to it.
@@ -250,5 +284,14 @@ mod tests {
         assert_eq!(fitting(&[10.0, 20.0], 100.0), [10.0, 20.0]);
         assert_eq!(fitting(&[10.0, 200.0, 80.0], 100.0), [10.0, 45.0, 45.0]);
         assert_eq!(fitting(&[], 100.0), [0.0; 0]);
+    }
+
+    #[test]
+    fn columns_that_do_not_fit_stand_below_with_the_first() {
+        let widths = [100.0, 300.0, 300.0, 300.0];
+        assert_eq!(parts(&widths, 1500.0), [[0, 1, 2, 3]]);
+        assert_eq!(parts(&widths, 850.0), [vec![0, 1, 2], vec![0, 3]]);
+        assert_eq!(parts(&[900.0, 900.0], 1000.0), [[0, 1]]);
+        assert_eq!(parts(&[], 1000.0), [[0; 0]]);
     }
 }

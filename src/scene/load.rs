@@ -186,6 +186,17 @@ impl WrittenScene {
         Ok(text + "\n")
     }
 
+    /// The seed that it asks for, whatever else it says.
+    ///
+    /// # Errors
+    /// Text that is not JSON.
+    pub(crate) fn seed(&self) -> Result<u64, SceneError> {
+        let (mut document, _) = text::parse(&self.name, &self.text)?;
+        overridden(&mut document, &self.set);
+        // A seed that is none is a mistake of the scene.
+        Ok(document.get("seed").and_then(Value::as_u64).unwrap_or_default())
+    }
+
     /// The first mistake that overrides make in the shape of a scene, whatever it means.
     pub(crate) fn misshapen(&self) -> Option<Problem> {
         self.substituted(Substitute::Least).ok()?.problems.iter().next().cloned()

@@ -8,7 +8,6 @@ use crate::gpu::AdapterChoice;
 use crate::measure::equilibration::transient;
 use crate::run::{self, Interrupt, RunError, Sight, Simulation, Stop};
 use crate::scene::SceneError;
-use crate::study::reseeded;
 use crate::table::Table;
 use crate::tradeoff::{self, Deviation, Measured, References, errors_in_words};
 use serde::{Deserialize, Serialize};
@@ -99,22 +98,21 @@ pub(super) fn is_of_the_scene(error: &RunError) -> bool {
     }
 }
 
-/// Runs a scene and compares measures with what they should be; none if it was asked to stop.
+/// Runs a scene, with each seed, and compares measures with what they should be; none if it was asked to stop.
 ///
 /// # Errors
 /// [`RunError`], also for what says something about the scene.
 pub(super) fn evaluate(
     value: f64,
-    scene: &Checked,
+    scenes: &[Checked],
     measures: &[String],
     arguments: &Arguments,
     adapter: &AdapterChoice,
     interrupt: &Interrupt,
 ) -> Result<Option<Cell>, RunError> {
+    let Some(scene) = scenes.first() else { return Ok(None) };
     let gpu = run::adapter_for(scene, adapter)?;
-    let seeds = arguments.seeds.unwrap_or(1);
-    let trial = |further| Simulation::seeing(Sight::EnergiesAlone, &gpu, &reseeded(scene, further));
-    let trials = (0..seeds).map(|further| Ok(trial(further)?.until(interrupt)));
+    let trials = scenes.iter().map(|scene| Ok(Simulation::seeing(Sight::EnergiesAlone, &gpu, scene)?.until(interrupt)));
     let mut trials = trials.collect::<Result<Vec<Simulation>, RunError>>()?;
     let (equilibration, every) = (scene.time.equilibration, scene.output.energies.every.max(1));
     let averaged = scene.time.steps.saturating_sub(equilibration);
@@ -129,7 +127,8 @@ pub(super) fn evaluate(
                 Ok(Stop::Interrupted) => return Ok(None),
                 Err(error) => {
                     let Some(reason) = reason_of_instability(&error) else { return Err(error) };
-                    let seed = if seeds > 1 { format!(" with the seed {}", trial.scene().seed) } else { String::new() };
+                    let seed =
+                        if scenes.len() > 1 { format!(" with the seed {}", trial.scene().seed) } else { String::new() };
                     (cell.verdict, cell.is_certain, cell.reason) = (Verdict::Unstable, true, Some(reason + &seed));
                     cell.errors.clear();
                     return Ok(Some(cell));

@@ -6,7 +6,7 @@ use crate::output::Id;
 use crate::quantity::{Quantity, Unit};
 use crate::run;
 use crate::scene::{SceneError, StateFiles, WrittenScene};
-use crate::study::{self, LENGTHS, SEED, Setting, ShortKeys, StudyError, check_seeds};
+use crate::study::{self, LENGTHS, Setting, ShortKeys, StudyError, check_seeds, further_seed};
 use crate::tradeoff::{self, References, Stretch, names_of_table, predicted};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -167,12 +167,7 @@ impl Request {
     /// # Errors
     /// [`StudyError::Arguments`] unless there are 1 to [`study::MOST_SEEDS`], and where the seed is varied.
     pub fn with_seeds(mut self, seeds: u32) -> Result<Self, StudyError> {
-        check_seeds(seeds)?;
-        if seeds > 1 && self.keys().contains(&SEED) {
-            return Err(StudyError::mistake(format!(
-                "`{SEED}` cannot be varied where all scenes run with {seeds} seeds"
-            )));
-        }
+        check_seeds(seeds, self.cell_count(), self.keys())?;
         self.arguments.seeds = (seeds > 1).then_some(seeds);
         Ok(self)
     }
@@ -267,16 +262,35 @@ impl Request {
 
     /// A scene of the map, with the length that the base has.
     pub(super) fn varied(&self, row: usize, value: f64) -> Result<Checked, SceneError> {
+        self.seeded(row, value, 0)
+    }
+
+    /// The same with the seed that is `further` places after that of the base.
+    fn seeded(&self, row: usize, value: f64, further: u32) -> Result<Checked, SceneError> {
         let along = Setting { key: self.along.key.clone(), value: number_of(value) };
-        let settings: Vec<String> =
-            self.setting(row).into_iter().chain([along]).map(|setting| setting.argument()).collect();
+        let settings = self.setting(row).into_iter().chain([along]).map(|setting| setting.argument());
+        let settings: Vec<String> = settings.chain(further_seed(self.base.seed, further)).collect();
         let Arguments { scene, state_files, .. } = &self.arguments;
         scene.clone().with(&settings).check_among(state_files, StepCheck::Allow)
     }
 
     /// A scene of the map, over the common stretch of time.
     pub(super) fn scene(&self, row: usize, value: f64) -> Result<Checked, SceneError> {
-        let found = self.varied(row, value)?;
+        self.scene_with_seed(row, value, 0)
+    }
+
+    /// The same with each seed.
+    pub(super) fn scenes(&self, row: usize, value: f64) -> Result<Vec<Checked>, SceneError> {
+        (0..self.seeds()).map(|further| self.scene_with_seed(row, value, further)).collect()
+    }
+
+    /// The independent runs of each scene.
+    pub(super) fn seeds(&self) -> u32 {
+        self.arguments.seeds.unwrap_or(1)
+    }
+
+    fn scene_with_seed(&self, row: usize, value: f64, further: u32) -> Result<Checked, SceneError> {
+        let found = self.seeded(row, value, further)?;
         let stretch = Stretch::of(&self.base);
         let step = found.time.step;
         // However long the steps, there are enough of them to see what becomes of the scene.

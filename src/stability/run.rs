@@ -4,8 +4,10 @@ use super::bounds::bounds;
 use super::cell::{Cell, evaluate, is_of_the_scene};
 use super::summary::{MOST_EDGES, StabilitySummary};
 use crate::families::Checked;
-use crate::gpu::{AdapterChoice, Gpu};
-use crate::numbers::short;
+use crate::gpu::{AdapterChoice, AdapterKind, Gpu};
+use crate::host_memory;
+use crate::numbers::{self, short};
+use crate::plan::{Hardware, Options};
 use crate::run::{self, RunError};
 use crate::study::{self, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun, at_once};
 use std::fmt;
@@ -54,11 +56,14 @@ impl StudyRun<StabilitySummary> {
         let scenes: Vec<Checked> = scenes.collect();
         let seconds = self.expected(&scenes, &gpu).map(|seconds| (1.0 + more) * seconds);
         self.refuse_long(seconds.unwrap_or_default())?;
+        self.check_memory(scenes.iter(), &gpu)?;
         let place = self.open_place()?;
         self.summary.adapter = Some(gpu.description().into());
         self.save()?;
         let largest = study::largest(scenes.iter()).unwrap_or(&self.request.base);
-        let jobs = self.jobs_for(largest, self.request.cell_count(), &gpu);
+        // Seeds are side by side already.
+        let at_once = if self.request.seeds() > 1 { 1 } else { self.request.cell_count() };
+        let jobs = self.jobs_for(largest, at_once, &gpu);
         observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds });
         while !waiting.is_empty() {
             self.run_all(&waiting, jobs, adapter, observer)?;
@@ -68,6 +73,22 @@ impl StudyRun<StabilitySummary> {
             }
         }
         self.finish(&place, &gpu, observer)
+    }
+
+    /// Refuses seeds that do not fit into the memory of a software adapter, which is that of this machine.
+    fn check_memory<'s>(&self, scenes: impl Iterator<Item = &'s Checked>, gpu: &Gpu) -> Result<(), StudyError> {
+        let bytes = |scene: &Checked| run::plan(scene, Hardware::from(gpu), Options::default()).bytes();
+        let needed = u64::from(self.request.seeds()) * scenes.map(bytes).max().unwrap_or(0);
+        let Some(free) = host_memory::free().filter(|free| self.request.seeds() > 1 && needed > *free) else {
+            return Ok(());
+        };
+        if gpu.description().kind != AdapterKind::Software {
+            return Ok(());
+        }
+        let (seeds, [needed, free]) = (self.request.seeds(), [needed, free].map(numbers::bytes));
+        Err(StudyError::mistake(format!(
+            "{seeds} seeds side by side take {needed}, and {free} are free: fewer --seeds"
+        )))
     }
 
     /// Scenes to be run next: those of the grid, or else those that locate edges.
@@ -91,7 +112,7 @@ impl StudyRun<StabilitySummary> {
         // Scenes of a map are measured in memory.
         let base = self.request.base.clone().changed(|scene| scene.output = scene.output.energies_alone());
         let seconds = run::expected_time(&base, gpu).ok()?.seconds / base.time.steps.max(1) as f64;
-        let seeds = f64::from(self.request.arguments.seeds.unwrap_or(1));
+        let seeds = f64::from(self.request.seeds());
         Some(seeds * seconds * scenes.iter().map(|scene| scene.time.steps as f64).sum::<f64>())
     }
 
@@ -107,11 +128,13 @@ impl StudyRun<StabilitySummary> {
             (self.request.clone(), self.interrupt().clone(), self.summary.measures.clone());
         let work = |(row, value): &Place, report: &dyn Fn(Result<Option<Cell>, RunError>)| {
             let arguments = &request.arguments;
-            let ended = request.scene(*row, *value).map_err(RunError::from);
-            report(match ended.and_then(|scene| evaluate(*value, &scene, &measures, arguments, adapter, &interrupt)) {
-                Err(error) if is_of_the_scene(&error) => Ok(Some(Cell::refused(*value, error.to_string()))),
-                ended => ended,
-            });
+            let ended = request.scenes(*row, *value).map_err(RunError::from);
+            report(
+                match ended.and_then(|scenes| evaluate(*value, &scenes, &measures, arguments, adapter, &interrupt)) {
+                    Err(error) if is_of_the_scene(&error) => Ok(Some(Cell::refused(*value, error.to_string()))),
+                    ended => ended,
+                },
+            );
         };
         at_once(places, jobs, &interrupt, work, |number, ended| {
             let (row, value) = places[number];

@@ -3,13 +3,14 @@
 use super::error::{Mistake, StudyError};
 use super::lists::each_once;
 use super::naming::{self, ShortKeys};
+use super::seeds::{SEED, check_seeds, following};
 use super::variation::{Setting, Variation, settings};
 use crate::families::{Checked, StepCheck};
 use crate::scene::{self, SceneError, StateFiles, WrittenScene};
 use serde_json::Value;
 
 /// More variants than this are taken for a slip.
-const MOST_VARIANTS: usize = 4096;
+const MOST_VARIANTS: usize = super::seeds::MOST_RUNS;
 
 /// Keys that the length of runs is made of: they cannot be varied where all runs cover the same simulated time.
 pub(crate) const LENGTHS: [&str; 6] =
@@ -76,6 +77,44 @@ impl Sweep {
         let scene = WrittenScene::read(source)?.with(set).for_steps(steps);
         let files = StateFiles::of(&scene.name);
         Self::from_arguments(scene, vary, also, files, StepCheck::Refuse)
+    }
+
+    /// The same with `seeds` independent runs of each variant, with the seed of the scene and those that follow.
+    ///
+    /// # Errors
+    /// As [`Self::load`], and [`StudyError::Arguments`] unless there are 1 to [`MOST_SEEDS`](super::MOST_SEEDS), and where the seed is varied.
+    ///
+    /// ```
+    /// use mesoscope::study::Sweep;
+    /// let sweep = Sweep::load_seeded("dpd-fluid", &["seed=7".to_owned()], None, &[], &[], 3)?;
+    /// let names: Vec<&str> = sweep.variants().iter().map(|variant| variant.name.as_str()).collect();
+    /// assert_eq!(names, ["seed=7", "seed=8", "seed=9"]);
+    /// # Ok::<(), mesoscope::study::StudyError>(())
+    /// ```
+    pub fn load_seeded(
+        source: &str,
+        set: &[String],
+        steps: Option<u64>,
+        vary: &[String],
+        also: &[String],
+        seeds: u32,
+    ) -> Result<Self, StudyError> {
+        let keys = vary.iter().filter_map(|argument| Some(argument.split_once('=')?.0.trim()));
+        check_seeds(seeds, 1, keys)?;
+        let own = WrittenScene::read(source)?.with(set).seed()?;
+        let all: Vec<String> = (0..seeds).map(|further| following(own, further).to_string()).collect();
+        let vary: Vec<String> = vary.iter().cloned().chain([format!("{SEED}={}", all.join(","))]).collect();
+        // A variant besides the combinations has each seed too, unless it sets one.
+        let seeded = |argument: &String| -> Vec<String> {
+            let has_own = settings(argument).is_ok_and(|settings| settings.iter().any(|setting| setting.key == SEED));
+            if has_own {
+                vec![argument.clone()]
+            } else {
+                all.iter().map(|seed| format!("{argument},{SEED}={seed}")).collect()
+            }
+        };
+        let also: Vec<String> = also.iter().flat_map(seeded).collect();
+        Self::load(source, set, steps, &vary, &also)
     }
 
     /// Varies a scene that was read already; `files` are those that its scenes start from, `step` is whether a variant

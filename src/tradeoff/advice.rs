@@ -96,12 +96,14 @@ impl TradeoffSummary {
             )
         });
         // Nothing of a deterministic scene depends on its seed.
-        let is_copied = self.arguments.seeds.is_some() && {
-            let mut measured = self.finished().flat_map(|choice| &choice.measured).filter(|found| found.fluctuates);
-            measured.all(|found| found.standard_error == Some(0.0))
-        };
-        let copied =
-            is_copied.then(|| "All seeds gave the same numbers: nothing that was measured depends on them.".to_owned());
+        let copied: Vec<&str> =
+            self.finished().filter(|choice| choice.seeds_alike).map(|choice| choice.label.as_str()).collect();
+        let copied = (!copied.is_empty()).then(|| {
+            format!(
+                "All seeds of {} gave the same numbers, whose errors are those of one run: nothing that was measured depends on the seed.",
+                copied.join(" and ")
+            )
+        });
         // Choices that came to their end though a run of their scene alone is refused.
         let refused = self.finished().filter_map(|choice| {
             let (label, refusal) = (&choice.label, choice.refusal.as_ref()?);
@@ -158,7 +160,7 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
     let (count, time) = (summary.choices.len(), short(summary.averaged_time()));
     let before = short(summary.stretch.equilibration);
     let seeds = summary.arguments.seeds.map(|seeds| {
-        format!(" Every choice ran with {seeds} seeds: its numbers are means over them, with standard errors from their scatter.")
+        format!(" Every choice ran with {seeds} seeds: its numbers are means over them, with errors from their scatter, of which two hold the true value with 95 %.")
     });
     let seeds = seeds.unwrap_or_default();
     let mut paragraphs = vec![

@@ -2,7 +2,7 @@
 
 use super::fields;
 use crate::families::{Checked, column};
-use crate::measure::statistics::independent;
+use crate::measure::statistics::mean_within_two_errors;
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::quantity::Quantity;
 use crate::run;
@@ -63,29 +63,24 @@ impl Measured {
     }
 }
 
-/// The means of what runs with several seeds measured, with standard errors from their scatter; what some of them lack is left out. Errors that
-/// all of them share, as those of what they are compared with, are added. A single run keeps its own errors.
+/// The means of what runs with several seeds measured, with errors from their scatter, of which two hold the true value with 95 % however few seeds
+/// there are; what some of them lack is left out. Errors that all of them share, as those of what they are compared with, are added. A single
+/// run keeps its own errors, and so does a number that is the same with every seed.
 pub(crate) fn over_seeds(runs: &[&[Measured]]) -> Vec<Measured> {
     let Some((first, others)) = runs.split_first() else { return Vec::new() };
-    if others.is_empty() {
-        return first.to_vec();
-    }
     let mean = |found: &Measured| {
         let others = others.iter().map(|run| run.iter().find(|known| known.measure == found.measure));
         let all: Vec<&Measured> = std::iter::once(Some(found)).chain(others).collect::<Option<_>>()?;
-        let mean = independent(&all.iter().map(|found| found.value).collect::<Vec<_>>())?;
-        // A number that is the same with every seed and has no error is a count, say of samples.
-        let has_error = all.iter().any(|found| found.standard_error.is_some());
+        let values: Vec<f64> = all.iter().map(|found| found.value).collect();
+        let (value, error) = mean_within_two_errors(&values)?;
+        if error == 0.0 {
+            return Some(found.clone());
+        }
         let shared = all.iter().filter(|found| !found.fluctuates).filter_map(|found| found.standard_error);
-        let shared = shared.fold(0.0, f64::max);
-        Some(Measured {
-            value: mean.value,
-            standard_error: mean.error.filter(|error| has_error || *error > 0.0).map(|error| error.hypot(shared)),
-            from_few_samples: mean.few,
-            ..found.clone()
-        })
+        let standard_error = Some(error.hypot(shared.fold(0.0, f64::max)));
+        Some(Measured { value, standard_error, from_few_samples: false, ..found.clone() })
     };
-    first.iter().filter_map(mean).collect()
+    if others.is_empty() { first.to_vec() } else { first.iter().filter_map(mean).collect() }
 }
 
 /// Everything that a finished run says by itself.
@@ -206,9 +201,10 @@ mod tests {
         let found = over_seeds(&all);
         let names: Vec<&str> = found.iter().map(|found| found.measure.as_str()).collect();
         assert_eq!(names, ["pressure", "depth_distance", "radial_distribution.samples"]);
-        let widened = (14.0_f64 / 6.0).sqrt() * crate::measure::statistics::student(2.0);
-        assert_eq!((found[0].value, found[0].from_few_samples), (3.0, true));
-        assert!((found[0].standard_error.unwrap() - widened).abs() < 1e-12);
+        // The 95 % interval of two degrees of freedom is 4.303 standard errors wide, to each side.
+        let widened = 0.5 * 4.303 * (14.0_f64 / 6.0).sqrt();
+        assert_eq!((found[0].value, found[0].from_few_samples), (3.0, false));
+        assert!((found[0].standard_error.unwrap() - widened).abs() < 1e-3 * widened);
         // All seeds share the error of what they are compared with; a count has none.
         assert_eq!((found[1].standard_error, found[1].from_few_samples), (Some(0.3), false));
         assert_eq!((found[2].value, found[2].standard_error), (8.0, None));

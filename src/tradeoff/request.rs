@@ -7,7 +7,10 @@ use super::{fields, measures};
 use crate::families::{Checked, StepCheck};
 use crate::run;
 use crate::scene::{AnalysisId, SceneError, StateFiles, WrittenScene};
-use crate::study::{self, LENGTHS, SEED, Setting, StudyError, Sweep, Variation, check_seeds, each_once, settings};
+use crate::study::{
+    self, LENGTHS, Setting, StudyError, Sweep, Variant, Variation, check_seeds, each_once, following, further_seed,
+    settings,
+};
 use serde::{Deserialize, Serialize};
 
 /// Names of the runs that give references.
@@ -128,12 +131,7 @@ impl Request {
     /// # Errors
     /// [`StudyError::Arguments`] unless there are 1 to [`study::MOST_SEEDS`], and where the seed is varied.
     pub fn with_seeds(mut self, seeds: u32) -> Result<Self, StudyError> {
-        check_seeds(seeds)?;
-        if seeds > 1 && self.sweep.keys().contains(&SEED) {
-            return Err(StudyError::mistake(format!(
-                "`{SEED}` cannot be varied where all choices run with {seeds} seeds"
-            )));
-        }
+        check_seeds(seeds, self.sweep.variants().len(), self.sweep.keys())?;
         self.arguments.seeds = (seeds > 1).then_some(seeds);
         Ok(self)
     }
@@ -142,6 +140,27 @@ impl Request {
     #[must_use]
     pub(crate) fn seeds(&self) -> u32 {
         self.arguments.seeds.unwrap_or(1)
+    }
+
+    /// The seed that is `further` places after that of the scene.
+    pub(super) fn seed(&self, further: u32) -> u64 {
+        following(self.base.seed, further)
+    }
+
+    /// The scenes of all choices and of the runs that references are taken from with the seed that is `further` places after that of the scene: each
+    /// is read with it, for places and noise follow from it where particles start.
+    pub(super) fn scenes(&self, further: u32) -> Result<Vec<Checked>, StudyError> {
+        let seed = further_seed(self.base.seed, further);
+        let choice = |variant: &Variant| match &seed {
+            None => Ok(variant.scene.clone()),
+            Some(seed) => {
+                let own = variant.settings.iter().map(Setting::argument).chain([seed.clone()]);
+                self.arguments.scene(own).map_err(|source| StudyError::of_variant(&variant.name, source))
+            }
+        };
+        let mut scenes = self.sweep.variants().iter().map(choice).collect::<Result<Vec<_>, _>>()?;
+        scenes.extend(self.finer_scenes(seed.as_deref())?.into_iter().map(|(_, scene)| scene));
+        Ok(scenes)
     }
 
     /// The reference of a measure that is known before anything runs.
@@ -189,7 +208,7 @@ impl Request {
             argument.map_or(Ok(()), |argument| check_finer(option, argument))?;
         }
         [self.arguments.finer, self.arguments.still_finer] = [finer, still_finer].map(|asked| asked.map(str::to_owned));
-        for (_, scene) in self.finer_scenes()? {
+        for (_, scene) in self.finer_scenes(None)? {
             self.arguments.state_files.note(&scene);
         }
         Ok(self)
@@ -203,7 +222,7 @@ impl Request {
 
     /// The run that references are taken from, and those that say how good they are: one with twice its step, and one that is finer
     /// still where that is asked for.
-    pub(super) fn finer_scenes(&self) -> Result<Vec<(&'static str, Checked)>, StudyError> {
+    fn finer_scenes(&self, seed: Option<&str>) -> Result<Vec<(&'static str, Checked)>, StudyError> {
         let smallest =
             self.sweep.variants().iter().map(|variant| variant.scene.time.step).fold(self.base.time.step, f64::min);
         let asked = |argument: &Option<String>| -> Vec<Setting> {
@@ -216,6 +235,7 @@ impl Request {
             let further = if name == STILL_FINER { &still_finer[..] } else { &[] };
             let step = if name == COARSER { 2.0 * step } else { step_of(further).unwrap_or(step) };
             let asked = finer.iter().chain(further).map(Setting::argument).chain([format!("time.step={step}")]);
+            let asked = asked.chain(seed.map(str::to_owned));
             let scene = self.arguments.scene(asked).map_err(|source| StudyError::of_variant(name, source))?;
             Ok((name, scene))
         };
@@ -343,7 +363,7 @@ mod tests {
     fn references_come_from_half_the_smallest_step_unless_the_user_says_otherwise() {
         let request = request(&["time.step=0.02,0.04"]).unwrap();
         let steps = |request: &Request| -> Vec<f64> {
-            request.finer_scenes().unwrap().into_iter().map(|(_, scene)| scene.time.step).collect()
+            request.finer_scenes(None).unwrap().into_iter().map(|(_, scene)| scene.time.step).collect()
         };
         assert_eq!(steps(&request), [0.01, 0.02]);
         let finer = Some("time.step=0.005,integrator.type=groot-warren");
@@ -353,7 +373,7 @@ mod tests {
         // The still finer run has the settings of the finer one, its own, and the step of either.
         let still = request.clone().with_finer(finer, Some("integrator.lambda=0.65")).unwrap();
         assert_eq!(steps(&still), [0.005, 0.01, 0.005]);
-        let scenes = still.finer_scenes().unwrap();
+        let scenes = still.finer_scenes(None).unwrap();
         assert_eq!(scenes.iter().map(|(name, _)| *name).collect::<Vec<_>>(), still.finer_names());
         let same_but_for = |scene: &Checked| scene.clone().changed(|scene| scene.system = scenes[0].1.system.clone());
         assert_ne!(scenes[2].1, scenes[0].1);

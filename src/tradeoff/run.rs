@@ -13,7 +13,7 @@ use crate::numbers::with_error;
 use crate::output::{Id, RunDirectory, Summary, checkpoint, files as run_files};
 use crate::run::{self, RunError};
 use crate::self_test;
-use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun, each_once, reseeded};
+use crate::study::{self, Member, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun, each_once};
 use std::fmt;
 use std::path::Path;
 use std::time::Instant;
@@ -135,16 +135,13 @@ impl StudyRun<TradeoffSummary> {
 
     /// All runs: the choices, then those that references are taken from where some measure needs them.
     fn runs(&self, stretch: &Stretch) -> Result<Vec<(String, Checked)>, StudyError> {
-        let finer = self.request.finer_scenes()?;
-        let choices = self.request.sweep.variants().iter().map(|variant| (variant.name.as_str(), &variant.scene));
-        let run =
-            |(name, scene): (&str, _)| Ok((name.to_owned(), fields::leaving_compared(stretch.applied(name, scene)?)));
-        let all = choices.chain(finer.iter().map(|(name, scene)| (*name, scene))).map(run);
-        let mut runs = all.collect::<Result<Vec<(String, Checked)>, StudyError>>()?;
-        let count = runs.len();
-        for (number, run) in self.summary.further_seeds.iter().enumerate() {
-            let further = 1 + (number / count) as u32;
-            runs.push((run.name.clone(), reseeded(&runs[number % count].1, further)));
+        let TradeoffSummary { choices, finer, further_seeds, .. } = &self.summary;
+        let mut names = choices.iter().chain(finer).chain(further_seeds).map(|run| run.name.as_str());
+        let mut runs = Vec::new();
+        for further in 0..self.request.seeds() {
+            for (scene, name) in self.request.scenes(further)?.iter().zip(&mut names) {
+                runs.push((name.to_owned(), fields::leaving_compared(stretch.applied(name, scene)?)));
+            }
         }
         Ok(runs)
     }
@@ -198,9 +195,12 @@ impl StudyRun<TradeoffSummary> {
     /// The seconds that runs are expected to take, after the stretch of time was shortened to what a budget leaves for a pilot.
     fn plan_pilot(&mut self, waiting: &[Member], adapter: &AdapterChoice) -> Result<f64, StudyError> {
         let mut seconds = 0.0;
-        for Member { name, scene, .. } in waiting {
+        // With every seed a choice takes the time that it takes with the first.
+        let (seeds, of_a_seed) = (f64::from(self.request.seeds()), self.runs_of_a_seed());
+        for Member { name, scene, .. } in waiting.iter().filter(|member| member.entry < of_a_seed) {
+            self.proceed()?;
             match run::adapter_for(scene, adapter).and_then(|gpu| run::expected_time(scene, &gpu)) {
-                Ok(expected) => seconds += expected.seconds,
+                Ok(expected) => seconds += seeds * expected.seconds,
                 // What cannot be stable takes no time.
                 Err(error) if cost::is_unstable(&error) || matches!(error, RunError::Engine(_)) => {}
                 Err(error) => return Err(StudyError::of_run(name, error)),
@@ -283,6 +283,8 @@ impl StudyRun<TradeoffSummary> {
         let TradeoffSummary { choices, finer, further_seeds, .. } = &mut self.summary;
         for (place, run) in choices.iter_mut().chain(finer).enumerate() {
             let others = further_seeds.iter().skip(place).step_by(all);
+            let mut further = others.clone().peekable();
+            run.seeds_alike = further.peek().is_some() && further.all(|other| other.measured == run.measured);
             if run.state == ChoiceState::Finished
                 && let Some(unstable) = others.clone().find(|other| other.state == ChoiceState::Unstable)
             {

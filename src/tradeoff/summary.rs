@@ -13,7 +13,7 @@ use crate::families::StepCheck;
 use crate::output::summary::AdapterSummary;
 use crate::output::{Id, RunDirectory};
 use crate::scene::{PlotStyle, SceneError, WrittenScene};
-use crate::study::{self, ASKS_ELSE, Charts, Kind, Record, SEED, Setting, StudyError, TRADEOFF, Variant, reseeded};
+use crate::study::{self, ASKS_ELSE, Charts, Kind, Record, SEED, Setting, StudyError, TRADEOFF, Variant};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::Path;
@@ -103,6 +103,9 @@ pub struct Choice {
     pub time_step: f64,
     /// The steps that it has run.
     pub steps: u64,
+    /// True if all seeds gave the same numbers.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub seeds_alike: bool,
     /// What it costs.
     pub cost: Option<Cost>,
     /// How far one step of the device is from one of the float64 reference, as a part of what the step changes; none for large systems.
@@ -272,7 +275,7 @@ impl Record for TradeoffSummary {
         let reference = |name: &str| Choice { name: name.to_owned(), label: name.to_owned(), ..Choice::default() };
         let choices: Vec<Choice> = variants.iter().map(choice).collect();
         let finer: Vec<Choice> = request.finer_names().into_iter().map(reference).collect();
-        let seeds = (1..request.seeds()).map(|further| reseeded(&request.base, further).seed);
+        let seeds = (1..request.seeds()).map(|further| request.seed(further));
         let with_seed = |run: &Choice, seed: u64| {
             let name = format!("{},{SEED}={seed}", run.name);
             Choice { label: name.clone(), name, ..run.clone() }

@@ -63,7 +63,7 @@ fn a_page_has_what_a_run_left_and_escapes_it() {
         pixels.filter(|(column, row)| sheet.get_pixel(*column, *row).0 != [255; 3]).count()
     };
     assert!(ink(0..90) == 0 && ink(90..150) > 1000, "the margin is blank, and the title is not");
-    assert!(sheet.height() > 1000 + 3 * energies.height() && ink(sheet.height() - 80..sheet.height()) == 0);
+    assert!(sheet.height() > 1000 + energies.height() && ink(sheet.height() - 80..sheet.height()) == 0);
     let out = place.argument("page.html");
     fails(&["report", &place.argument("run"), "--out", &out], 5, &["page.html` exists", "--force"]);
 }

@@ -40,7 +40,7 @@ fn mean(directory: &Path, column: &str) -> f64 {
 fn runs_with_several_seeds_are_those_of_each_seed_and_their_mean() {
     let place = place();
     let alone = succeeds(&["run", &place.scene(), "--out", &place.argument("alone"), "--seed", "6"]);
-    assert!(alone.contains("independent runs (--seeds 8)"), "{alone}");
+    assert!(alone.contains("independent runs (--seeds 10)"), "{alone}");
     let said = succeeds(&["run", &place.scene(), "--out", &place.argument("out"), "--seeds", "3"]);
     assert!(said.contains("wrote ") && said.contains("sweep-averages.csv"), "{said}");
     let out = place.path("out");
@@ -53,11 +53,12 @@ fn runs_with_several_seeds_are_those_of_each_seed_and_their_mean() {
     let average = &summary.averages[0].means["pressure"];
     assert_eq!((average["value"].as_f64(), average["error"].as_f64()), (Some(found.value), found.error));
     assert!(found.error.unwrap() > 0.0);
-    // A sweep takes them beside what it varies.
-    let further = ["--vary", "temperature=1,2", "--seeds", "2", "--quiet"];
+    fails(&["run", &place.scene(), "--out", &place.argument("out")], 5, &["out` has a sweep"]);
+    // A sweep takes them beside what it varies, and beside further variants.
+    let further = ["--vary", "temperature=1,2", "--also", "interactions.0.friction=1", "--seeds", "2", "--quiet"];
     succeeds(&[&["sweep", &place.scene(), "--out", &place.argument("sweep")][..], &further].concat());
     let summary = SweepSummary::load(&place.path("sweep")).unwrap();
-    assert_eq!(summary.averages.iter().map(|average| average.seeds).collect::<Vec<_>>(), [2, 2]);
+    assert_eq!(summary.averages.iter().map(|average| average.seeds).collect::<Vec<_>>(), [2, 2, 2]);
     for (arguments, part) in [
         (&["--seeds", "0"][..], "0 seeds; accepted: 1 to 1024"),
         (&["--seeds", "2", "--ranks", "2"], "--ranks"),
@@ -78,13 +79,16 @@ fn choices_are_compared_by_means_over_seeds() {
     succeeds(&[&own[..], &further].concat());
     let summary = TradeoffSummary::load(&place.path("out")).unwrap();
     let names = ["step=0.04", "step=0.04,seed=6", "step=0.04,seed=7"].map(|name| place.path("out").join(name));
-    let found = independent(&names.each_ref().map(|name| mean(name, "temperature"))).unwrap();
+    let means = names.each_ref().map(|name| mean(name, "temperature"));
+    let average = means.iter().sum::<f64>() / 3.0;
+    // Two errors are the 95 % interval of Student's distribution with two degrees of freedom.
+    let scatter = (means.iter().map(|mean| (mean - average).powi(2)).sum::<f64>() / 6.0).sqrt();
     let choice = &summary.choices[1];
     let measured = choice.value("temperature").unwrap();
-    assert_eq!((measured.value, measured.standard_error), (found.value, found.error));
-    // Three values leave an error that counts threefold.
+    assert!((measured.value - average).abs() < 1e-12 && !measured.from_few_samples, "{measured:?}");
+    assert!((2.0 * measured.standard_error.unwrap() / scatter - 4.303).abs() < 1e-6, "{measured:?} {scatter}");
     let error = choice.error("temperature").unwrap();
-    assert_eq!((error.error, error.uncertainty), (found.value - 1.0, found.error.map(|error| 3.0 * error)));
+    assert_eq!((error.error, error.uncertainty), (measured.value - 1.0, measured.standard_error));
     assert_eq!(summary.choices[2].state, ChoiceState::Unstable);
     let run = Summary::load(&names[1].join(run_files::SUMMARY)).unwrap();
     assert_eq!((run.scene.seed, run.steps, run.scene.time.step), (6, 120, 0.04));
@@ -95,6 +99,38 @@ fn choices_are_compared_by_means_over_seeds() {
     let again = TradeoffSummary::load(&place.path("out")).unwrap();
     assert_eq!(again.choices[1].measured, choice.measured);
     fails(&["tradeoff", &scene, "--vary", "seed=1,2", "--seeds", "2"], 2, &["`seed` cannot be varied"]);
+}
+
+/// Places of molecules and the noise after a start from a run follow from the seed where a scene is read, so that each further seed of a choice is
+/// the run that `run --seed` makes.
+#[test]
+fn further_seeds_of_choices_are_runs_of_scenes_with_these_seeds() {
+    let place = Place::of(json!({
+        "title": "dimers",
+        "space": {"box": [5, 5, 5]},
+        "time": {"step": 0.02, "steps": 40},
+        "temperature": 1,
+        "molecules": [{"name": "dimer", "beads": ["A", "A"], "bonds": [[0, 1]], "count": 100, "spacing": 0.7}],
+        "particles": [{"species": "A"}],
+        "interactions": [
+            {"type": "dpd", "repulsion": 25, "friction": 4.5},
+            {"type": "bonds", "potential": {"type": "harmonic", "stiffness": 40, "length": 0.7}},
+        ],
+        "output": {"energies": {"every": 4}, "plot": {"width": 640, "height": 480}, "snapshot": null},
+    }));
+    let energies = |run: &str| bytes(&place.path(run).join(run_files::ENERGIES));
+    let scene = place.scene();
+    let own = ["--vary", "time.step=0.02", "--measure", "temperature", "--seeds", "2", "--quiet"];
+    succeeds(&[&["tradeoff", &scene, "--out", &place.argument("molecules")][..], &own].concat());
+    succeeds(&["run", &scene, "--seed", "1", "--out", &place.argument("alone"), "--quiet"]);
+    assert_eq!(energies("molecules/step=0.02,seed=1"), energies("alone"));
+    assert_ne!(energies("molecules/step=0.02"), energies("alone"));
+    // A run of the same scene goes on where another ended; one with another seed has noise of its own.
+    let start = serde_json::to_string(&json!({"file": place.argument("alone")})).unwrap();
+    let set = [format!("state={start}"), "seed=1".to_owned(), "molecules=[]".to_owned()];
+    let set = ["--set", &set[0], "--set", &set[1], "--set", &set[2]];
+    succeeds(&[&["tradeoff", &scene, "--out", &place.argument("state")][..], &own, &set].concat());
+    assert_ne!(energies("state/step=0.02"), energies("state/step=0.02,seed=2"));
 }
 
 #[test]
