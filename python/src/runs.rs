@@ -3,11 +3,12 @@
 use crate::errors;
 use mesoscope::families;
 use mesoscope::gpu::{AdapterChoice, list_adapters};
+use mesoscope::output::OutputError;
 use mesoscope::plan::{Hardware, Options};
 use mesoscope::run::{self, Event, Interrupt, Run, RunError};
 use mesoscope::scene::{self, Checked, SceneError, WrittenScene};
 use mesoscope::stability::{Request as StabilityRequest, StabilityRun, StabilitySummary};
-use mesoscope::study::{Observer, Record, StudyError, StudyEvent, StudyRun};
+use mesoscope::study::{Kind, Observer, Record, StudyError, StudyEvent, StudyRun};
 use mesoscope::sweep::{Sweep, SweepRun, SweepSummary};
 use mesoscope::tradeoff::{Length, References, Request as TradeoffRequest, Target, TradeoffRun, TradeoffSummary};
 use pyo3::prelude::*;
@@ -153,6 +154,10 @@ pub fn run_scene(
     report: Option<Py<PyAny>>,
 ) -> PyResult<()> {
     let scene = checked(name, text, &settings, steps).map_err(|error| errors::of_scene(py, &error))?;
+    // A run in the directory of a study would hide behind it.
+    if let Some(kind) = Kind::of(&out).filter(|_| !force) {
+        return Err(errors::of_run(py, &OutputError::ResultExists { path: out.join(kind.summary) }.into()));
+    }
     let run = if force { Run::replace(scene, out) } else { Run::start(scene, out) };
     let run = if pictures { run } else { run.without_pictures() };
     execute(py, run, adapter, report.as_ref())

@@ -110,7 +110,7 @@ fn further_seeds_of_choices_are_runs_of_scenes_with_these_seeds() {
         "space": {"box": [5, 5, 5]},
         "time": {"step": 0.02, "steps": 40},
         "temperature": 1,
-        "molecules": [{"name": "dimer", "beads": ["A", "A"], "bonds": [[0, 1]], "count": 100, "spacing": 0.7}],
+        "molecules": [{"beads": ["A", "A"], "bonds": [[0, 1]], "count": 100, "spacing": 0.7}],
         "particles": [{"species": "A"}],
         "interactions": [
             {"type": "dpd", "repulsion": 25, "friction": 4.5},
