@@ -18,7 +18,7 @@ pub(super) const WIDTH: u32 = 960;
 const MOST_BYTES: usize = 400_000;
 
 /// Quality of JPEGs, of 100: dots keep their edges.
-const QUALITY: u8 = 90;
+const QUALITY: u8 = 80;
 
 /// A fact in a line.
 #[derive(Debug, Serialize)]
