@@ -91,7 +91,8 @@ impl Command {
     fn check_alone(&self) -> Result<(), Failure> {
         match self {
             Self::Sweep(arguments) if arguments.shard.is_some() => Ok(()),
-            Self::Run(_) | Self::Resume(_) if cfg!(feature = "mpi") => Ok(()),
+            Self::Run(arguments) if cfg!(feature = "mpi") && arguments.seeds.is_none() => Ok(()),
+            Self::Resume(_) if cfg!(feature = "mpi") => Ok(()),
             Self::Check(_) | Self::Adapters(_) => Ok(()),
             _ if !self.computes() => Ok(()),
             _ => launcher::refuse_copies(),

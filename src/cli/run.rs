@@ -35,7 +35,7 @@ pub struct Arguments {
     /// Independent runs, with the seed of the scene and those that follow, as `mesoscope sweep --seeds` makes them: tables and plots of their means,
     /// with standard errors from their scatter
     #[arg(long, help_heading = heading::SEVERAL, value_name = "N", conflicts_with_all = ["ranks", "mixed", "no_pictures", "progress"])]
-    seeds: Option<u32>,
+    pub seeds: Option<u32>,
 
     #[command(flatten)]
     ranks: RanksArgument,
