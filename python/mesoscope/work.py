@@ -183,8 +183,10 @@ def sweep(
     [1.0, 2.0]
     """
     varied = {key: list(values) for key, values in (vary or {}).items()}
-    count = seeds if isinstance(seeds, int) else None
-    if seeds is not None and count is None:
+    count = None
+    if isinstance(seeds, int):
+        count = seeds
+    elif seeds is not None:
         varied["seed"] = list(seeds)
     study = _Study(
         "sweep", scene, settings, out, varied, also,
