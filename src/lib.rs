@@ -1,7 +1,7 @@
 //! Stochastic mesoscale particle simulations on any GPU through wgpu.
 //!
-//! The [`prelude`] is the interface: a scene, a [`Simulation`] of it that is advanced step by step, a [`Run`](prelude::Run) that
-//! writes files, and what these return. It keeps its meaning within a major version.
+//! The [`prelude`] is the interface: a scene, a [`Simulation`] of it that is advanced step by step, a
+//! [`Run`](prelude::Run) that writes files, and what these return. It keeps its meaning within a major version.
 //!
 //! ```
 //! use mesoscope::prelude::*;
@@ -16,13 +16,15 @@
 //! # Ok::<(), RunError>(())
 //! ```
 //!
-//! All other modules may change with every version; `cargo doc --features internals` documents them. A `scene` is what the user wrote, typed and
-//! checked. A model of one of the `families` is its physics in numbers. A `plan` is pure data: the kernels, constants and buffers that the scene
-//! needs, in order. The `engine` executes a plan on an adapter opened by `gpu`. `measure` turns integer sums into averages with errors, `output` and
-//! `plot` write what the user sees. A `study` is many runs that differ in a few values: a `sweep`, a `tradeoff`, a map of `stability`.
+//! All other modules may change with every version; `cargo doc --features internals` documents them. A `scene` is what
+//! the user wrote, typed and checked. A model of one of the `families` is its physics in numbers. A `plan` is pure
+//! data: the kernels, constants and buffers that the scene needs, in order. The `engine` executes a plan on an adapter
+//! opened by `gpu`. `measure` turns integer sums into averages with errors, `output` and `plot` write what the user
+//! sees. A `study` is many runs that differ in a few values: a `sweep`, a `tradeoff`, a map of `stability`.
 //! `families::reference` is the plain float64 implementation that every kernel is tested against.
 //!
-//! A program that may come to run on the software adapter is best started with the variables of [`driver_environment`](prelude::driver_environment).
+//! A program that may come to run on the software adapter is best started with the variables of
+//! [`driver_environment`](prelude::driver_environment).
 
 #[cfg_attr(not(feature = "internals"), doc(hidden))]
 pub mod calibration;

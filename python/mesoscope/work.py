@@ -224,7 +224,7 @@ def tradeoff(
     """Measures what choices cost and how far each is off, and says which is the cheapest that meets the ``targets``: ``{"pressure": "1%"}``
     in parts of a reference, or numbers in units of the scene.
 
-    With ``seeds`` every choice runs with the seed of the scene and those that follow: means are over them, with standard errors from their scatter.
+    With ``seeds`` every choice runs with the seed of the scene and those that follow: means are over them, with errors from their scatter.
     ``error`` is the relative standard error that means are to have, ``budget`` the seconds that all steps may take, and ``references`` are
     values that are known, alone or with their errors: ``{"pressure": (23.65, 0.01)}``.
     """

@@ -142,7 +142,7 @@ def test_a_tradeoff_says_what_to_choose(small):
 def test_a_map_says_how_far_a_scene_may_go(small):
     settings = small | {"output": {"energies": {"every": 5}}}
     found = ms.stability("dpd-fluid", {"time.step": "0.02..2/3"}, settings, "map", bisections=1, seeds=2, steps=200, progress=False)
-    assert "Means are over 2 seeds." in found.page
+    assert "Means are over 2 seeds, with errors from their scatter." in found.page
     assert found.rows[0]["unstable_from"] != "not seen" and len(found.table()["verdict"]) >= 3
     assert isinstance(ms.open("map"), ms.Stability)
 

@@ -32,8 +32,8 @@ pub struct Arguments {
     #[arg(long, help_heading = heading::OUTPUT, value_name = "DIR")]
     out: Option<PathBuf>,
 
-    /// Independent runs, with the seed of the scene and those that follow, as `mesoscope sweep --seeds` makes them: tables and plots of their means,
-    /// with standard errors from their scatter
+    /// Independent runs, with the seed of the scene and those that follow, as `mesoscope sweep --seeds` makes them:
+    /// tables and plots of their means, with errors from their scatter
     #[arg(long, help_heading = heading::SEVERAL, value_name = "N", conflicts_with_all = ["ranks", "mixed", "no_pictures", "progress"])]
     pub seeds: Option<u32>,
 

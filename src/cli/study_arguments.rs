@@ -35,8 +35,8 @@ pub struct StudyArguments {
     #[arg(long, help_heading = heading::RUNNING, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
 
-    /// Independent runs of each scene, with its own seed and those that follow: means are taken over them, with standard errors from
-    /// their scatter
+    /// Independent runs of each scene, with its own seed and those that follow: means are taken over them, with errors
+    /// from their scatter
     #[arg(long, help_heading = heading::SEVERAL, value_name = "N", conflicts_with = "resume")]
     pub seeds: Option<u32>,
 

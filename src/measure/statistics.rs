@@ -158,7 +158,8 @@ pub(crate) fn student(freedom: f64) -> f64 {
     1.0 + few * (0.5 + few * (0.25 + few * 0.0867))
 }
 
-/// Half widths of the intervals that hold 95 % of Student's distribution with one to four degrees of freedom, in standard errors.
+/// Half widths of the intervals that hold 95 % of Student's distribution with one to four degrees of freedom, in
+/// standard errors.
 const FEW_FREEDOMS: [f64; 4] = [12.706, 4.303, 3.182, 2.776];
 
 /// The same of any number of them: of more than four the expansion of Cornish and Fisher, within .3 %.
@@ -168,8 +169,8 @@ fn student_95(freedom: usize) -> f64 {
     FEW_FREEDOMS.get(freedom.wrapping_sub(1)).copied().unwrap_or(expanded)
 }
 
-/// The mean of independent values, and an error of which two hold the true value with the probability of 95 %, however few they are; none of fewer
-/// than two values.
+/// The mean of independent values, and an error of which two hold the true value with the probability of 95 %, however
+/// few they are; none of fewer than two values.
 pub(crate) fn mean_within_two_errors(values: &[f64]) -> Option<(f64, f64)> {
     let Estimate { value, .. } = independent(values)?;
     let differences: Vec<f64> = values.iter().map(|one| one - values[0]).collect();

@@ -1,4 +1,5 @@
-//! A sheet of text and pictures, drawn without a device: it holds what is laid down on it from the top, however long that becomes.
+//! A sheet of text and pictures, drawn without a device: it holds what is laid down on it from the top, however long
+//! that becomes.
 
 use super::error::PlotError;
 use super::palette::{encoded, linear};
@@ -74,7 +75,8 @@ impl Sheet {
         self.typesetter.width(text, style.weight(), style.size)
     }
 
-    /// Lays down a text in lines no wider than `width`, below and right of `corner`. Returns the bottom of the last line.
+    /// Lays down a text in lines no wider than `width`, below and right of `corner`. Returns the bottom of the last
+    /// line.
     pub(crate) fn lay_text(&mut self, text: &str, style: SheetType, [left, top]: [f64; 2], width: f64) -> f64 {
         let text = self.with_breaks(text, style, width);
         let lines = self.typesetter.wrap(&text, style.weight(), style.size, width, usize::MAX);

@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 /// The widest pictures of a page, in pixels: twice what a column shows.
 pub(super) const WIDTH: u32 = 960;
 
-/// Bytes of the widest picture from which on it is a JPEG: charts stay sharp, and snapshots of many particles, of which a page may have a dozen, are
-/// a fifth of what they were.
+/// Bytes of the widest picture from which on it is a JPEG: charts stay sharp, and snapshots of many particles, of which
+/// a page may have a dozen, are a fifth of what they were.
 const MOST_BYTES: usize = 400_000;
 
 /// Quality of JPEGs, of 100: dots keep their edges.

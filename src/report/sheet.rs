@@ -1,4 +1,5 @@
-//! The page as one sheet: a picture for slides and messages, which shows all that fits into a glance; scenes are left to the page.
+//! The page as one sheet: a picture for slides and messages, which shows all that fits into a glance; scenes are left
+//! to the page.
 
 use super::ReportError;
 use super::entry::{Entry, Inside, TextTable};
@@ -11,6 +12,9 @@ use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 /// Width of a sheet and of its margins, in pixels: A4 at 200 dots an inch.
 const WIDTH: u32 = 1654;
 const MARGIN: f64 = 90.0;
+
+/// The most rows of a table on a sheet.
+const MOST_ROWS: usize = 40;
 
 /// Room between columns and between blocks.
 const GUTTER: f64 = 34.0;
@@ -148,7 +152,8 @@ impl Pen {
 
     /// A table, in parts below each other where its columns do not fit side by side: each begins with the first column.
     fn write_table(&mut self, table: &TextTable) {
-        let rows = || std::iter::once(&table.header).filter(|header| !header.is_empty()).chain(&table.rows);
+        let shown = &table.rows[..table.rows.len().min(MOST_ROWS)];
+        let rows = || std::iter::once(&table.header).filter(|header| !header.is_empty()).chain(shown);
         let count = rows().map(Vec::len).max().unwrap_or(0);
         let widest = |column: usize| {
             let cells = rows().filter_map(|row| row.get(column));
@@ -175,6 +180,10 @@ impl Pen {
                 self.top = bottom + 0.15 * GUTTER;
             }
             self.top += 0.5 * GUTTER;
+        }
+        let left_out = table.rows.len() - shown.len();
+        if left_out > 0 {
+            self.write(&format!("{left_out} more rows are in the page"), LABEL);
         }
         if let Some(note) = &table.note {
             self.write(note, LABEL);

@@ -121,7 +121,11 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
         let (date, version) = (&summary.date, &summary.mesoscope_version);
         format!(" {date}, {} ({}), version {version}.", adapter.name, adapter.driver)
     });
-    let seeds = summary.arguments.seeds.map(|seeds| format!(" Means are over {seeds} seeds.")).unwrap_or_default();
+    let seeds = summary
+        .arguments
+        .seeds
+        .map(|seeds| format!(" Means are over {seeds} seeds, with errors from their scatter."))
+        .unwrap_or_default();
     let right = summary.right_in_a_word();
     let header = ["row".to_owned(), format!("{right}: {key} up to"), "unstable from".to_owned(), "laws".to_owned()];
     let findings: Vec<String> = summary.findings().iter().map(|finding| format!("- {finding}")).collect();

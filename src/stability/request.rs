@@ -161,8 +161,8 @@ impl Request {
         self
     }
 
-    /// The same with `seeds` independent runs of each scene, side by side in memory: means are taken over them, with standard errors from their
-    /// scatter, and a scene is unstable that is with one of them.
+    /// The same with `seeds` independent runs of each scene, side by side in memory: means are taken over them, with
+    /// standard errors from their scatter, and a scene is unstable that is with one of them.
     ///
     /// # Errors
     /// [`StudyError::Arguments`] unless there are 1 to [`study::MOST_SEEDS`], and where the seed is varied.

@@ -82,7 +82,8 @@ impl Sweep {
     /// The same with `seeds` independent runs of each variant, with the seed of the scene and those that follow.
     ///
     /// # Errors
-    /// As [`Self::load`], and [`StudyError::Arguments`] unless there are 1 to [`MOST_SEEDS`](super::MOST_SEEDS), and where the seed is varied.
+    /// As [`Self::load`], and [`StudyError::Arguments`] unless there are 1 to [`MOST_SEEDS`](super::MOST_SEEDS), and
+    /// where the seed is varied.
     ///
     /// ```
     /// use mesoscope::study::Sweep;

@@ -96,11 +96,11 @@ impl TradeoffSummary {
             )
         });
         // Nothing of a deterministic scene depends on its seed.
-        let copied: Vec<&str> =
-            self.finished().filter(|choice| choice.seeds_alike).map(|choice| choice.label.as_str()).collect();
+        let copied: Vec<&str> = self.with_seeds_alike().map(|choice| choice.label.as_str()).collect();
         let copied = (!copied.is_empty()).then(|| {
             format!(
-                "All seeds of {} gave the same numbers, whose errors are those of one run: nothing that was measured depends on the seed.",
+                "All seeds of {} gave the same numbers, whose errors are those of one run: nothing that was measured \
+                 depends on the seed.",
                 copied.join(" and ")
             )
         });
@@ -160,7 +160,10 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
     let (count, time) = (summary.choices.len(), short(summary.averaged_time()));
     let before = short(summary.stretch.equilibration);
     let seeds = summary.arguments.seeds.map(|seeds| {
-        format!(" Every choice ran with {seeds} seeds: its numbers are means over them, with errors from their scatter, of which two hold the true value with 95 %.")
+        format!(
+            " Every choice ran with {seeds} seeds: its numbers are means over them, with errors from their scatter, of \
+             which two hold the true value with 95 %."
+        )
     });
     let seeds = seeds.unwrap_or_default();
     let mut paragraphs = vec![

@@ -63,9 +63,10 @@ impl Measured {
     }
 }
 
-/// The means of what runs with several seeds measured, with errors from their scatter, of which two hold the true value with 95 % however few seeds
-/// there are; what some of them lack is left out. Errors that all of them share, as those of what they are compared with, are added. A single
-/// run keeps its own errors, and so does a number that is the same with every seed.
+/// The means of what runs with several seeds measured, with errors from their scatter, of which two hold the true value
+/// with 95 % however few seeds there are; what some of them lack is left out. Errors that all of them share, as those
+/// of what they are compared with, are added. A single run keeps its own errors, and so does a number that is the same
+/// with every seed.
 pub(crate) fn over_seeds(runs: &[&[Measured]]) -> Vec<Measured> {
     let Some((first, others)) = runs.split_first() else { return Vec::new() };
     let mean = |found: &Measured| {
@@ -185,7 +186,8 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    /// 1, 2 and 6 have the mean 3 and the error √((4 + 1 + 9)/(3·2)), before Student's factor of two degrees of freedom.
+    /// 1, 2 and 6 have the mean 3 and the error √((4 + 1 + 9)/(3·2)), before Student's factor of two degrees of
+    /// freedom.
     #[test]
     fn means_over_seeds_have_the_error_of_their_scatter() {
         let run = |mean: f64, distance: f64, samples: f64| {

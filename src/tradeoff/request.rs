@@ -125,8 +125,8 @@ impl Request {
         Ok(self)
     }
 
-    /// The same with `seeds` independent runs of each choice, with the seed of the scene and those that follow: means are taken over them,
-    /// with standard errors from their scatter.
+    /// The same with `seeds` independent runs of each choice, with the seed of the scene and those that follow: means
+    /// are taken over them, with standard errors from their scatter.
     ///
     /// # Errors
     /// [`StudyError::Arguments`] unless there are 1 to [`study::MOST_SEEDS`], and where the seed is varied.
@@ -147,8 +147,8 @@ impl Request {
         following(self.base.seed, further)
     }
 
-    /// The scenes of all choices and of the runs that references are taken from with the seed that is `further` places after that of the scene: each
-    /// is read with it, for places and noise follow from it where particles start.
+    /// The scenes of all choices and of the runs that references are taken from with the seed that is `further` places
+    /// after that of the scene: each is read with it, for places and noise follow from it where particles start.
     pub(super) fn scenes(&self, further: u32) -> Result<Vec<Checked>, StudyError> {
         let seed = further_seed(self.base.seed, further);
         let choice = |variant: &Variant| match &seed {

@@ -158,8 +158,8 @@ impl StudyRun<TradeoffSummary> {
         (seed * all..seed * all + choices).find(|twin| place >= choices && runs[*twin].1 == runs[index].1)
     }
 
-    /// The runs that have to come to the end of the stretch: not those of choices that became unstable with any seed, nor those that another
-    /// entry has.
+    /// The runs that have to come to the end of the stretch: not those of choices that became unstable with any seed,
+    /// nor those that another entry has.
     fn members(&mut self, runs: &[(String, Checked)]) -> Vec<Member> {
         let stretch = self.summary.stretch;
         let mut members = Vec::new();
@@ -277,14 +277,13 @@ impl StudyRun<TradeoffSummary> {
         Ok(())
     }
 
-    /// Replaces what runs with the first seed measured by the means over all seeds. A choice that is unstable with one of them is unstable.
+    /// Replaces what runs with the first seed measured by the means over all seeds. A choice that is unstable with one
+    /// of them is unstable.
     fn average_seeds(&mut self) {
         let all = self.runs_of_a_seed();
         let TradeoffSummary { choices, finer, further_seeds, .. } = &mut self.summary;
         for (place, run) in choices.iter_mut().chain(finer).enumerate() {
             let others = further_seeds.iter().skip(place).step_by(all);
-            let mut further = others.clone().peekable();
-            run.seeds_alike = further.peek().is_some() && further.all(|other| other.measured == run.measured);
             if run.state == ChoiceState::Finished
                 && let Some(unstable) = others.clone().find(|other| other.state == ChoiceState::Unstable)
             {

@@ -54,8 +54,8 @@ pub struct TradeoffSummary {
     pub choices: Vec<Choice>,
     /// The runs that references are taken from.
     pub finer: Vec<Choice>,
-    /// The runs of all choices and of those that references are taken from with further seeds, seed by seed; the means of all seeds are in
-    /// `choices` and `finer`.
+    /// The runs of all choices and of those that references are taken from with further seeds, seed by seed; the means
+    /// of all seeds are in `choices` and `finer`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub further_seeds: Vec<Choice>,
     /// The name of the cheapest choice that meets all targets.
@@ -103,9 +103,6 @@ pub struct Choice {
     pub time_step: f64,
     /// The steps that it has run.
     pub steps: u64,
-    /// True if all seeds gave the same numbers.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub seeds_alike: bool,
     /// What it costs.
     pub cost: Option<Cost>,
     /// How far one step of the device is from one of the float64 reference, as a part of what the step changes; none for large systems.
@@ -207,6 +204,17 @@ impl TradeoffSummary {
     pub(crate) fn scene_of(&self, choice: &Choice) -> WrittenScene {
         let settings: Vec<String> = choice.settings.iter().map(Setting::argument).collect();
         self.arguments.scene.clone().with(&settings)
+    }
+
+    /// Choices of which all seeds gave the same numbers, which then are their means too.
+    pub(super) fn with_seeds_alike(&self) -> impl Iterator<Item = &Choice> {
+        let all = self.choices.len() + self.finer.len();
+        let is_alike = move |(place, choice): &(usize, &Choice)| {
+            let mut others = self.further_seeds.iter().skip(*place).step_by(all).peekable();
+            others.peek().is_some() && others.all(|other| other.measured == choice.measured)
+        };
+        let finished = |choice: &&Choice| choice.state == ChoiceState::Finished;
+        self.choices.iter().enumerate().filter(is_alike).map(|(_, choice)| choice).filter(finished)
     }
 
     /// Choices that came to their end.

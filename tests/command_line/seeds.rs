@@ -12,22 +12,11 @@ use serde_json::json;
 
 use crate::support::program::{Place, bytes, fails, succeeds};
 
-/// A fluid of 192 particles and too short a run to know its error.
+/// The fluid of tradeoffs, in a run too short to know its error.
 fn place() -> Place {
-    Place::of(json!({
-        "title": "small fluid",
-        "seed": 5,
-        "space": {"box": [4, 4, 4]},
-        "time": {"step": 0.04, "steps": 120, "equilibration": 40},
-        "temperature": 1,
-        "particles": [{"species": "fluid", "number_density": 3}],
-        "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5}],
-        "output": {
-            "energies": {"every": 4},
-            "plot": {"width": 640, "height": 480},
-            "snapshot": null,
-        },
-    }))
+    let mut scene = crate::tradeoff::fluid();
+    (scene["seed"], scene["time"]["steps"], scene["output"]["snapshot"]) = (json!(5), json!(120), json!(null));
+    Place::of(scene)
 }
 
 /// The mean of a column in the run of a directory.
@@ -101,8 +90,8 @@ fn choices_are_compared_by_means_over_seeds() {
     fails(&["tradeoff", &scene, "--vary", "seed=1,2", "--seeds", "2"], 2, &["`seed` cannot be varied"]);
 }
 
-/// Places of molecules and the noise after a start from a run follow from the seed where a scene is read, so that each further seed of a choice is
-/// the run that `run --seed` makes.
+/// Places of molecules and the noise after a start from a run follow from the seed where a scene is read, so that each
+/// further seed of a choice is the run that `run --seed` makes.
 #[test]
 fn further_seeds_of_choices_are_runs_of_scenes_with_these_seeds() {
     let place = Place::of(json!({
@@ -151,6 +140,6 @@ fn maps_judge_means_over_seeds() {
     let one = StabilitySummary::load(&place.path("one")).unwrap();
     assert_ne!(one.rows[0].cells[0].error("temperature"), Some(error));
     let page = fs::read_to_string(place.path("out").join("stability.md")).unwrap();
-    assert!(page.contains("Means are over 2 seeds."), "{page}");
+    assert!(page.contains("Means are over 2 seeds, with errors from their scatter."), "{page}");
     fails(&["stability", &scene, "--vary", "seed=1..4/2", "--seeds", "2"], 2, &["`seed` cannot be varied"]);
 }

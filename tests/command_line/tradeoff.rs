@@ -14,8 +14,8 @@ use serde_json::{Value, json};
 use crate::support::program::{Place, fails, listing, size, succeeds};
 
 /// A fluid of 192 particles, and what of it a run takes to say something about its temperature.
-fn place() -> Place {
-    Place::of(json!({
+pub fn fluid() -> Value {
+    json!({
         "title": "small fluid",
         "space": {"box": [4, 4, 4]},
         "time": {"step": 0.04, "steps": 200, "equilibration": 40},
@@ -27,7 +27,11 @@ fn place() -> Place {
             "plot": {"width": 640, "height": 480},
             "snapshot": {"width": 100, "height": 80},
         },
-    }))
+    })
+}
+
+fn place() -> Place {
+    Place::of(fluid())
 }
 
 fn arguments<'a>(place: &'a Place, further: &[&'a str]) -> Vec<String> {
