@@ -92,6 +92,9 @@ pub(super) fn entry(directory: &Path) -> Option<Entry> {
     Some(entry)
 }
 
+/// The errors of a table.
+const ERRORS: &str = "± standard errors, widened by Student's factor where samples are few";
+
 /// Columns that say nothing of what was found.
 const LEFT_OUT: [&str; 3] = ["wall_seconds", "particle_steps_per_second", "particles"];
 
@@ -124,8 +127,12 @@ fn table(text: &str, heading: &str) -> Option<TextTable> {
     let header: Vec<String> = kept.iter().map(|column| names[*column].replace('_', " ")).collect();
     let rows: Vec<Vec<String>> =
         all.iter().take(MOST_ROWS).map(|row| kept.iter().map(|column| shown(row, *column)).collect()).collect();
-    let note = (all.len() > MOST_ROWS)
+    let left_out = (all.len() > MOST_ROWS)
         .then(|| format!("{} more rows are in the table of the directory", all.len() - MOST_ROWS));
+    // The table itself does not say which of them are from few samples.
+    let errors = names.iter().any(|name| is_error(name)).then(|| ERRORS.to_owned());
+    let notes: Vec<String> = errors.into_iter().chain(left_out).collect();
+    let note = (!notes.is_empty()).then(|| notes.join("; "));
     if rows.len() <= MOST_TURNED && header.len() > MOST_TURNED {
         let turned = |place: usize| -> Vec<String> {
             std::iter::once(&header[place]).chain(rows.iter().map(|row| &row[place])).cloned().collect()
@@ -207,6 +214,8 @@ mod tests {
         assert_eq!(found.rows[1], ["state", "finished", "failed"]);
         assert_eq!(found.rows[3], ["temperature mean", "1.012 ± 0.012", ""]);
         assert_eq!((found.rows.len(), found.numbers), (7, vec![1, 2]));
+        assert_eq!(found.note.as_deref(), Some(ERRORS));
+        assert_eq!(table("seed,pressure\n1,2\n", "Runs").unwrap().note, None);
         let narrow = table("seed,pressure,pressure_error\n1,23.456,0.01\n2,23.5,\n", "Runs").unwrap();
         assert_eq!(narrow.header, ["seed", "pressure"]);
         assert_eq!(narrow.rows, [["1", "23.456 ± 0.010"], ["2", "23.5"]]);
