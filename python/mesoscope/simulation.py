@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import warnings
 from dataclasses import dataclass, field
 from typing import Any, Iterator, Mapping
 
@@ -154,13 +155,12 @@ class Simulation:
         velocities: Any = None,
         seed: int | None = None,
         adapter: str | None = None,
-        ranks: int | None = None,
+        ranks: int = 1,
     ) -> None:
-        if ranks not in (None, 1):
-            raise ArrayError("a simulation that is stepped has one rank; runs share theirs: `mesoscope run --ranks`")
+        ranks = _whole("ranks", ranks)
         name, written = source(scene)
         settings = dict(settings or {}) | ({} if seed is None else {"seed": seed})
-        self._inner = _mesoscope.Simulation.start(name, written, overrides(settings), adapter)
+        self._inner = _mesoscope.Simulation.start(name, written, overrides(settings), adapter, ranks)
         self._begin()
         try:
             if positions is not None:
@@ -172,15 +172,17 @@ class Simulation:
             raise
 
     def _begin(self) -> None:
+        for shared in self._inner.ranks()[1]:
+            warnings.warn(shared, RuntimeWarning, stacklevel=3)
         self._bonds: np.ndarray | None = None
         self.species_names: list[str] = self._inner.species_names()
         _closing.register(self)
 
     @classmethod
-    def resume(cls, path: str | os.PathLike[str], *, adapter: str | None = None) -> "Simulation":
+    def resume(cls, path: str | os.PathLike[str], *, adapter: str | None = None, ranks: int = 1) -> "Simulation":
         """The simulation that goes on from a checkpoint: of :meth:`checkpoint`, or of a run."""
         made = cls.__new__(cls)
-        made._inner = _mesoscope.Simulation.resume(os.fspath(path), adapter)
+        made._inner = _mesoscope.Simulation.resume(os.fspath(path), adapter, _whole("ranks", ranks))
         made._begin()
         return made
 
@@ -216,6 +218,11 @@ class Simulation:
     def adapter(self) -> str:
         """The name of the adapter."""
         return self._inner.adapter()
+
+    @property
+    def ranks(self) -> int:
+        """The number of ranks that share the simulation: threads of this process, each with an adapter and a part of the box."""
+        return self._inner.ranks()[0]
 
     @property
     def scene(self) -> dict[str, Any]:

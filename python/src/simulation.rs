@@ -104,28 +104,29 @@ fn dictionary(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
 impl Simulation {
     /// A simulation of a scene at its start.
     #[staticmethod]
-    #[pyo3(signature = (name, text, settings, adapter=None))]
+    #[pyo3(signature = (name, text, settings, adapter=None, ranks=1))]
     fn start(
         py: Python<'_>,
         name: &str,
         text: Option<String>,
         settings: Vec<String>,
         adapter: Option<&str>,
+        ranks: u32,
     ) -> PyResult<Self> {
         check_fork(py)?;
         let scene = checked(name, text, &settings, None).map_err(|error| errors::of_scene(py, &error))?;
         let choice = choice(adapter);
-        let simulation = py.detach(|| mesoscope::Simulation::new(&scene, &choice));
+        let simulation = py.detach(|| mesoscope::Simulation::on_ranks(&scene, &choice, ranks));
         simulation.map(Self::new).map_err(|error| errors::of_run(py, &error))
     }
 
     /// A simulation that goes on from a checkpoint.
     #[staticmethod]
-    #[pyo3(signature = (path, adapter=None))]
-    fn resume(py: Python<'_>, path: PathBuf, adapter: Option<&str>) -> PyResult<Self> {
+    #[pyo3(signature = (path, adapter=None, ranks=1))]
+    fn resume(py: Python<'_>, path: PathBuf, adapter: Option<&str>, ranks: u32) -> PyResult<Self> {
         check_fork(py)?;
         let choice = choice(adapter);
-        let simulation = py.detach(|| mesoscope::Simulation::from_checkpoint(&path, &choice));
+        let simulation = py.detach(|| mesoscope::Simulation::from_checkpoint_on_ranks(&path, &choice, ranks));
         simulation.map(Self::new).map_err(|error| errors::of_run(py, &error))
     }
 
@@ -158,6 +159,14 @@ impl Simulation {
 
     fn adapter(&self, py: Python<'_>) -> PyResult<String> {
         self.with(py, |open| Ok(open.simulation.adapter().name.clone()))
+    }
+
+    /// Number of ranks that share the simulation, and what they have to share where there are fewer adapters.
+    fn ranks(&self, py: Python<'_>) -> PyResult<(usize, Vec<String>)> {
+        self.with(py, |open| {
+            let ranks = open.simulation.ranks();
+            Ok((ranks.len().max(1), mesoscope::ranks::sharing_anywhere(ranks)))
+        })
     }
 
     /// The scene as JSON text.

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from contextlib import nullcontext
 
 import mesoscope as ms
 import numpy as np
@@ -352,3 +353,29 @@ def test_means_begin_anew_with_a_change(small):
         sim.advance(300)
         assert sim.mean("temperature").samples == 30 and sim.mean("temperature").value > 3
         assert len(sim.energies["time"]) == 41
+
+
+def test_ranks_give_the_numbers_of_one(small, tmp_path):
+    long = small | {"space.box": [4, 4, 9]}
+    with ms.Simulation("dpd-fluid", long) as alone:
+        with pytest.warns(RuntimeWarning, match="ranks share 1 adapter") if one_adapter() else nullcontext():
+            shared = ms.Simulation("dpd-fluid", long, ranks=2)
+        assert (alone.ranks, shared.ranks) == (1, 2)
+        for sim in (alone, shared):
+            sim.advance(12)
+        assert shared.observables == alone.observables
+        assert (shared.frame().positions == alone.frame().positions).all()
+        shared.checkpoint(tmp_path / "shared.ckpt")
+        shared.close()
+        alone.advance(5)
+        with ms.Simulation.resume(tmp_path / "shared.ckpt") as rest:
+            rest.advance(5)
+            assert (rest.frame().velocities == alone.frame().velocities).all()
+    with pytest.raises(ms.RunError, match="ranks fit"):
+        ms.Simulation("dpd-fluid", long, ranks=1000)
+    with pytest.raises(ms.ArrayError, match="ranks: found 1.5"):
+        ms.Simulation("dpd-fluid", long, ranks=1.5)
+
+
+def one_adapter() -> bool:
+    return len(ms.adapters()) == 1

@@ -438,12 +438,12 @@ impl<'a> Engine<'a> {
         Ok(std::mem::take(&mut self.collected))
     }
 
-    /// Goes on from a state by another plan, which differs in numbers only: in constants that kernels load from buffers,
-    /// and in tables. False if it differs in more, and nothing has changed.
+    /// Replaces the plan by another one, which differs in numbers only: in constants that kernels load from buffers, and in tables. False if
+    /// it differs in more, and nothing has changed. The state has to be uploaded again.
     ///
     /// # Errors
-    /// As [`Self::upload`].
-    pub(crate) fn renumber(&mut self, plan: &Plan, state: &State) -> Result<bool, EngineError> {
+    /// [`EngineError`] if the device failed.
+    pub(crate) fn load_numbers(&mut self, plan: &Plan) -> Result<bool, EngineError> {
         let bytes = |plan: &Plan| plan.buffers.iter().map(|buffer| (buffer.array, buffer.bytes)).collect::<Vec<_>>();
         let kernels = || self.plan.kernels.iter().zip(&plan.kernels).zip(&self.stages);
         let order = |plan: &Plan| {
@@ -451,13 +451,14 @@ impl<'a> Engine<'a> {
             [prepare, sort, tidy, before_report, report, advance, finish_report].map(Vec::clone)
         };
         let is_alike = plan.kernels.len() == self.plan.kernels.len()
-            && (plan.particles, plan.constants_in, &plan.samplers, &plan.textures, &plan.paths)
+            && (plan.particles, plan.constants_in, &plan.samplers, &plan.textures, &plan.paths, &plan.part)
                 == (
                     self.plan.particles,
                     self.plan.constants_in,
                     &self.plan.samplers,
                     &self.plan.textures,
                     &self.plan.paths,
+                    &self.plan.part,
                 )
             && order(plan) == order(&self.plan)
             && bytes(plan) == bytes(&self.plan)
@@ -475,16 +476,7 @@ impl<'a> Engine<'a> {
             }
         }
         self.plan = plan.clone();
-        self.upload(state)?;
         Ok(true)
-    }
-
-    /// Waits until the device has taken all steps.
-    ///
-    /// # Errors
-    /// [`EngineError`] if the device fails or the run becomes unstable.
-    pub(crate) fn wait(&mut self) -> Result<(), EngineError> {
-        self.wait_all()
     }
 
     /// The particles as a report of this step finds them, whose state is known.
@@ -501,12 +493,11 @@ impl<'a> Engine<'a> {
         Ok(Reported { momenta, ..state.clone().into() })
     }
 
-    /// Samples of this step by some samplers, due or not: what they take at the steps at which they are due does not
-    /// depend on it.
+    /// Takes samples of this step by some samplers, due or not: samples at the steps at which they are due do not depend on it.
     ///
     /// # Errors
     /// As [`Self::reported`].
-    pub(crate) fn measure(&mut self, samplers: &[usize]) -> Result<Vec<Sample>, EngineError> {
+    pub(crate) fn take_measurements(&mut self, samplers: &[usize]) -> Result<(), EngineError> {
         self.report_now()?;
         let mut recording = Recording::new(&self.gpu, "samples");
         for &number in samplers {
@@ -516,9 +507,7 @@ impl<'a> Engine<'a> {
                 self.pending_rows[number] += 1;
             }
         }
-        self.submit(recording.finish())?;
-        self.wait_all()?;
-        Ok(std::mem::take(&mut self.collected))
+        self.submit(recording.finish())
     }
 
     /// Samples of the batches that have finished so far, in order.
@@ -606,20 +595,7 @@ impl<'a> Engine<'a> {
         Ok(state.into())
     }
 
-    /// The particles where the forces of the current step are evaluated, with their momenta there, as the table of energies sees them: what
-    /// a run that starts from them takes for its step 0. Only where [`Self::state`] may be read, and of a scene with a trajectory.
-    ///
-    /// # Errors
-    /// As [`Self::state`] and [`Self::reported`].
-    pub fn frame(&mut self) -> Result<Reported, EngineError> {
-        if !self.plan.has_buffer(Array::ReportedMomenta) {
-            return self.reported();
-        }
-        let before = self.state()?;
-        self.report_of(&before)
-    }
-
-    /// The momenta of [`Self::frame`] that one of several ranks knows, two words an axis, and zero for the particles of others.
+    /// The momenta of [`Stepper::frame`] that one of several ranks knows, two words an axis, and zero for the particles of others.
     ///
     /// # Errors
     /// As [`Self::reported`], or if the plan is of no part.
@@ -809,7 +785,7 @@ impl<'a> Engine<'a> {
         Ok(())
     }
 
-    fn wait_all(&mut self) -> Result<(), EngineError> {
+    pub(crate) fn wait_all(&mut self) -> Result<(), EngineError> {
         while !self.in_flight.is_empty() {
             self.collect_oldest()?;
         }

@@ -1,6 +1,6 @@
 //! What advances a state step by step: an engine, or several that share a run.
 
-use super::{Control, Engine, EngineError, Sample, Shown, Traffic};
+use super::{Control, Engine, EngineError, Movable, Sample, Shown, Traffic};
 use crate::plan::Plan;
 use crate::shaders::Array;
 use crate::state::{Reported, State};
@@ -24,15 +24,39 @@ pub struct RankReport {
 
 /// What advances a state and samples it; [`Engine`] says what each of these does.
 #[allow(missing_docs, clippy::missing_errors_doc)]
-pub trait Stepper {
+pub trait Stepper: Movable {
     fn plan(&self) -> &Plan;
     fn step(&self) -> u64;
+    fn upload(&mut self, state: &State) -> Result<(), EngineError>;
     fn advance(&mut self, steps: u64, batch: u64) -> Result<(), EngineError>;
     fn finish(&mut self) -> Result<Vec<Sample>, EngineError>;
     fn take_samples(&mut self) -> Vec<Sample>;
     fn state(&mut self) -> Result<State, EngineError>;
     fn reported(&mut self) -> Result<Reported, EngineError>;
-    fn frame(&mut self) -> Result<Reported, EngineError>;
+
+    /// Waits until the device has taken all steps.
+    fn wait(&mut self) -> Result<(), EngineError>;
+
+    /// The particles as a report of this step finds them, whose state is known.
+    fn report_of(&mut self, state: &State) -> Result<Reported, EngineError>;
+
+    /// Samples of this step by some samplers, due or not: samples at the steps at which they are due do not depend on it. Samplers of
+    /// gathered particles are not among them.
+    fn measure(&mut self, samplers: &[usize]) -> Result<Vec<Sample>, EngineError>;
+
+    /// Goes on from a state by another plan, which differs in numbers only: in constants that kernels load from buffers, and in tables.
+    /// Other ranks make their plans of the scene in JSON. False if a plan differs in more: the engine has to be replaced then.
+    fn renumber(&mut self, plan: &Plan, scene: &str, state: &State) -> Result<bool, EngineError>;
+
+    /// The particles where the forces of the current step are evaluated, with their momenta there, as the table of energies sees them: what
+    /// a run that starts from them takes for its step 0. Only where the state may be read, and of a scene with a trajectory.
+    fn frame(&mut self) -> Result<Reported, EngineError> {
+        if !self.plan().has_buffer(Array::ReportedMomenta) {
+            return self.reported();
+        }
+        let before = self.state()?;
+        self.report_of(&before)
+    }
 
     /// The particles of a report that a picture shows: about so many, if there are more.
     fn shown(&mut self, most: u64) -> Result<Shown, EngineError> {
@@ -72,6 +96,10 @@ impl Stepper for Engine<'_> {
         self.step()
     }
 
+    fn upload(&mut self, state: &State) -> Result<(), EngineError> {
+        self.upload(state)
+    }
+
     fn advance(&mut self, steps: u64, batch: u64) -> Result<(), EngineError> {
         self.advance(steps, batch)
     }
@@ -92,8 +120,26 @@ impl Stepper for Engine<'_> {
         self.reported()
     }
 
-    fn frame(&mut self) -> Result<Reported, EngineError> {
-        self.frame()
+    fn wait(&mut self) -> Result<(), EngineError> {
+        self.wait_all()
+    }
+
+    fn report_of(&mut self, state: &State) -> Result<Reported, EngineError> {
+        self.report_of(state)
+    }
+
+    fn measure(&mut self, samplers: &[usize]) -> Result<Vec<Sample>, EngineError> {
+        self.take_measurements(samplers)?;
+        self.wait_all()?;
+        Ok(self.take_samples())
+    }
+
+    fn renumber(&mut self, plan: &Plan, _: &str, state: &State) -> Result<bool, EngineError> {
+        if !self.load_numbers(plan)? {
+            return Ok(false);
+        }
+        self.upload(state)?;
+        Ok(true)
     }
 
     fn limited_exchanges(&mut self) -> Result<u64, EngineError> {

@@ -3,7 +3,7 @@
 use super::Channel;
 use super::message::{Answer, Command, Contents, Problem, read, written};
 use crate::engine::{Engine, EngineError, RankReport, Sampling};
-use crate::plan::{ParticleWords, PlannedPart};
+use crate::plan::{ParticleWords, Plan, PlannedPart};
 use std::collections::VecDeque;
 
 /// Particles that pass from rank to rank in several messages.
@@ -88,6 +88,10 @@ pub(super) fn execute(
             samples = finished;
             Vec::new()
         }),
+        Command::Wait => engine.wait_all().map(nothing),
+        Command::Measure { samplers } => {
+            engine.take_measurements(&samplers).and_then(|()| engine.wait_all()).map(nothing)
+        }
         Command::State => engine.own_state().map(|own| portions.divide(engine.plan().part.as_ref(), own)),
         Command::Report => engine.own_reported().map(|own| portions.divide(engine.plan().part.as_ref(), own)),
         Command::Show { sample } => engine.own_reported().map(|own| {
@@ -96,7 +100,8 @@ pub(super) fn execute(
         }),
         Command::Momenta => engine.own_momenta(),
         Command::Next => Ok(vec![portions.next()]),
-        Command::End => Ok(Vec::new()),
+        // The first rank has loaded its numbers; the others are told apart in `serve`.
+        Command::Renumber { .. } | Command::End => Ok(Vec::new()),
     };
     samples.extend(engine.take_samples());
     let (problem, contents) = match done {
@@ -106,15 +111,26 @@ pub(super) fn execute(
     (Answer { samples, problem, traffic: engine.traffic(), introduction: None }, contents)
 }
 
+/// The plan of this rank for a scene in JSON.
+type Replan<'p> = dyn Fn(&str) -> Result<Plan, String> + 'p;
+
 /// Introduces itself, and does what the first rank tells until there is nothing more to do.
 ///
 /// # Errors
 /// That the first rank is lost, in words.
-pub fn serve(engine: &mut Engine<'_>, introduction: RankReport, channel: &mut dyn Channel) -> Result<(), String> {
+pub fn serve(
+    engine: &mut Engine<'_>,
+    introduction: RankReport,
+    channel: &mut dyn Channel,
+    replan: &Replan<'_>,
+) -> Result<(), String> {
     let (mut failed, mut introduction, mut portions) = (None, Some(introduction), Portions::default());
     while let Some((command, contents)) = heard(channel)? {
         let (mut answer, gives) = match &failed {
-            None => execute(engine, &mut portions, command, &contents),
+            None => match command {
+                Command::Renumber { scene } => renumber(engine, replan, &scene),
+                command => execute(engine, &mut portions, command, &contents),
+            },
             Some(problem) => (Answer { problem: Some(Problem::clone(problem)), ..Answer::default() }, Vec::new()),
         };
         if answer.problem.is_some() && failed.is_none() {
@@ -126,6 +142,15 @@ pub fn serve(engine: &mut Engine<'_>, introduction: RankReport, channel: &mut dy
         channel.answer(&written(&answer, &gives)?)?;
     }
     Ok(())
+}
+
+/// Loads the numbers of a scene; its one word is 1 if they are all that differs.
+fn renumber(engine: &mut Engine<'_>, replan: &Replan<'_>, scene: &str) -> (Answer, Contents) {
+    match replan(scene).map(|plan| engine.load_numbers(&plan)) {
+        Ok(Ok(loaded)) => (Answer { traffic: engine.traffic(), ..Answer::default() }, vec![vec![u32::from(loaded)]]),
+        Ok(Err(error)) => (Answer { problem: Some(Problem::of(&error)), ..Answer::default() }, Vec::new()),
+        Err(reason) => (Answer { problem: Some(Problem::Other { reason }), ..Answer::default() }, Vec::new()),
+    }
 }
 
 /// Answers whatever the first rank tells with the reason why this rank cannot take part.

@@ -5,7 +5,7 @@ use crate::plan::Failure;
 use serde::{Deserialize, Serialize};
 
 /// What the first rank tells the others to do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Command {
     /// Take the particles that follow, and wait for more.
     Take,
@@ -15,6 +15,12 @@ pub(super) enum Command {
     Advance { steps: u64, batch: u64 },
     /// Take the samples of the step.
     Finish,
+    /// Wait until the device has taken all steps.
+    Wait,
+    /// Take samples of the step by these samplers, due or not.
+    Measure { samplers: Vec<usize> },
+    /// Go on by the numbers of this scene, in JSON; one word says whether they are all that differs.
+    Renumber { scene: String },
     /// Give the particles to go on from; of all those with the smallest numbers, and what else belongs to the state.
     State,
     /// The same of a report.

@@ -125,26 +125,6 @@ impl<'a> Team<'a> {
         Ok(team)
     }
 
-    /// Replaces the state of all ranks.
-    ///
-    /// # Errors
-    /// [`EngineError`] if it does not fit, or of the first rank that has one.
-    pub(crate) fn upload(&mut self, state: &State) -> Result<(), EngineError> {
-        self.species.clone_from(&state.species);
-        self.incomplete.clear();
-        self.collected.clear();
-        self.measured = None;
-        let mut portions: Vec<Range<u64>> = self.portions()?;
-        let last = portions.pop().map_or(0, |portion| portion.start);
-        for portion in portions {
-            let mut particles = self.engine.pack_some(state, portion)?;
-            particles.truncate(1);
-            self.tell(Command::Take, &particles)?;
-        }
-        let contents = self.engine.pack_for_parts(state, last..state.len() as u64)?;
-        self.tell(Command::Upload { step: state.step }, &contents).map(|_| ())
-    }
-
     /// Number of the particles that the ranks share out.
     fn shared(&self) -> u64 {
         self.engine.plan().part.as_ref().map_or(0, |part| part.shared)
@@ -215,7 +195,7 @@ impl<'a> Team<'a> {
     }
 
     /// Gathers the particles of all ranks and measures them, if a sample of them is due and has not been taken.
-    fn measure(&mut self) -> Result<(), EngineError> {
+    fn measure_gathered(&mut self) -> Result<(), EngineError> {
         let step = self.engine.step();
         let due = self.engine.plan().samplers.iter().any(|sampler| sampler.gathered && sampler.due(step));
         if !due || self.measured == Some(step) {
@@ -346,13 +326,29 @@ impl Stepper for Team<'_> {
         self.engine.step()
     }
 
+    fn upload(&mut self, state: &State) -> Result<(), EngineError> {
+        self.species.clone_from(&state.species);
+        self.incomplete.clear();
+        self.collected.clear();
+        self.measured = None;
+        let mut portions: Vec<Range<u64>> = self.portions()?;
+        let last = portions.pop().map_or(0, |portion| portion.start);
+        for portion in portions {
+            let mut particles = self.engine.pack_some(state, portion)?;
+            particles.truncate(1);
+            self.tell(Command::Take, &particles)?;
+        }
+        let contents = self.engine.pack_for_parts(state, last..state.len() as u64)?;
+        self.tell(Command::Upload { step: state.step }, &contents).map(|_| ())
+    }
+
     fn advance(&mut self, steps: u64, batch: u64) -> Result<(), EngineError> {
         let Some(last) = self.step().checked_add(steps) else {
             // Which every rank refuses.
             return self.tell(Command::Advance { steps, batch }, &[]).map(|_| ());
         };
         while self.step() < last {
-            self.measure()?;
+            self.measure_gathered()?;
             let samplers = self.plan().samplers.iter().filter(|sampler| sampler.gathered);
             let next = samplers.map(|sampler| sampler.next_after(self.step())).fold(last, u64::min);
             self.tell(Command::Advance { steps: next - self.step(), batch }, &[])?;
@@ -361,7 +357,7 @@ impl Stepper for Team<'_> {
     }
 
     fn finish(&mut self) -> Result<Vec<Sample>, EngineError> {
-        self.measure()?;
+        self.measure_gathered()?;
         self.tell(Command::Finish, &[])?;
         Ok(self.take_samples())
     }
@@ -404,16 +400,36 @@ impl Stepper for Team<'_> {
         Ok(self.joined(Command::Report, true, None)?.into())
     }
 
-    fn frame(&mut self) -> Result<Reported, EngineError> {
+    fn wait(&mut self) -> Result<(), EngineError> {
+        self.tell(Command::Wait, &[]).map(|_| ())
+    }
+
+    fn report_of(&mut self, state: &State) -> Result<Reported, EngineError> {
         if !self.plan().has_buffer(Array::ReportedMomenta) {
             return self.reported();
         }
-        let before = self.state()?;
         let given = self.tell(Command::Momenta, &[])?;
         let words = given.get(1).map_or(&[][..], Vec::as_slice);
         // The high words are of the sign only.
         let momenta = words.chunks_exact(6).map(|words| [0, 2, 4].map(|axis| words[axis].cast_signed())).collect();
-        Ok(Reported { momenta, ..before.into() })
+        Ok(Reported { momenta, ..state.clone().into() })
+    }
+
+    fn measure(&mut self, samplers: &[usize]) -> Result<Vec<Sample>, EngineError> {
+        self.tell(Command::Measure { samplers: samplers.to_vec() }, &[])?;
+        Ok(self.take_samples())
+    }
+
+    fn renumber(&mut self, plan: &Plan, scene: &str, state: &State) -> Result<bool, EngineError> {
+        if !self.engine.load_numbers(plan)? {
+            return Ok(false);
+        }
+        let loaded = self.tell(Command::Renumber { scene: scene.to_owned() }, &[])?;
+        if loaded.iter().flatten().any(|loaded| *loaded == 0) {
+            return Ok(false);
+        }
+        self.upload(state)?;
+        Ok(true)
     }
 }
 

@@ -4,21 +4,23 @@ use super::RunError;
 use super::adapter::{open_adapter, plan_for};
 use super::analyses::stress_of_sample;
 use super::colour_ranges::ColourRanges;
+use super::division::{Ranks, divide};
 use super::energy_rows::EnergyRows;
 use super::frame::{Frame, Here, with_flow};
 use super::pace::{self, Pace};
 use super::pictures::{mesh_depth, most_shown};
 use super::sections::Sections;
 use super::tally::Carried;
+use super::team::team;
 use super::views::Views;
-use crate::engine::{Engine, EngineError, Sample, Shown};
+use crate::engine::{Engine, EngineError, RankReport, Sample, Shown, Stepper};
 use crate::families::pictures::MeshPictures;
 use crate::families::{self, Checked, Instability, PictureKind};
 use crate::gpu::{AdapterChoice, AdapterDescription, ConstantsIn, Gpu};
 use crate::measure::statistics::Estimate;
 use crate::measure::{Field, observables_of};
 use crate::output::{Checkpoint, Id, TrajectoryWriter, checkpoint, files};
-use crate::plan::{Options, SamplerId};
+use crate::plan::{Division, Options, Part, SamplerId};
 use crate::run::Interrupt;
 use crate::scene::{AnalysisId, FieldQuantity, Output, Trajectory, TrajectoryFormat};
 use crate::state::State;
@@ -61,9 +63,9 @@ pub struct Simulation {
     pub(super) scene: Checked,
     /// The scene as it is planned: with what can be looked at, and no analysis besides.
     planned: Checked,
-    gpu: Gpu,
+    place: Place,
     options: Options,
-    pub(super) engine: Engine<'static>,
+    pub(super) engine: Box<dyn Stepper>,
     /// The counts of the device when the engine began.
     carried: Carried,
     rows: EnergyRows,
@@ -79,6 +81,21 @@ pub struct Simulation {
     pub(super) changes: Vec<super::change::Change>,
     /// Why no further step can be taken.
     end: Option<String>,
+}
+
+/// The devices of a simulation.
+#[derive(Clone)]
+struct Place {
+    /// The device, of several ranks that of the first.
+    gpu: Gpu,
+    shared: Option<Shared>,
+}
+
+/// A division of the box among ranks, each with an adapter of a choice.
+#[derive(Debug, Clone)]
+struct Shared {
+    division: Division,
+    choice: AdapterChoice,
 }
 
 /// The end of an advance.
@@ -119,11 +136,33 @@ impl Simulation {
     /// # Errors
     /// [`RunError`] if there is no usable adapter, or the start cannot be.
     pub fn new(scene: &Checked, choice: &AdapterChoice) -> Result<Self, RunError> {
-        let (gpu, _) = open_adapter(&Sight::Frames.planned(scene), choice, Options::default())?;
-        Self::on(&gpu, scene)
+        Self::on_ranks(scene, choice, 1)
     }
 
-    /// The same on a device that is open, which several simulations may share.
+    /// The same on several ranks, threads of this process with an adapter each, which divide the box: all numbers are those of one rank, to
+    /// the last bit.
+    ///
+    /// ```
+    /// use mesoscope::prelude::*;
+    ///
+    /// let scene = scene::load("dpd-fluid", &["space.box=[3,3,12]", "output={}"].map(str::to_owned))?;
+    /// let mut alone = Simulation::new(&scene, &AdapterChoice::Best)?;
+    /// let mut shared = Simulation::on_ranks(&scene, &AdapterChoice::Best, 2)?;
+    /// alone.advance(20)?;
+    /// shared.advance(20)?;
+    /// assert_eq!(shared.observables()?, alone.observables()?);
+    /// assert_eq!(shared.state()?, alone.state()?);
+    /// # Ok::<(), RunError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RunError::Unshared`] and [`RunError::Undividable`] if the ranks cannot share the scene, and as [`Self::new`].
+    pub fn on_ranks(scene: &Checked, choice: &AdapterChoice, ranks: u32) -> Result<Self, RunError> {
+        let place = Place::new(&Sight::Frames.planned(scene), choice, ranks)?;
+        Self::at_start(Sight::Frames, place, scene)
+    }
+
+    /// A simulation of a scene at its start, on a device that is open, which several simulations may share.
     ///
     /// # Errors
     /// As [`Self::new`].
@@ -133,10 +172,13 @@ impl Simulation {
 
     /// The same, of which only this can be seen.
     pub(crate) fn seeing(sight: Sight, gpu: &Gpu, scene: &Checked) -> Result<Self, RunError> {
+        Self::at_start(sight, Place { gpu: gpu.clone(), shared: None }, scene)
+    }
+
+    fn at_start(sight: Sight, place: Place, scene: &Checked) -> Result<Self, RunError> {
         let state = families::initial_state(scene);
         families::check_start(scene, &state)?;
-        let carried = Carried::default();
-        Self::from_state(sight, gpu, scene, state, carried)
+        Self::from_state(sight, place, scene, state, Carried::default())
     }
 
     /// A simulation that goes on from a checkpoint: of another one, or of a run. Rows of the table of energies begin there.
@@ -144,6 +186,18 @@ impl Simulation {
     /// # Errors
     /// [`RunError::Checkpoint`] where there is no checkpoint or it is damaged, and as [`Self::new`].
     pub fn from_checkpoint(path: impl AsRef<Path>, choice: &AdapterChoice) -> Result<Self, RunError> {
+        Self::from_checkpoint_on_ranks(path, choice, 1)
+    }
+
+    /// The same on several ranks, how many ever the checkpoint is from.
+    ///
+    /// # Errors
+    /// As [`Self::from_checkpoint`] and [`Self::on_ranks`].
+    pub fn from_checkpoint_on_ranks(
+        path: impl AsRef<Path>,
+        choice: &AdapterChoice,
+        ranks: u32,
+    ) -> Result<Self, RunError> {
         let path = path.as_ref();
         let Checkpoint { scene, mut state, sections, .. } = checkpoint::load(path)?;
         let planned = Sight::Frames.planned(&scene);
@@ -151,19 +205,25 @@ impl Simulation {
             // The state of a run that followed no particle.
             state.images = vec![[0; 3]; state.len()];
         }
-        let (gpu, plan) = open_adapter(&planned, choice, Options::default())?;
-        if let Some(problem) = plan.misfit(&state, scene.model()) {
+        let place = Place::new(&planned, choice, ranks)?;
+        if let Some(problem) = plan_for(&planned, &place.gpu, Options::default()).misfit(&state, scene.model()) {
             return Err(checkpoint::CheckpointError::malformed(path, problem).into());
         }
         let carried = Carried::new(scene.model(), &Sections::new(path, state.step, &sections))?;
-        let mut simulation = Self::from_state(Sight::Frames, &gpu, &scene, state, carried)?;
+        let mut simulation = Self::from_state(Sight::Frames, place, &scene, state, carried)?;
         simulation.changes = super::change::kept(&sections);
         Ok(simulation)
     }
 
-    fn from_state(sight: Sight, gpu: &Gpu, scene: &Checked, state: State, carried: Carried) -> Result<Self, RunError> {
+    fn from_state(
+        sight: Sight,
+        place: Place,
+        scene: &Checked,
+        state: State,
+        carried: Carried,
+    ) -> Result<Self, RunError> {
         let planned = sight.planned(scene);
-        let (engine, options) = open(gpu, &planned, &state, Options::default())?;
+        let (engine, options) = place.open(&planned, &state, Options { part: place.part(), ..Options::default() })?;
         let (particles, operations) = (scene.model().particle_count(), engine.plan().operations_per_particle);
         let pace = match sight {
             Sight::Frames => Pace::for_looking(particles, operations),
@@ -173,7 +233,7 @@ impl Simulation {
             rows: EnergyRows::new(scene),
             scene: scene.clone(),
             planned,
-            gpu: gpu.clone(),
+            place,
             options,
             engine,
             counted: carried.clone(),
@@ -203,13 +263,19 @@ impl Simulation {
     /// The adapter.
     #[must_use]
     pub fn adapter(&self) -> &AdapterDescription {
-        self.gpu.description()
+        self.place.gpu.description()
     }
 
     /// The device, on which further simulations may run.
     #[must_use]
     pub fn gpu(&self) -> &Gpu {
-        &self.gpu
+        &self.place.gpu
+    }
+
+    /// The ranks that share the simulation, if there are several.
+    #[must_use]
+    pub fn ranks(&self) -> &[RankReport] {
+        self.engine.ranks()
     }
 
     /// The current step.
@@ -269,11 +335,8 @@ impl Simulation {
 
     /// Begins again from where it was saved, with more room, as a run does; every other error ends it.
     fn make_room(&mut self, error: EngineError) -> Result<(), RunError> {
-        if !matches!(error, EngineError::Crowded { .. }) || !self.options.has_room_left() {
-            return Err(self.ended(error));
-        }
-        let options = self.options.with_room(self.scene.model().particle_count());
-        (self.engine, self.options) = open(&self.gpu, &self.planned, &self.saved, options)?;
+        let Some(options) = roomier(&error, self.options, &self.scene) else { return Err(self.ended(error)) };
+        (self.engine, self.options) = self.place.open(&self.planned, &self.saved, options)?;
         self.carried = self.counted.clone();
         Ok(())
     }
@@ -281,7 +344,7 @@ impl Simulation {
     /// Saves the current step.
     fn save(&mut self) -> Result<(), EngineError> {
         self.saved = Arc::new(self.engine.state()?);
-        self.counted = self.carried.advanced(self.scene.model(), &mut self.engine)?;
+        self.counted = self.carried.advanced(self.scene.model(), &mut *self.engine)?;
         Ok(())
     }
 
@@ -290,7 +353,7 @@ impl Simulation {
         let first = self.engine.step();
         let Self { engine, pace, saved, counted, carried, interrupt, scene, .. } = self;
         let mut samples = Vec::new();
-        let advanced = pace::advance(engine, pace, last, &mut |engine, _, advanced| {
+        let advanced = pace::advance(&mut **engine, pace, last, &mut |engine, _, advanced| {
             samples.extend(engine.take_samples());
             advanced?;
             if engine.step() - saved.step >= STEPS_BETWEEN_STATES {
@@ -477,7 +540,7 @@ impl Simulation {
         }
         let reported = self.here()?.reported.clone();
         let model = self.scene.model();
-        let depth = mesh_depth(&mut self.engine, model)?;
+        let depth = mesh_depth(&mut *self.engine, model)?;
         Ok(model.physics().mesh_pictures(quantities, &reported, &depth, model))
     }
 
@@ -501,7 +564,7 @@ impl Simulation {
         let asked = self.scene.output.fields.clone().unwrap_or_default();
         let pictures = self.mesh_pictures(&asked.quantities)?;
         let reported = self.here()?.reported.clone();
-        let (model, gpu) = (self.scene.model(), self.gpu.clone());
+        let (model, gpu) = (self.scene.model(), self.place.gpu.clone());
         let mut views = Views::new(&gpu, &self.scene, ColourRanges::default());
         let drawn = match pictures.as_ref().and_then(|pictures| Some((pictures, pictures.fields.first()?))) {
             Some((pictures, shown)) => {
@@ -547,7 +610,7 @@ impl Simulation {
     /// [`RunError`] if it cannot be written, and as [`Self::frame`].
     pub fn checkpoint(&mut self, path: impl AsRef<Path>) -> Result<(), RunError> {
         let state = self.state()?;
-        let carried = self.carried.section(self.scene.model(), &mut self.engine)?;
+        let carried = self.carried.section(self.scene.model(), &mut *self.engine)?;
         let sections: Vec<_> = carried.into_iter().chain(super::change::section(&self.changes)).collect();
         // A scene ends after its checkpoint.
         let steps = self.scene.time.steps.max(state.step);
@@ -557,10 +620,10 @@ impl Simulation {
 
     /// Goes on from another state of the same step.
     pub(super) fn restart(&mut self, state: State) -> Result<(), RunError> {
-        let carried = self.carried.advanced(self.scene.model(), &mut self.engine)?;
+        let carried = self.carried.advanced(self.scene.model(), &mut *self.engine)?;
         match self.engine.upload(&state) {
             Err(EngineError::Crowded { .. }) => {
-                (self.engine, self.options) = open(&self.gpu, &self.planned, &state, self.options)?;
+                (self.engine, self.options) = self.place.open(&self.planned, &state, self.options)?;
             }
             uploaded => uploaded?,
         }
@@ -579,16 +642,17 @@ impl Simulation {
 
     /// Goes on with another scene, whose plan is for the same particles.
     pub(super) fn replace(&mut self, scene: Checked, state: State) -> Result<(), RunError> {
-        let carried = self.carried.advanced(self.scene.model(), &mut self.engine)?;
+        let carried = self.carried.advanced(self.scene.model(), &mut *self.engine)?;
         let planned = Sight::Frames.planned(&scene);
-        let plan = plan_for(&planned, &self.gpu, self.options);
+        let plan = plan_for(&planned, &self.place.gpu, self.options);
         if let Some(problem) = plan.misfit(&state, planned.model()) {
             return Err(RunError::Arrays { mistakes: vec![problem] });
         }
-        if !self.engine.renumber(&plan, &state)? {
+        let written = serde_json::to_string(&planned).unwrap_or_default();
+        if !self.engine.renumber(&plan, &written, &state)? {
             // From now on numbers change without compiling kernels.
             let options = Options { constants_in: ConstantsIn::Buffer, ..self.options };
-            (self.engine, self.options) = open(&self.gpu, &planned, &state, options)?;
+            (self.engine, self.options) = self.place.open(&planned, &state, options)?;
         }
         (self.scene, self.planned) = (scene, planned);
         self.begin(carried, state);
@@ -626,19 +690,58 @@ impl Iterator for Frames<'_> {
     }
 }
 
-/// An engine with as much room as its first state needs.
-fn open(
-    gpu: &Gpu,
-    scene: &Checked,
-    state: &State,
-    mut options: Options,
-) -> Result<(Engine<'static>, Options), RunError> {
-    loop {
-        match Engine::new(gpu, plan_for(scene, gpu, options), state) {
-            Err(EngineError::Crowded { .. }) if options.has_room_left() => {
-                options = options.with_room(scene.model().particle_count());
-            }
-            opened => return Ok((opened?, options)),
+impl Place {
+    /// An adapter that allows the buffers of a scene, of several ranks those of its first part.
+    fn new(scene: &Checked, choice: &AdapterChoice, ranks: u32) -> Result<Self, RunError> {
+        let division = if ranks == 1 { None } else { Some(divide(scene, Ranks::Count(ranks))?) };
+        let shared = division.map(|division| Shared { division, choice: choice.clone() });
+        let part = division.map(|division| Part { division, rank: 0 });
+        let (gpu, _) = open_adapter(scene, choice, Options { part, ..Options::default() })?;
+        Ok(Self { gpu, shared })
+    }
+
+    /// The part of the first rank, of several.
+    fn part(&self) -> Option<Part> {
+        self.shared.as_ref().map(|shared| Part { division: shared.division, rank: 0 })
+    }
+
+    /// An engine, or the ranks that share its work, with as much room as the first state needs.
+    fn open(
+        &self,
+        scene: &Checked,
+        state: &State,
+        mut options: Options,
+    ) -> Result<(Box<dyn Stepper>, Options), RunError> {
+        loop {
+            let opened: Result<Box<dyn Stepper>, RunError> = match &self.shared {
+                None => match Engine::new(&self.gpu, plan_for(scene, &self.gpu, options), state) {
+                    Ok(engine) => Ok(Box::new(engine)),
+                    Err(error) => Err(error.into()),
+                },
+                Some(Shared { division, choice }) => {
+                    match team(scene, &self.gpu, choice, (*division, false), options, state) {
+                        Ok(team) => Ok(Box::new(team)),
+                        Err(error) => Err(error),
+                    }
+                }
+            };
+            let error = match opened {
+                Ok(engine) => return Ok((engine, options)),
+                Err(RunError::Engine(error)) => error,
+                Err(error) => return Err(error),
+            };
+            options = roomier(&error, options, scene).ok_or(error)?;
         }
+    }
+}
+
+/// Options with more room where an array turned out too small; none after other errors.
+fn roomier(error: &EngineError, options: Options, scene: &Checked) -> Option<Options> {
+    match error {
+        EngineError::Crowded { .. } if options.has_room_left() => {
+            Some(options.with_room(scene.model().particle_count()))
+        }
+        EngineError::Overreached { .. } if options.may_lengthen() => Some(options.with_longer_bonds()),
+        _ => None,
     }
 }

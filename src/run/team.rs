@@ -42,14 +42,14 @@ use std::thread;
 ///
 /// # Errors
 /// [`RunError`] of the first rank that cannot be opened or does not take its part.
-pub fn team<'a>(
+pub fn team(
     scene: &Checked,
-    gpu: &'a Gpu,
+    gpu: &Gpu,
     choice: &AdapterChoice,
     (division, mixed): (Division, bool),
     options: Options,
     state: &State,
-) -> Result<Team<'a>, RunError> {
+) -> Result<Team<'static>, RunError> {
     let part = |rank| Options { part: Some(Part { division, rank }), ..options };
     // Parts have to be wide enough for what their ranks have to know of each other.
     if !plan_for(scene, gpu, part(0)).part.as_ref().is_some_and(|part| fits(scene.model(), part)) {
@@ -86,9 +86,14 @@ fn take_part<'a>(
         Ok(opened) => opened,
         Err(error) => return decline(channel, error.to_string()),
     };
+    let replan = |told: &str| {
+        let mut changed: Scene = serde_json::from_str(told).map_err(|error| error.to_string())?;
+        changed.kept = scene.kept.clone();
+        Ok(plan_for(&Checked::presumed(changed), &gpu, options))
+    };
     match Engine::of_part(&gpu, plan, peers) {
         Ok(mut engine) => match introduction(&gpu, scene, choice) {
-            Ok(introduction) => serve(&mut engine, introduction, channel),
+            Ok(introduction) => serve(&mut engine, introduction, channel, &replan),
             Err(error) => decline(channel, error.to_string()),
         },
         Err(error) => decline(channel, error.to_string()),

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use mesoscope::engine::Engine;
+use mesoscope::engine::{Engine, Stepper};
 use mesoscope::output::{Id, TrajectoryWriter, checkpoint, files};
 use mesoscope::plan::Options;
 use mesoscope::scene::{self, Checked, TrajectoryFormat};

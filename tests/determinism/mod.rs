@@ -17,6 +17,7 @@ mod resumed_analyses;
 mod shallow_water;
 mod shear;
 mod simulations;
+mod simulations_on_ranks;
 mod timing;
 mod voronoi;
 mod walls;

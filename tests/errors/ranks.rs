@@ -1,7 +1,7 @@
 //! Ranks that do not fit together: of other arithmetic, another version, or gone. They are threads that talk as processes do.
 
-use std::cell::RefCell;
 use std::path::PathBuf;
+use std::sync::Mutex;
 use std::thread;
 
 use mesoscope::engine::{Engine, EngineError, RankReport, Stepper as _, Swap};
@@ -29,9 +29,9 @@ type Change = fn(&str) -> String;
 
 /// One of two ranks.
 struct Rank {
-    channel: RefCell<Threads>,
+    channel: Mutex<Threads>,
     /// They share one run.
-    peers: RefCell<Option<Peers>>,
+    peers: Mutex<Option<Peers>>,
     /// What becomes of the call to share a run that it hears, and of the lines of its answers.
     heard: Change,
     said: Change,
@@ -49,7 +49,7 @@ impl Processes for Rank {
     }
 
     fn peers(&self) -> Box<dyn Swap + '_> {
-        Box::new(self.peers.take().expect("one run"))
+        Box::new(self.peers.lock().unwrap().take().expect("one run"))
     }
 }
 
@@ -59,13 +59,13 @@ impl Channel for Line<'_> {
     }
 
     fn tell(&mut self, message: &[u8]) -> Result<(), String> {
-        self.0.channel.borrow_mut().tell(message)
+        self.0.channel.lock().unwrap().tell(message)
     }
 
     fn keep_alive(&self) {}
 
     fn listen(&mut self) -> Result<Vec<u8>, String> {
-        let message = self.0.channel.borrow_mut().listen()?;
+        let message = self.0.channel.lock().unwrap().listen()?;
         let is_call = message.starts_with(b"{\"Share\"");
         Ok(if is_call { (self.0.heard)(text(&message)).into_bytes() } else { message })
     }
@@ -74,17 +74,17 @@ impl Channel for Line<'_> {
         let end = message.iter().position(|byte| *byte == b'\n').unwrap();
         let (line, rest) = message.split_at(end);
         let line = (self.0.said)(text(line));
-        self.0.channel.borrow_mut().answer(&[line.as_bytes(), rest].concat())
+        self.0.channel.lock().unwrap().answer(&[line.as_bytes(), rest].concat())
     }
 
     fn collect(&mut self) -> Result<Vec<Vec<u8>>, String> {
-        self.0.channel.borrow_mut().collect()
+        self.0.channel.lock().unwrap().collect()
     }
 }
 
 fn rank(links: Links, [heard, said]: [Change; 2]) -> Rank {
     let Links { channel, peers } = links;
-    Rank { channel: RefCell::new(channel), peers: RefCell::new(Some(peers)), heard, said }
+    Rank { channel: Mutex::new(channel), peers: Mutex::new(Some(peers)), heard, said }
 }
 
 /// Runs on two ranks, of which the second is changed; what comes of it, and the warnings on the way.
@@ -252,7 +252,7 @@ fn team(arithmetic: u32, mixed: bool, panics: bool) -> Result<Team<'static>, Eng
             let told = channel.listen().unwrap();
             panic!("after {} bytes, as a test asks", told.len());
         }
-        let _ = serve(&mut engine, introduction(arithmetic), &mut channel);
+        let _ = serve(&mut engine, introduction(arithmetic), &mut channel, &|_| Err("no other numbers".to_owned()));
     });
     Team::new(first_engine, introduction(1), Box::new(first.channel), &state, mixed)
 }
