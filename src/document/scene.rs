@@ -61,9 +61,24 @@ pub struct Scene {
     /// What the run writes.
     #[serde(default)]
     pub output: Output,
+    /// Numbers that a program will change between the steps of a simulation: units are chosen for the largest values.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 64))]
+    pub announced: Vec<Announced>,
     /// What was read of the file of `state`, or follows from `molecules`.
     #[serde(skip)]
     pub kept: KeptStart,
+}
+
+/// A number of a scene that will change between steps.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Announced {
+    /// Its path, as in overrides: `temperature`, `interactions.0.repulsion`.
+    #[schemars(length(min = 1))]
+    pub key: String,
+    /// The value of the largest magnitude that it will have.
+    pub largest: f64,
 }
 
 /// States in the schema that a scene says how large its box is and how many particles are in a group, or that a file or molecules do.
@@ -112,6 +127,21 @@ impl Scene {
             Interaction::Dpd(dpd) => Some((index, dpd)),
             _ => None,
         })
+    }
+
+    /// The scene with the numbers that are announced, if there are any: units are chosen for these. None either where one of them is no
+    /// number of the scene, which a check refuses.
+    pub(crate) fn as_announced(&self) -> Option<Self> {
+        if self.announced.is_empty() {
+            return None;
+        }
+        let mut document = serde_json::to_value(self).ok()?;
+        for Announced { key, largest } in &self.announced {
+            let place = document.pointer_mut(&format!("/{}", key.replace('.', "/")))?;
+            *place = place.is_number().then(|| (*largest).into())?;
+        }
+        let scene: Self = serde_json::from_value(document).ok()?;
+        Some(Self { kept: self.kept.clone(), announced: Vec::new(), ..scene })
     }
 
     /// What was read of the file that the particles start from, or what follows from molecules, if there are any.

@@ -62,6 +62,8 @@ pub struct Model {
     pub(crate) expected_velocity: f64,
     /// What belongs to its family.
     pub family: Family,
+    /// The model with the numbers that are announced, if any: units are those of its scales.
+    announced: Option<Box<Model>>,
 }
 
 impl Model {
@@ -84,17 +86,33 @@ impl Model {
         let mut species = Species::of(scene);
         let mut lengths = [1.0; 3];
         lengths[..scene.space.lengths.len()].copy_from_slice(&scene.space.lengths);
-        let family = Family::new(scene, &mut species);
+        let mut family = Family::new(scene, &mut species);
+        let mut announced = scene.as_announced().map(|scene| Box::new(Self::new(&scene)));
         let earlier = scene.earlier_run();
-        let momentum =
-            earlier.map_or_else(|| family.physics().momentum_unit(scene, &species), |earlier| earlier.momentum_unit);
+        // A run that goes on with an earlier one has its units.
+        let momentum = earlier.map_or_else(
+            || {
+                let own = family.physics().momentum_unit(scene, &species);
+                announced.as_ref().map_or(own, |announced| own.max(announced.units.momentum))
+            },
+            |earlier| earlier.momentum_unit,
+        );
         let gaps = family.physics().gaps(scene);
         let edges = lengths;
         let lengths: [f64; 3] = std::array::from_fn(|axis| edges[axis] + gaps[axis]);
         // The rounded sum less this is the edge again.
         let gaps = std::array::from_fn(|axis| lengths[axis] - edges[axis]);
-        let expected_velocity = earlier
-            .map_or_else(|| speeds::expected(scene, &species, family.physics()), |earlier| earlier.expected_velocity);
+        let expected_velocity = earlier.map_or_else(
+            || {
+                let own = speeds::expected(scene, &species, family.physics());
+                announced.as_ref().map_or(own, |announced| own.max(announced.expected_velocity))
+            },
+            |earlier| earlier.expected_velocity,
+        );
+        if let Some(announced) = &mut announced {
+            announced.units.momentum = momentum;
+            family.share_units(&mut announced.family);
+        }
         let mut model = Self {
             units: Units { dimension: scene.space.lengths.len(), lengths, gaps, momentum },
             species,
@@ -106,12 +124,19 @@ impl Model {
             distribution: scene.noise.distribution,
             expected_velocity,
             family,
+            announced,
         };
         // Uniform numbers leave pairs that relax wholly in a step too few fast ones: few neighbours end up cold.
         if model.particles().relaxes_in_two_stages() {
             model.distribution = Distribution::Gaussian;
         }
         model
+    }
+
+    /// The model whose scales units of sums follow: with the numbers that are announced, if there are any.
+    #[must_use]
+    pub(crate) fn of_scales(&self) -> &Self {
+        self.announced.as_deref().unwrap_or(self)
     }
 
     /// What noise and forces that depend on time go by at a step: the steps since the first of the earlier runs that it goes on with. At zero
@@ -126,6 +151,8 @@ impl Model {
     pub(crate) fn has_the_steps_of(&self, other: &Self) -> bool {
         let (mut one, mut other) = (self.clone(), other.clone());
         one.steps_before = other.steps_before;
+        // Sums of reports have other units then, and steps the same.
+        one.announced.clone_from(&other.announced);
         match (&mut one.family, &mut other.family) {
             (Family::Particles(mine), Family::Particles(theirs)) => mine.take_links_alike(theirs),
             _ => return false,

@@ -28,6 +28,14 @@ impl Family {
         }
     }
 
+    /// Gives units of what it keeps to both that hold the larger values of either.
+    pub(super) fn share_units(&mut self, other: &mut Self) {
+        if let (Self::Voronoi(own), Self::Voronoi(others)) = (self, other) {
+            own.energy_unit = own.energy_unit.max(others.energy_unit);
+            others.energy_unit = own.energy_unit;
+        }
+    }
+
     /// Its physics.
     #[must_use]
     pub(crate) fn physics(&self) -> &dyn Physics {

@@ -6,7 +6,7 @@ use super::simulation::Simulation;
 use crate::families::{Checked, Kinematics};
 use crate::numbers::short;
 use crate::plan::{Hardware, Options};
-use crate::scene::{Scene, WrittenScene};
+use crate::scene;
 use crate::state::{State, StateArray};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -59,9 +59,6 @@ pub(super) fn kept(sections: &[(String, Vec<u8>)]) -> Vec<Change> {
     found.and_then(|(_, bytes)| serde_json::from_slice(bytes).ok()).unwrap_or_default()
 }
 
-/// Keys whose numbers may change between steps, by their beginnings.
-const CHANGEABLE: [&str; 5] = ["temperature", "interactions.", "integrator.", "space.shear.rate", "space.walls."];
-
 /// Particles whose numbers a message lists.
 const LISTED: usize = 8;
 
@@ -78,8 +75,10 @@ impl Simulation {
     /// Changes a number of the scene: `temperature`, a number of `interactions`, `integrator`, `space.walls`, or `space.shear.rate`, by its
     /// path as in overrides of scenes. Velocities, and the numbers that baths remember, stay as they are.
     ///
-    /// Momenta are whole multiples of a unit that follows from the scene; where a change needs a larger unit they are rounded to it, so that
-    /// their sum stays, to half a unit: the [`Rounding`] says how much it changed.
+    /// Momenta are whole multiples of a unit that follows from the scene, and from the largest values that `announced` in it lists: up to
+    /// these no unit changes. Where a change needs a larger unit all the same, momenta are rounded to it, so that their sum stays, to half a
+    /// unit: the [`Rounding`] says how much it changed. The first change compiles kernels once more, with their numbers in a buffer; those
+    /// of a scene that announces numbers have them there from the start.
     ///
     /// ```
     /// use mesoscope::gpu::AdapterChoice;
@@ -99,25 +98,19 @@ impl Simulation {
     /// # Errors
     /// [`RunError::Arrays`] for a key that cannot change between steps, [`RunError::Scene`] for a value that the scene does not accept.
     pub fn set(&mut self, key: &str, new: impl Into<Value>) -> Result<Rounding, RunError> {
-        let (key, new) = (key.trim().replace('[', ".").replace(']', ""), new.into());
-        if !CHANGEABLE
-            .iter()
-            .any(|known| key == known.trim_end_matches('.') || known.ends_with('.') && key.starts_with(known))
-        {
-            let accepted =
-                "temperature, numbers of `interactions`, `integrator` and `space.walls`, and space.shear.rate";
-            return Err(mistake(format!("{key}: it cannot change between steps; accepted: {accepted}")));
-        }
+        let (key, new) = (scene::changeable(key).map_err(mistake)?, new.into());
         let old = self.scene.clone();
         let state = self.state()?;
         let mut settings = vec![format!("{key}={new}")];
         if key == "space.shear.rate" {
             settings.extend(self.displacement(&new));
         }
-        let text = serde_json::to_string(&*old).unwrap_or_default();
-        let written = WrittenScene::new(old.title.as_str(), text).with(&settings);
-        let scene = written.check_kept(old.start().cloned())?;
-        check_alike(&key, &old, &scene)?;
+        let scene = scene::overridden(&old, &settings)?;
+        if !scene::differ_in_numbers(&old, &scene) {
+            return Err(mistake(format!(
+                "{key}: it is no number of this scene, whose value could change between steps; accepted: a number in place of a number"
+            )));
+        }
         let (state, rounding) = in_units_of(&scene, &old, (*state).clone())?;
         self.replace(scene, state)?;
         self.changes.push(Change { step: self.step(), key, value: new, rounding });
@@ -296,37 +289,6 @@ fn listed(what: &str, vectors: &[[f64; 3]], is_wrong: impl Fn(usize, &[f64; 3]) 
     Some(format!("particle {}{more} {what}: the first has ({x}, {y}, {z})", numbers.join(", ")))
 }
 
-/// Refuses a change that is more than one of numbers.
-fn check_alike(key: &str, old: &Checked, new: &Checked) -> Result<(), RunError> {
-    let shape = |scene: &Scene| {
-        let mut document = serde_json::to_value(scene).unwrap_or_default();
-        blank(&mut document);
-        document
-    };
-    let alike = |one: &Checked, other: &Checked| {
-        let [one, other] = [one, other].map(|scene| {
-            scene.model().species.iter().map(|known| (known.count, known.mass, known.fixed)).collect::<Vec<_>>()
-        });
-        one == other
-    };
-    if shape(old) == shape(new) && alike(old, new) {
-        return Ok(());
-    }
-    Err(mistake(format!(
-        "{key}: it is no number of this scene, whose value could change between steps; accepted: a number in place of a number"
-    )))
-}
-
-/// Replaces all numbers, which may differ.
-fn blank(document: &mut Value) {
-    match document {
-        Value::Number(number) => *number = 0.into(),
-        Value::Array(list) => list.iter_mut().for_each(blank),
-        Value::Object(object) => object.values_mut().for_each(blank),
-        _ => {}
-    }
-}
-
 /// The units of what a scene keeps besides positions and momenta: of momentum, of work, of its sums.
 fn kept_units(scene: &Checked, state: &State) -> Vec<f64> {
     let model = scene.model();
@@ -342,7 +304,9 @@ fn in_units_of(scene: &Checked, old: &Checked, mut state: State) -> Result<(Stat
     let keeps = |array: &StateArray| !of_velocities.contains(array) && !state.words(*array).is_empty();
     if StateArray::ALL.iter().any(keeps) && kept_units(old, &state) != kept_units(scene, &state) {
         let text = "the change needs other units, in which what this scene keeps, such as accounts, masses and memory, cannot be converted";
-        return Err(mistake(format!("{text}; accepted: values that need no other unit, or a new simulation")));
+        return Err(mistake(format!(
+            "{text}; accepted: values that need no other unit, which `announced` in the scene provides, or a new simulation"
+        )));
     }
     if from == to {
         return Ok((state, Rounding::default()));

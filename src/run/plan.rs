@@ -2,6 +2,7 @@
 
 use super::analyses::{Planner, add_samplers, needs};
 use crate::families::Checked;
+use crate::gpu::ConstantsIn;
 use crate::plan::{Hardware, Measured, Options, Plan};
 
 /// Makes the plan of a scene.
@@ -33,7 +34,8 @@ pub fn plan(scene: &Checked, hardware: Hardware, options: Options) -> Plan {
     if follows {
         plan.follow(physics.followers, physics.stride);
     }
-    plan.constants_in = options.constants_in;
+    // From the start, also in runs that change none: kernels with folded constants may round otherwise.
+    plan.constants_in = if scene.announced.is_empty() { options.constants_in } else { ConstantsIn::Buffer };
     plan.count_storage_buffers();
     if options.suits_serial_memory(hardware) {
         plan.suit_serial_memory(&physics.texture_candidates);

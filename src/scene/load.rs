@@ -254,6 +254,7 @@ impl WrittenScene {
             }
             let checked = Checked::presumed(scene).noting(reading.notices);
             families::check(&checked, step, &mut problems);
+            super::changes::check_announced(&checked, &mut problems);
             return if problems.is_empty() { Ok(checked) } else { Err(invalid(name, problems, false)) };
         }
         let mut problems = reading.problems;

@@ -5,6 +5,7 @@
 //! once.
 
 mod builtin;
+mod changes;
 mod colours;
 mod load;
 mod overrides;
@@ -20,6 +21,7 @@ pub use crate::document::*;
 pub use crate::families::Checked;
 pub(crate) use builtin::CALIBRATIONS;
 pub use builtin::{Builtin, builtin};
+pub(crate) use changes::{changeable, differ_in_numbers, overridden};
 pub use load::{WrittenScene, load, parse, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;

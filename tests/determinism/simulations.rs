@@ -280,6 +280,43 @@ fn a_hotter_scene_has_larger_units() {
     simulation.advance(1).unwrap();
 }
 
+/// Units are those of the largest values that a scene announces: up to these no change rounds anything, whatever else is kept in them.
+#[test]
+fn announced_numbers_change_no_unit() {
+    let walls = ["space.box=[6,6,6]", "output={}"];
+    let cases = [
+        (fluid(&[SPLITTING]), "temperature", 16.0),
+        (built_in("couette", &walls), "temperature", 16.0),
+        (built_in("couette", &walls), "space.walls.z.upper_velocity.0", 40.0),
+        (cells(64, &[ENERGY]), "temperature", 50.0),
+        (oscillators(&[]), "temperature", 64.0),
+        (water(&[]), "temperature", 10.0),
+    ];
+    for (scene, key, largest) in cases {
+        let announcing = |largest: f64| {
+            let announced = json!([{"key": key, "largest": largest}]);
+            edited(&scene, |scene| scene.announced = serde_json::from_value(announced).unwrap())
+        };
+        let unit = |scene: &Checked| scene.model().units.momentum;
+        let announced = announcing(largest);
+        assert!(unit(&announced) > unit(&scene), "{key}");
+        let mut simulation = simulation(&announced);
+        simulation.advance(6).unwrap();
+        let before = simulation.state().unwrap();
+        for part in [1.0, 0.1, 0.9] {
+            let rounding = simulation.set(key, part * largest).unwrap();
+            assert_eq!((rounding.largest, rounding.momentum), (0.0, [0.0; 3]), "{key} {part}");
+            assert_eq!(unit(simulation.scene()), unit(&announced), "{key} {part}");
+            assert!(simulation.state().unwrap().momenta == before.momenta, "{key} {part}");
+        }
+        assert_eq!(simulation.scene().announced, announced.announced);
+        // A run of the scene has the same bits.
+        let mut simulation = self::simulation(&announced);
+        simulation.advance(20).unwrap();
+        assert!(unturned(&simulation.state().unwrap()) == unturned(&unseen(&announced, 20)), "{key}");
+    }
+}
+
 #[test]
 fn velocities_and_positions_can_be_set() {
     for integrator in INTEGRATORS.iter().chain(&[r#"interactions.0.bath={"type":"memory","rate":3}"#]) {

@@ -18,6 +18,7 @@ fn scenes() -> Vec<(&'static str, Checked)> {
         ("Cotter and Reich", fluid(&[COTTER_REICH, LONG])),
         ("walls", fluid(&[GROOT_WARREN, LONG, r#"space.walls={"y":{"upper_velocity":[1.5,0,0]}}"#])),
         ("shear", fluid(&[SPLITTING, LONG, r#"space.shear={"rate":1.2,"gradient":"y"}"#])),
+        ("announced", fluid(&[SPLITTING, LONG, r#"announced=[{"key":"interactions.0.repulsion","largest":4e3}]"#])),
         ("water", water(&[])),
     ]
 }

@@ -54,6 +54,25 @@ fn unknown_keys() {
 }
 
 #[test]
+fn announced_numbers_that_are_none() {
+    let announced = |key: &str, largest: &str| format!(r#"announced=[{{"key":"{key}","largest":{largest}}}]"#);
+    FLUID.parse(&[&announced("interactions.0.repulsion", "100")]).unwrap();
+    for key in ["time.step", "seed", "space.box.0"] {
+        let expected =
+            format!("announced[0].key: found `{key}`, which cannot change between steps; accepted: temperature");
+        FLUID.refused_with(&[&announced(key, "2")], &[&expected]);
+    }
+    for key in ["interactions.1.repulsion", "interactions.0.type", "interactions.0.fricton", "interactions.x"] {
+        FLUID.refused_with(&[&announced(key, "2")], &["announced: found a path at which this scene has no number"]);
+    }
+    let negative =
+        "announced: with the largest values at once, temperature: found -1.0; accepted: a number, zero or positive";
+    FLUID.refused_with(&[&announced("temperature", "-1")], &[negative]);
+    FLUID.refused_with(&[&announced("temperature", "\"hot\"")], &["announced[0].largest: found the text \"hot\""]);
+    FLUID.refused_with(&["announced={}"], &["announced: found"]);
+}
+
+#[test]
 fn an_override_that_goes_nowhere_hides_no_other_mistake() {
     assert_eq!(
         FLUID.problems(&["particles.3.count=1", "time.stp=1", "temperature=-1", "seed"]),

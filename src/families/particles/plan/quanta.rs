@@ -11,6 +11,7 @@ use crate::plan::{ProductQuanta, Quanta};
 /// Springs far stiffer than what heat and repulsion make of the unit of length, as in the cold, need coarser units of the
 /// curvature and of the square of a force, which goes with it in equilibrium.
 pub(crate) fn quanta(model: &Model) -> Quanta {
+    let model = model.of_scales();
     let mut quanta = quanta_without_memory(model);
     let temperature = quanta.energy * 2_f64.powi(32);
     let baths = conservation::baths(model).into_iter().map(|(step, _)| step);

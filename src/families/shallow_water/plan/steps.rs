@@ -133,6 +133,8 @@ fn empty_plan(model: &Model, water: &ShallowWater, storage: Storage, texels: boo
 /// scales are a particle at the speed of waves or of heat, a node with its energy at the speed of waves, and a bath variable
 /// at rest or driven by a change of the depth by a hundredth.
 fn quanta(model: &Model, water: &ShallowWater) -> Quanta {
+    let model = model.of_scales();
+    let water = model.shallow_water().unwrap_or(water);
     let power_of_two = |value: f64| value.log2().ceil().exp2();
     let speed_squared = water.wave_speed * water.wave_speed;
     let mass = water.nodes() as f64 / water.carriers.max(1) as f64;
