@@ -154,12 +154,15 @@ class Simulation:
         positions: Any = None,
         velocities: Any = None,
         seed: int | None = None,
+        announced: Mapping[str, float] | None = None,
         adapter: str | None = None,
         ranks: int = 1,
     ) -> None:
         ranks = _whole("ranks", ranks)
         name, written = source(scene)
         settings = dict(settings or {}) | ({} if seed is None else {"seed": seed})
+        if announced is not None:
+            settings["announced"] = [{"key": key, "largest": largest} for key, largest in announced.items()]
         self._inner = _mesoscope.Simulation.start(name, written, overrides(settings), adapter, ranks)
         self._begin()
         try:
@@ -306,7 +309,9 @@ class Simulation:
     def set(self, key: str, value: Any) -> tuple[float, list[float]]:
         """Changes a number of the scene: the temperature, a number of an interaction, of a wall, the rate of shear.
 
-        Returns the largest rounding of momenta, and the change of their sum, which are zero unless the change needs a larger unit.
+        Returns the largest rounding of momenta, and the change of their sum, which are zero unless the change needs a larger unit than
+        the scene, and the largest values that ``announced`` has, asked for. The first change of a simulation without ``announced``
+        compiles the kernels once more.
         """
         return self._inner.set(key, text(value))
 
@@ -325,6 +330,10 @@ class Simulation:
     def checkpoint(self, path: str | os.PathLike[str]) -> None:
         """Saves the current step, from which :meth:`resume` continues to the bit."""
         self._inner.checkpoint(os.fspath(path))
+
+    def summary(self, path: str | os.PathLike[str]) -> None:
+        """Writes what ``run.json`` says of a run: scene, adapter, changes, speed, and means with errors since the last change."""
+        self._inner.summary(os.fspath(path))
 
     def draw(self) -> np.ndarray | None:
         """A picture of the current step: (height, width, 4) bytes; none of particles on a line."""

@@ -281,6 +281,10 @@ impl Simulation {
         self.with(py, |open| Ok(serde_json::to_string(open.simulation.changes()).unwrap_or_default()))
     }
 
+    fn summary(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        self.with(py, |open| open.simulation.summary(&path))
+    }
+
     fn checkpoint(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         self.with(py, |open| open.simulation.checkpoint(&path))
     }

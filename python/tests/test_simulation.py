@@ -377,5 +377,23 @@ def test_ranks_give_the_numbers_of_one(small, tmp_path):
         ms.Simulation("dpd-fluid", long, ranks=1.5)
 
 
+def test_announced_numbers_need_no_other_unit(small, tmp_path):
+    walls = {"space.box": [6, 6, 6], "output": {}}
+    with ms.Simulation("couette", walls) as sim:
+        with pytest.raises(ms.ArrayError, match="which `announced` in the scene provides"):
+            sim.set("temperature", 16)
+    with ms.Simulation("couette", walls, announced={"temperature": 16}) as sim:
+        assert sim.set("temperature", 16) == (0.0, [0.0, 0.0, 0.0])
+        assert sim.scene["announced"] == [{"key": "temperature", "largest": 16.0}]
+        sim.set("temperature", 2)
+        sim.advance(20)
+        sim.summary(tmp_path / "run.json")
+        written = json.loads((tmp_path / "run.json").read_text())
+        assert [change["value"] for change in written["changes"]] == [16, 2] and written["steps"] == 20
+        assert written["changes"] == sim.changes
+    with pytest.raises(ms.SceneError, match="seed`, which cannot change between steps"):
+        ms.Simulation("dpd-fluid", small, announced={"seed": 3})
+
+
 def one_adapter() -> bool:
     return len(ms.adapters()) == 1

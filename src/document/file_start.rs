@@ -1,6 +1,6 @@
 //! What a scene keeps of the file that its particles start from, or of the molecules that they form.
 
-use super::{Scene, number_of_copies};
+use super::{Change, Scene, number_of_copies};
 use crate::state::State;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -25,6 +25,8 @@ pub struct FileStart {
     pub surroundings: Option<Surroundings>,
     /// How the noise begins; none without a file, and where a run of an earlier version continues, whose noise is that of the scene's seed.
     pub origin: Option<Origin>,
+    /// What was changed between the steps of the simulation that left the file.
+    pub changes: Vec<Change>,
     /// Places and velocities; none where a run continues, whose checkpoint has them.
     pub places: Option<FilePlaces>,
 }
@@ -151,6 +153,8 @@ struct Description {
     surroundings: Option<Surroundings>,
     #[serde(default)]
     origin: Option<Origin>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    changes: Vec<Change>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -218,6 +222,7 @@ impl FileStart {
             angles: described(&self.angles),
             surroundings: self.surroundings.clone(),
             origin: self.origin,
+            changes: self.changes.clone(),
         };
         // Numbers and text, which can always be written.
         let text = serde_json::to_vec(&description).unwrap_or_default();
@@ -260,7 +265,7 @@ impl FileStart {
         }
         let mut bytes = bytes;
         let length = u64::from_le_bytes(take(&mut bytes, 8)?.try_into().ok()?);
-        let Description { copies, particles, fastest, bonds, angles, surroundings, origin } =
+        let Description { copies, particles, fastest, bonds, angles, surroundings, origin, changes } =
             serde_json::from_slice(take(&mut bytes, length)?).ok()?;
         let species = take(&mut bytes, particles.into())?.to_vec();
         let bonds = links(&mut bytes, bonds, copies, particles)?;
@@ -273,6 +278,7 @@ impl FileStart {
             angles,
             surroundings,
             origin,
+            changes,
             places: None,
         })
     }
@@ -302,6 +308,7 @@ impl KeptStart {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::document::Rounding;
 
     fn links<const LENGTH: usize>(
         members: Vec<[u32; LENGTH]>,
@@ -344,6 +351,12 @@ mod tests {
                     momentum_unit: 1e-8 / 3.0,
                     expected_velocity: 0.1,
                 })),
+                changes: vec![Change {
+                    step: 3,
+                    key: "temperature".to_owned(),
+                    value: 0.5.into(),
+                    rounding: Rounding { largest: 1e-8 / 3.0, momentum: [0.0; 3] },
+                }],
                 places: None,
             };
             let bytes = start.to_bytes();

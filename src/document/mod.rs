@@ -3,6 +3,7 @@
 //! Families check such scenes and make models of them; [`crate::scene`] reads one from a file, with all of that.
 
 mod bath;
+mod change;
 mod defaults;
 mod error;
 mod file_start;
@@ -29,6 +30,7 @@ mod walls;
 
 pub use crate::noise::Generator;
 pub use bath::{Bath, BathScheme};
+pub use change::{Change, Rounding};
 pub(crate) use error::did_you_mean;
 pub use error::{Problem, SceneError, Warning};
 pub use file_start::{EarlierRun, FileLinks, FilePlaces, FileStart, KeptStart, MeshFields, Origin, Surroundings};

@@ -5,7 +5,7 @@ use crate::families::{Checked, Column, Model, start_in_words};
 use crate::gpu::AdapterDescription;
 use crate::measure::statistics::Estimate;
 use crate::quantity::Quantity;
-use crate::scene::Scene;
+use crate::scene::{Change, Scene};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -48,6 +48,9 @@ pub struct Summary {
     /// What it has from the file that its particles are from, if they are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<StartSummary>,
+    /// What was changed between its steps, of a simulation that is stepped.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub changes: Vec<Change>,
     /// Number of particles.
     pub particles: u64,
     /// What the particles of a file or of molecules are, and what acts on which of them.
@@ -156,7 +159,7 @@ impl ColumnSummary {
 }
 
 /// What a run has from the file that its particles are from.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct StartSummary {
     /// In words, with what its steps and times are counted from.
     pub what: String,
@@ -164,6 +167,9 @@ pub struct StartSummary {
     pub steps_before: u64,
     /// Seed of its noise.
     pub noise_seed: u64,
+    /// What was changed between the steps of the simulation that left the file.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub changes: Vec<Change>,
 }
 
 impl StartSummary {
@@ -172,7 +178,8 @@ impl StartSummary {
     pub(crate) fn new(scene: &Checked) -> Option<Self> {
         let model = scene.model();
         let what = start_in_words(scene)?;
-        Some(Self { what, steps_before: model.steps_before, noise_seed: model.seed })
+        let changes = scene.start().map(|start| start.changes.clone()).unwrap_or_default();
+        Some(Self { what, steps_before: model.steps_before, noise_seed: model.seed, changes })
     }
 }
 
@@ -316,6 +323,7 @@ impl Summary {
             adapter,
             ranks: None,
             start: None,
+            changes: Vec::new(),
             particles,
             composition: Vec::new(),
             steps: 0,

@@ -62,10 +62,10 @@ mod task;
 mod team;
 mod views;
 
+pub use crate::scene::{Change, Rounding};
 pub use adapter::{adapter_for, adapter_for_rank};
 pub(crate) use analyses::circulation_change;
 pub use analyses::{AskedAnalysis, asked_analyses, printed_estimate, printed_results};
-pub use change::{Change, Rounding};
 pub(crate) use conservation::kept;
 pub use division::{Ranks, Share, divide, share_of};
 pub(crate) use energies::{quantities, read as read_energies};

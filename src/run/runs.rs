@@ -367,7 +367,7 @@ fn attempt(
 }
 
 /// The ranks that have shared a run, if there are several.
-fn ranks(engine: &dyn Stepper) -> Option<RanksSummary> {
+pub(super) fn ranks(engine: &dyn Stepper) -> Option<RanksSummary> {
     let part = engine.plan().part.as_ref()?;
     let of_rank = |RankReport { host, adapter, arithmetic, traffic, .. }: &RankReport| {
         let steps = traffic.exchanges.max(1) as f64;

@@ -9,6 +9,7 @@ use super::energy_rows::EnergyRows;
 use super::frame::{Frame, Here, with_flow};
 use super::pace::{self, Pace};
 use super::pictures::{mesh_depth, most_shown};
+use super::runs::ranks;
 use super::sections::Sections;
 use super::tally::Carried;
 use super::team::team;
@@ -19,10 +20,11 @@ use crate::families::{self, Checked, Instability, PictureKind};
 use crate::gpu::{AdapterChoice, AdapterDescription, ConstantsIn, Gpu};
 use crate::measure::statistics::Estimate;
 use crate::measure::{Field, observables_of};
+use crate::output::summary::{AdapterSummary, ColumnSummary, StartSummary, Summary};
 use crate::output::{Checkpoint, Id, TrajectoryWriter, checkpoint, files};
 use crate::plan::{Division, Options, Part, SamplerId};
 use crate::run::Interrupt;
-use crate::scene::{AnalysisId, FieldQuantity, Output, Trajectory, TrajectoryFormat};
+use crate::scene::{AnalysisId, Change, FieldQuantity, Output, Trajectory, TrajectoryFormat};
 use crate::state::State;
 use crate::table::Table;
 use crate::tessellation::Tessellation;
@@ -78,7 +80,7 @@ pub struct Simulation {
     sampled: Vec<Sample>,
     /// The energies and the state of the current step, as far as they have been read.
     here: Option<Here>,
-    pub(super) changes: Vec<super::change::Change>,
+    pub(super) changes: Vec<Change>,
     /// Why no further step can be taken.
     end: Option<String>,
 }
@@ -211,7 +213,7 @@ impl Simulation {
         }
         let carried = Carried::new(scene.model(), &Sections::new(path, state.step, &sections))?;
         let mut simulation = Self::from_state(Sight::Frames, place, &scene, state, carried)?;
-        simulation.changes = super::change::kept(&sections);
+        simulation.changes = Change::from_sections(&sections);
         Ok(simulation)
     }
 
@@ -611,11 +613,34 @@ impl Simulation {
     pub fn checkpoint(&mut self, path: impl AsRef<Path>) -> Result<(), RunError> {
         let state = self.state()?;
         let carried = self.carried.section(self.scene.model(), &mut *self.engine)?;
-        let sections: Vec<_> = carried.into_iter().chain(super::change::section(&self.changes)).collect();
+        let sections: Vec<_> = carried.into_iter().chain(Change::section(&self.changes)).collect();
         // A scene ends after its checkpoint.
         let steps = self.scene.time.steps.max(state.step);
         let scene = self.scene.clone().changed(|scene| scene.time.steps = steps);
         Ok(checkpoint::save(path.as_ref(), Id::of_run(&scene), &scene, &state, &[], &sections)?)
+    }
+
+    /// Writes what `run.json` says of a run: the scene, the adapter, changes between steps, speed, and the means of the table of energies
+    /// since the last change, with their errors. Nothing is said of conservation, which is not watched.
+    ///
+    /// # Errors
+    /// [`RunError::Output`] if it cannot be written.
+    pub fn summary(&self, path: impl AsRef<Path>) -> Result<(), RunError> {
+        let scene = &self.scene;
+        let adapter = AdapterSummary::from(self.adapter());
+        let mut summary =
+            Summary::new(Id::of_run(scene), scene.clone().into_scene(), adapter, scene.model().particle_count());
+        let (steps, spent) = self.pace.done();
+        summary.set_duration(self.step(), steps, spent.as_secs_f64());
+        summary.ranks = ranks(&*self.engine);
+        summary.start = StartSummary::new(scene);
+        summary.changes.clone_from(&self.changes);
+        summary.columns.insert(files::ENERGIES.to_owned(), ColumnSummary::of_energies(scene.model()));
+        for (name, mean) in self.rows.means() {
+            summary.add_mean(name, mean.as_ref());
+        }
+        summary.warnings = families::warnings(scene).iter().map(ToString::to_string).collect();
+        Ok(summary.save(path.as_ref())?)
     }
 
     /// Goes on from another state of the same step.

@@ -212,6 +212,60 @@ fn a_changed_number_is_that_of_another_scene() {
     }
 }
 
+/// Changes are in the summary of a simulation, and in that of a run that starts from its checkpoint, resumed or not.
+#[test]
+fn changes_are_told_wherever_a_state_goes() {
+    let root = tempfile::tempdir().unwrap();
+    let path = root.path().join("changed.ckpt");
+    let scene = fluid(&[SPLITTING]);
+    let mut simulation = simulation(&scene);
+    simulation.advance(4).unwrap();
+    simulation.set("interactions.0.repulsion", 20).unwrap();
+    simulation.advance(3).unwrap();
+    simulation.checkpoint(&path).unwrap();
+    let told = serde_json::to_value(simulation.changes()).unwrap();
+    assert_eq!(
+        (&told[0]["step"], &told[0]["key"], &told[0]["value"]),
+        (&json!(4), &json!("interactions.0.repulsion"), &json!(20))
+    );
+    let read = |path: &std::path::Path| -> serde_json::Value {
+        serde_json::from_slice(&std::fs::read(path).unwrap()).unwrap()
+    };
+    let summary = root.path().join("run.json");
+    simulation.summary(&summary).unwrap();
+    let written = read(&summary);
+    assert_eq!((&written["changes"], &written["steps"]), (&told, &json!(7)));
+    assert_eq!(written["scene"]["interactions"][0]["repulsion"], json!(20.0));
+    assert!(written["means"]["temperature"]["value"].is_null() && written["wall_seconds"].as_f64().unwrap() > 0.0);
+
+    let state = format!("state={}", json!({"file": path}));
+    let started = fluid(&[SPLITTING, "interactions.0.repulsion=20", "particles=[{\"species\":\"A\"}]", &state]);
+    let species = &scene.particles[0].species;
+    assert_eq!(started.particles[0].species, *species);
+    let directory = root.path().join("run");
+    Run::replace(edited(&started, |scene| scene.time.steps = 5), &directory)
+        .without_pictures()
+        .execute(&adapter(), &mut |_| {})
+        .unwrap();
+    assert_eq!(read(&directory.join(files::SUMMARY))["start"]["changes"], told);
+    Run::resume(&directory, Some(9)).unwrap().without_pictures().execute(&adapter(), &mut |_| {}).unwrap();
+    let resumed = read(&directory.join(files::SUMMARY));
+    assert_eq!((&resumed["start"]["changes"], &resumed["steps"]), (&told, &json!(9)));
+    // Further changes are added to these by whoever goes on.
+    let mut further = Simulation::from_checkpoint(directory.join(files::CHECKPOINT), &adapter()).unwrap();
+    further.set("temperature", 1.25).unwrap();
+    further.checkpoint(&path).unwrap();
+    let again = fluid(&[
+        SPLITTING,
+        "interactions.0.repulsion=20",
+        "temperature=1.25",
+        "particles=[{\"species\":\"A\"}]",
+        &state,
+    ]);
+    let all = again.start().unwrap().changes.iter().map(|change| change.key.as_str()).collect::<Vec<_>>();
+    assert_eq!(all, ["interactions.0.repulsion", "temperature"]);
+}
+
 /// Means are of what goes on now.
 #[test]
 fn means_begin_anew_with_a_change() {

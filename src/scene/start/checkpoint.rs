@@ -1,7 +1,7 @@
 //! The particles of an earlier run, from its last checkpoint.
 
 use crate::families::{Angles, Bonds, Checked, Family, Link, Model};
-use crate::scene::{EarlierRun, FileStart, Integrator, WrittenScene};
+use crate::scene::{Change, EarlierRun, FileStart, Integrator, WrittenScene};
 use crate::state::{State, StateArray};
 use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
 use crate::state_file::{Fits, Links, Mistake, ParticleFile, frozen_layers, open_regular_file};
@@ -24,6 +24,7 @@ pub(super) fn of(path: &Path) -> Option<PathBuf> {
 pub(super) struct Run {
     scene: Checked,
     state: State,
+    changes: Vec<Change>,
 }
 
 impl Run {
@@ -51,6 +52,11 @@ impl Run {
     /// The state where the other run begins.
     pub(crate) fn state(&self) -> State {
         State { step: 0, ..self.state.clone() }
+    }
+
+    /// What was changed between its steps, and before it.
+    pub(crate) fn changes(&self) -> &[Change] {
+        &self.changes
     }
 
     /// Its scene.
@@ -105,7 +111,9 @@ pub(super) fn run(path: &Path, fits: &Fits<'_>) -> Result<Run, Mistake> {
     let start = start.and_then(|(_, bytes)| FileStart::from_bytes(bytes)).map(Arc::new);
     let written = WrittenScene::new("its scene", content.scene);
     let scene = written.check_kept(start).map_err(|error| damaged(&format!("its scene is refused ({error})")))?;
-    Ok(Run { scene, state: content.state })
+    let before = scene.start().map(|start| start.changes.clone()).unwrap_or_default();
+    let changes = before.into_iter().chain(Change::from_sections(&content.sections)).collect();
+    Ok(Run { scene, state: content.state, changes })
 }
 
 fn refusal(error: &ContentError) -> Mistake {

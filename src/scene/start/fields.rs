@@ -4,7 +4,7 @@ use super::{
     FileStart, KeptStart, Origin, Problems, Scene, SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities,
     checkpoint, shared,
 };
-use crate::document::{FilePlaces, MeshFields, OutsidePositions, ParticleGroup, Velocities, brief};
+use crate::document::{Change, FilePlaces, MeshFields, OutsidePositions, ParticleGroup, Velocities, brief};
 use crate::numbers::{counted, short};
 use crate::state::State;
 use crate::state_file::arrays::{Array, ArrayFile};
@@ -35,10 +35,10 @@ pub(super) fn read(
     let read = match checkpoint::of(path) {
         Some(checkpoint) => places_of_run(scene, &checkpoint, state, mesh).map_err(|mistake| vec![mistake]),
         None => fields(path, state, mesh.map(|nodes| nodes as usize), &scene.space.lengths)
-            .map(|fields| FilePlaces { fields: Some(Arc::new(fields)), ..FilePlaces::default() }),
+            .map(|fields| (FilePlaces { fields: Some(Arc::new(fields)), ..FilePlaces::default() }, Vec::new())),
     };
-    let places = match read {
-        Ok(places) => places,
+    let (places, changes) = match read {
+        Ok(read) => read,
         Err(mistakes) if files.known(state).is_some() => {
             let reason = mistakes.first().map(|mistake| mistake.found.clone()).unwrap_or_default();
             return Err(SceneError::StateChanged { path: path.to_path_buf(), reason });
@@ -67,6 +67,7 @@ pub(super) fn read(
         angles: Vec::new(),
         surroundings: None,
         origin: Some(Origin::Anew),
+        changes,
         places: Some(places),
     };
     scene.kept = KeptStart::of(shared(start));
@@ -97,13 +98,14 @@ fn check_scene(scene: &Scene, state: &StateFile, problems: &mut Problems) {
     }
 }
 
-/// Particles, masses and velocities of an earlier run on the same mesh, whose scene may differ in all else that acts on them.
+/// Particles, masses and velocities of an earlier run on the same mesh, whose scene may differ in all else that acts on them, and what was
+/// changed between its steps.
 fn places_of_run(
     scene: &mut Scene,
     checkpoint: &Path,
     state: &StateFile,
     mesh: [u32; 2],
-) -> Result<FilePlaces, Mistake> {
+) -> Result<(FilePlaces, Vec<Change>), Mistake> {
     state_file::only_frame(state.frame)?;
     let run = checkpoint::run(checkpoint, &|_| Ok(()))?;
     let theirs = run.scene();
@@ -136,7 +138,8 @@ fn places_of_run(
     }
     let velocities = if state.velocities == StateVelocities::File { run.velocities()? } else { Vec::new() };
     let State { positions, masses, .. } = run.state();
-    Ok(FilePlaces { positions, velocities, masses, ..FilePlaces::default() })
+    let places = FilePlaces { positions, velocities, masses, ..FilePlaces::default() };
+    Ok((places, run.changes().to_vec()))
 }
 
 /// The fields of a file, of which all mistakes are found.

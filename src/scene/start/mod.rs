@@ -319,6 +319,7 @@ impl<'a> Reader<'a> {
         run: &checkpoint::Run,
         unused: &mut Vec<String>,
     ) -> FileStart {
+        start.changes = run.changes().to_vec();
         let moves_on = self.state.velocities == StateVelocities::File;
         if moves_on && start.copies == [1; 3] {
             let places = start.places.take();
