@@ -50,6 +50,7 @@ test-python: cargo adapter ## the Python package, installed into a virtual envir
 validate: cargo adapter ## the long tests, and all tests on other drivers
 	@sh .ci/spirv.sh
 	cargo check --locked --package mesoscope --lib --no-default-features
+	cargo package --workspace --exclude mesoscope-python --locked --allow-dirty
 	NODE_PATH=$$(sh .ci/tint.sh) cargo test --release --locked -- --ignored --show-output
 	bash .ci/drivers.sh
 	@sh .ci/python.sh release

@@ -4,6 +4,7 @@ use super::files;
 use super::means_chart;
 use super::summary::SweepSummary;
 use super::variant::VariantState;
+use crate::measure::statistics::independent;
 use crate::output::{RunDirectory, Summary, files as run_files};
 use crate::plot::{Chart, Series, SeriesInk, SeriesStyle, overlay_chart};
 use crate::run;
@@ -61,7 +62,7 @@ pub(super) fn charts<'c>(
         let title = finished.first().map_or("", |(variant, _, _)| variant.scene.title.as_str());
         let mut subtitle = subtitle(sweep, summary);
         if averaged {
-            subtitle.push_str("; thick: means over seeds, thin: single seeds");
+            subtitle.push_str("; thick: means over seeds, in a band of their standard errors; thin: single seeds");
         }
         if !without.is_empty() {
             subtitle = format!("{subtitle}; without {}", without.join(", "));
@@ -82,7 +83,7 @@ struct Curve<'v> {
 }
 
 /// The curves of variants that differ in their seeds alone, with the number of their group and what they have in
-/// common: each of them, thin, behind their mean.
+/// common: each of them, thin, behind their mean in a band of its standard error.
 fn curves_of_seeds(number: usize, settings: &[Setting], members: &[Curve<'_>]) -> Vec<Series> {
     let ink = |ink: SeriesInk| if ink == SeriesInk::Own { SeriesInk::Numbered(number) } else { ink };
     let mean = mean_curve(members).filter(|_| members.len() > 1);
@@ -92,22 +93,26 @@ fn curves_of_seeds(number: usize, settings: &[Setting], members: &[Curve<'_>]) -
         Series { style, ..Series::line(name, points.clone()).with_ink(ink(*own)) }
     };
     let mut curves: Vec<Series> = members.iter().map(shown).collect();
-    if let (Some(mean), Some(first)) = (mean, members.first()) {
+    if let (Some((mean, errors)), Some(first)) = (mean, members.first()) {
         let label = if settings.is_empty() { "mean" } else { &ShortKeys::of_settings(settings).label(settings) };
-        curves.push(Series::line(label, mean).with_ink(ink(first.ink)));
+        curves.push(Series::line(label, mean).with_band(errors).with_ink(ink(first.ink)));
     }
     curves
 }
 
-/// The mean of curves over their values at the same times; none where times differ.
-fn mean_curve(curves: &[Curve<'_>]) -> Option<Vec<[f64; 2]>> {
+/// The mean of curves over their values at the same times, with the standard errors from their scatter; none where times differ.
+fn mean_curve(curves: &[Curve<'_>]) -> Option<(Vec<[f64; 2]>, Vec<f64>)> {
     let first = &curves.first()?.points;
     let is_alike = |Curve { points, .. }: &Curve<'_>| {
         points.len() == first.len() && points.iter().zip(first).all(|(a, b)| a[0].total_cmp(&b[0]).is_eq())
     };
-    let mean = |row: usize| curves.iter().map(|curve| curve.points[row][1]).sum::<f64>() / curves.len() as f64;
-    let means = || first.iter().enumerate().map(|(row, [time, _])| [*time, mean(row)]).collect();
-    curves.iter().all(is_alike).then(means)
+    let mean = |(row, [time, _]): (usize, &[f64; 2])| {
+        let values: Vec<f64> = curves.iter().map(|curve| curve.points[row][1]).collect();
+        let found = independent(&values);
+        let error = found.and_then(|found| found.error).unwrap_or(f64::NAN);
+        ([*time, found.map_or(f64::NAN, |found| found.value)], error)
+    };
+    curves.iter().all(is_alike).then(|| first.iter().enumerate().map(mean).unzip())
 }
 
 /// What is varied, and what is not in the picture.
@@ -213,8 +218,11 @@ mod tests {
         let members = [curve(one, [[0.0, 1.0], [1.0, 3.0]]), curve(other, [[0.0, 2.0], [1.0, 5.0]])];
         let curves = curves_of_seeds(3, &settings, &members);
         let seen: Vec<(SeriesStyle, &str)> = curves.iter().map(|curve| (curve.style, curve.name.as_str())).collect();
-        assert_eq!(seen, [(SeriesStyle::Thin, ""), (SeriesStyle::Thin, ""), (SeriesStyle::Line, "temperature = 1")]);
+        assert_eq!(seen, [(SeriesStyle::Thin, ""), (SeriesStyle::Thin, ""), (SeriesStyle::Band, "temperature = 1")]);
         assert_eq!(curves[2].points, [[0.0, 1.5], [1.0, 4.0]]);
+        // Half the difference of two values, by Student's factor of 1.84 for 68 %.
+        let errors = curves[2].errors.as_ref().unwrap();
+        assert!((errors[0] / 0.5 - 1.837).abs() < 0.01 && (errors[1] / errors[0] - 2.0).abs() < 1e-9, "{errors:?}");
         assert!(curves.iter().all(|curve| curve.ink == SeriesInk::Numbered(3)));
         let mut unlike = members;
         unlike[1].points[1][0] = 1.5;

@@ -35,6 +35,23 @@ fn the_compiler_that_is_asked_for_builds_every_dependency() {
     assert!(ours >= most.0, "rust-version in Cargo.toml is {ours:?}, and {} needs {:?}", most.1, most.0);
 }
 
+/// All packages of the workspace can be made, and installed from: `make validate` compiles them too.
+#[test]
+fn the_workspace_can_be_packaged() {
+    let place = tempfile::tempdir().unwrap();
+    let output = Command::new(env!("CARGO"))
+        .args(["package", "--workspace", "--no-verify", "--allow-dirty", "--offline", "--locked", "--target-dir"])
+        .arg(place.path())
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let version = env!("CARGO_PKG_VERSION");
+    for name in ["mesoscope", "mesoscope-python"] {
+        assert!(place.path().join(format!("package/{name}-{version}.crate")).exists(), "{name}");
+    }
+}
+
 /// A package that is published has what the program is compiled with, and the licences.
 #[test]
 fn the_package_has_what_it_needs() {

@@ -1,0 +1,75 @@
+"""Makes docs/guide/python-reference.md of the docstrings of the installed package: `python python/reference.py > docs/guide/python-reference.md`."""
+
+import inspect
+import re
+import textwrap
+from typing import Iterator
+
+import mesoscope
+
+HEAD = """# Python: all functions and classes
+
+Made from the docstrings by `python/reference.py`, which a test compares. [Python](python.md) is the introduction, with recipes.
+"""
+
+
+def words(documented: object) -> str:
+    """The docstring without its examples, in lines of the guide."""
+    text = inspect.getdoc(documented) or ""
+    text = re.sub(r":(?:meth|func|attr|class):`([^`]*)`", r"`\1`", text.split(">>>")[0]).replace("``", "`")
+    paragraphs = [" ".join(part.split()) for part in text.strip().split("\n\n")]
+    return "\n\n".join(textwrap.fill(part, 118, break_long_words=False, break_on_hyphens=False) for part in paragraphs)
+
+
+def signature(name: str, called: object) -> str:
+    """The call with its arguments, without types, which stubs have."""
+    parameters = []
+    starred = False
+    for parameter in inspect.signature(called).parameters.values():
+        if parameter.name == "self" or parameter.name == "cls":
+            continue
+        if parameter.kind is parameter.KEYWORD_ONLY and not starred:
+            parameters.append("*")
+            starred = True
+        bare = parameter.replace(annotation=inspect.Parameter.empty)
+        starred = starred or parameter.kind is parameter.VAR_POSITIONAL
+        parameters.append(str(bare))
+    return f"{name}({', '.join(parameters)})"
+
+
+def members(held: type) -> Iterator[str]:
+    """Lines of a list: methods with their arguments, properties, fields."""
+    inherited = set(dir(tuple)) | set(dir(Exception))
+    for name in dir(held):
+        if name.startswith("_") or name in inherited:
+            continue
+        member = inspect.getattr_static(held, name)
+        if isinstance(member, property):
+            yield entry(name, member)
+        elif isinstance(member, (staticmethod, classmethod)):
+            yield entry(signature(name, member.__func__), member.__func__)
+        elif inspect.isfunction(member):
+            yield entry(signature(name, member), member)
+
+
+def entry(shown: str, documented: object) -> str:
+    text = words(documented)
+    return textwrap.indent(f"`{shown}`" + (f": {' '.join(text.split())}" if text else ""), "  ").replace("  ", "- ", 1)
+
+
+def reference() -> str:
+    parts = [HEAD]
+    public = [name for name in mesoscope.__all__ if not name.startswith("_")]
+    for name in sorted(public, key=lambda name: (inspect.isclass(getattr(mesoscope, name)), name.lower())):
+        found = getattr(mesoscope, name)
+        if inspect.isclass(found):
+            shown = name if issubclass(found, Exception) else signature(name, found)
+            listed = "\n".join(members(found))
+            parts.append(f"## `{shown}`\n\n{words(found)}\n" + (f"\n{listed}\n" if listed else ""))
+        elif callable(found):
+            parts.append(f"## `{signature(name, found)}`\n\n{words(found)}\n")
+    return "\n".join(parts)
+
+
+if __name__ == "__main__":
+    print(reference(), end="")
