@@ -147,6 +147,7 @@ class Run:
 
     @property
     def title(self) -> str:
+        """The title of its scene."""
         return self.summary["scene"]["title"]
 
     @property
@@ -156,6 +157,7 @@ class Run:
 
     @property
     def steps(self) -> int:
+        """The step of its end."""
         return self.summary["steps"]
 
     @property

@@ -115,7 +115,7 @@ def check(
     adapter: str | None = None,
     time: bool = False,
 ) -> dict[str, Any]:
-    """What a scene requires: its particles, the memory of the device, warnings, the scene with every default, and with ``time`` the
+    """The requirements of a scene: its particles, the memory of the device, warnings, the scene with every default, and with ``time`` the
     seconds that a run is expected to take on the adapter.
 
     Raises :class:`SceneError` with all mistakes at once.

@@ -1,4 +1,4 @@
-"""Makes docs/guide/python-reference.md of the docstrings of the installed package: `python python/reference.py > docs/guide/python-reference.md`."""
+"""Makes docs/guide/python-reference.md of the docstrings of the installed package: `python python/tests/reference.py > docs/guide/python-reference.md`."""
 
 import inspect
 import re
@@ -7,9 +7,13 @@ from typing import Iterator
 
 import mesoscope
 
+#: Of a line, as in the other documents.
+WIDTH = 118
+
 HEAD = """# Python: all functions and classes
 
-Made from the docstrings by `python/reference.py`, which a test compares. [Python](python.md) is the introduction, with recipes.
+This page is made from the docstrings by `python/tests/reference.py`, and a test compares it with them. The introduction,
+with recipes, is [Python](python.md).
 """
 
 
@@ -18,7 +22,7 @@ def words(documented: object) -> str:
     text = inspect.getdoc(documented) or ""
     text = re.sub(r":(?:meth|func|attr|class):`([^`]*)`", r"`\1`", text.split(">>>")[0]).replace("``", "`")
     paragraphs = [" ".join(part.split()) for part in text.strip().split("\n\n")]
-    return "\n\n".join(textwrap.fill(part, 118, break_long_words=False, break_on_hyphens=False) for part in paragraphs)
+    return "\n\n".join(textwrap.fill(part, WIDTH, break_long_words=False, break_on_hyphens=False) for part in paragraphs)
 
 
 def signature(name: str, called: object) -> str:
@@ -26,15 +30,21 @@ def signature(name: str, called: object) -> str:
     parameters = []
     starred = False
     for parameter in inspect.signature(called).parameters.values():
-        if parameter.name == "self" or parameter.name == "cls":
+        if parameter.name in ("self", "cls") or parameter.name.startswith("_"):
             continue
         if parameter.kind is parameter.KEYWORD_ONLY and not starred:
             parameters.append("*")
             starred = True
         bare = parameter.replace(annotation=inspect.Parameter.empty)
         starred = starred or parameter.kind is parameter.VAR_POSITIONAL
-        parameters.append(str(bare))
+        # Values of dataclasses that are made anew have no text of their own.
+        parameters.append(str(bare).replace("<factory>", "…"))
     return f"{name}({', '.join(parameters)})"
+
+
+def block(shown: str) -> str:
+    lines = textwrap.fill(shown, WIDTH, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+    return f"```text\n{lines}\n```"
 
 
 def members(held: type) -> Iterator[str]:
@@ -53,8 +63,10 @@ def members(held: type) -> Iterator[str]:
 
 
 def entry(shown: str, documented: object) -> str:
-    text = words(documented)
-    return textwrap.indent(f"`{shown}`" + (f": {' '.join(text.split())}" if text else ""), "  ").replace("  ", "- ", 1)
+    text = " ".join(words(documented).split())
+    return textwrap.fill(
+        f"- `{shown}`" + (f": {text}" if text else ""), WIDTH, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    )
 
 
 def reference() -> str:
@@ -63,11 +75,11 @@ def reference() -> str:
     for name in sorted(public, key=lambda name: (inspect.isclass(getattr(mesoscope, name)), name.lower())):
         found = getattr(mesoscope, name)
         if inspect.isclass(found):
-            shown = name if issubclass(found, Exception) else signature(name, found)
+            shown = "" if issubclass(found, Exception) else f"{block(signature(name, found))}\n\n"
             listed = "\n".join(members(found))
-            parts.append(f"## `{shown}`\n\n{words(found)}\n" + (f"\n{listed}\n" if listed else ""))
+            parts.append(f"## {name}\n\n{shown}{words(found)}\n" + (f"\n{listed}\n" if listed else ""))
         elif callable(found):
-            parts.append(f"## `{signature(name, found)}`\n\n{words(found)}\n")
+            parts.append(f"## {name}\n\n{block(signature(name, found))}\n\n{words(found)}\n")
     return "\n".join(parts)
 
 
