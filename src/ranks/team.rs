@@ -90,16 +90,15 @@ pub struct Team<'a> {
 }
 
 impl<'a> Team<'a> {
-    /// The first rank's engine, with the others behind a channel, at a state. Unless they may be `mixed`, all have to compute alike.
+    /// The first rank's engine, with the others behind a channel, at a state.
     ///
     /// # Errors
-    /// [`EngineError`] of the first rank that has one, or [`EngineError::Ranks`] with all ranks if they do not compute alike.
+    /// [`EngineError`] of the first rank that has one.
     pub fn new(
         engine: Engine<'a>,
         introduction: RankReport,
         channel: Box<dyn Channel + 'a>,
         state: &State,
-        mixed: bool,
     ) -> Result<Self, EngineError> {
         let count = channel.count() as usize;
         let mut team = Self {
@@ -118,11 +117,19 @@ impl<'a> Team<'a> {
         // The others wait for their first command; where all share an adapter, each would compile the same kernels at the same time.
         team.engine.compile()?;
         team.upload(state)?;
-        if !mixed && !computes_alike(&team.ranks) {
-            let reason = format!("the ranks compute differently: from the same state they get{}", remedy(&team.ranks));
-            return Err(EngineError::Ranks { reason });
-        }
         Ok(team)
+    }
+
+    /// Refuses ranks that do not compute alike, with which momentum is conserved to rounding only.
+    ///
+    /// # Errors
+    /// [`EngineError::Ranks`] with all ranks.
+    pub fn check_alike(&self) -> Result<(), EngineError> {
+        if computes_alike(&self.ranks) {
+            return Ok(());
+        }
+        let reason = format!("the ranks compute differently: from the same state they get{}", remedy(&self.ranks));
+        Err(EngineError::Ranks { reason })
     }
 
     /// Number of the particles that the ranks share out.

@@ -317,16 +317,18 @@ fn open<'a>(
     options: Options,
     start: &Checkpoint,
 ) -> Result<Box<dyn Stepper + 'a>, RunError> {
-    let (scene, mixed) = ((&task.scene), task.mixed);
-    Ok(match (options.part, processes) {
-        (Some(Part { division, .. }), Some(processes)) => {
-            Box::new(team::team_of_processes(scene, gpu, choice, (division, mixed), options, &start.state, processes)?)
-        }
-        (Some(Part { division, .. }), None) => {
-            Box::new(team::team(scene, gpu, choice, (division, mixed), options, &start.state)?)
-        }
-        (None, _) => Box::new(Engine::new(gpu, plan, &start.state)?),
-    })
+    let scene = &task.scene;
+    let Some(Part { division, .. }) = options.part else {
+        return Ok(Box::new(Engine::new(gpu, plan, &start.state)?));
+    };
+    let team = match processes {
+        Some(processes) => team::team_of_processes(scene, gpu, choice, division, options, &start.state, processes)?,
+        None => team::team(scene, gpu, choice, division, options, &start.state)?,
+    };
+    if !task.mixed {
+        team.check_alike()?;
+    }
+    Ok(Box::new(team))
 }
 
 /// Runs from `start` to the end.

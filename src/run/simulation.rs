@@ -743,12 +743,13 @@ impl Place {
                     Ok(engine) => Ok(Box::new(engine)),
                     Err(error) => Err(error.into()),
                 },
-                Some(Shared { division, choice }) => {
-                    match team(scene, &self.gpu, choice, (*division, false), options, state) {
-                        Ok(team) => Ok(Box::new(team)),
-                        Err(error) => Err(error),
+                Some(Shared { division, choice }) => match team(scene, &self.gpu, choice, *division, options, state) {
+                    Ok(team) => {
+                        team.check_alike()?;
+                        Ok(Box::new(team))
                     }
-                }
+                    Err(error) => Err(error),
+                },
             };
             let error = match opened {
                 Ok(engine) => return Ok((engine, options)),

@@ -15,8 +15,8 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
-/// Opens the other ranks of a run, of which this adapter's is the first, and gives all of them their part of a state. Ranks that do not
-/// compute alike are refused, unless they may be mixed.
+/// Opens the other ranks of a run, of which this adapter's is the first, and gives all of them their part of a state. Ranks may
+/// compute differently until they are [checked](Team::check_alike).
 ///
 /// ```
 /// use mesoscope::engine::{Engine, Stepper};
@@ -32,7 +32,8 @@ use std::thread;
 ///
 /// // Two ranks, one after the other along z, do what one does, to the last bit.
 /// let division = Division { parts: [1, 1, 2] };
-/// let mut team = run::team(&scene, &gpu, &AdapterChoice::Best, (division, false), options, &start)?;
+/// let mut team = run::team(&scene, &gpu, &AdapterChoice::Best, division, options, &start)?;
+/// team.check_alike()?;
 /// team.advance(20, 20)?;
 /// let mut alone = Engine::new(&gpu, run::plan(&scene, (&gpu).into(), options), &start)?;
 /// alone.advance(20, 20)?;
@@ -46,7 +47,7 @@ pub fn team(
     scene: &Checked,
     gpu: &Gpu,
     choice: &AdapterChoice,
-    (division, mixed): (Division, bool),
+    division: Division,
     options: Options,
     state: &State,
 ) -> Result<Team<'static>, RunError> {
@@ -71,7 +72,7 @@ pub fn team(
     }
     first.channel.keep(threads);
     let engine = Engine::of_part(gpu, plan_for(scene, gpu, part(0)), Box::new(first.peers))?;
-    Ok(Team::new(engine, introduction(gpu, scene, choice)?, Box::new(first.channel), state, mixed)?)
+    Ok(Team::new(engine, introduction(gpu, scene, choice)?, Box::new(first.channel), state)?)
 }
 
 /// Opens this rank's adapter and does what the first rank tells.
@@ -195,9 +196,9 @@ fn call(processes: &dyn Processes, call: &Call) -> Result<(), RunError> {
 /// As [`team`], of processes.
 pub(super) fn team_of_processes<'a>(
     scene: &Checked,
-    gpu: &'a Gpu,
+    gpu: &Gpu,
     choice: &AdapterChoice,
-    (division, mixed): (Division, bool),
+    division: Division,
     options: Options,
     state: &State,
     processes: &'a dyn Processes,
@@ -212,7 +213,7 @@ pub(super) fn team_of_processes<'a>(
     )?;
     let options = Options { part: Some(Part { division, rank: 0 }), ..options };
     let engine = Engine::of_part(gpu, plan_for(scene, gpu, options), processes.peers())?;
-    Ok(Team::new(engine, introduction(gpu, scene, choice)?, processes.channel(), state, mixed)?)
+    Ok(Team::new(engine, introduction(gpu, scene, choice)?, processes.channel(), state)?)
 }
 
 /// Lets all other processes end.

@@ -83,7 +83,7 @@ fn scene(changes: &[&str]) -> Checked {
 }
 
 pub fn team(scene: &Checked, division: Division, options: Options, state: &State) -> Team<'static> {
-    run::team(scene, gpu(), &adapter(), (division, false), options, state).expect("ranks")
+    run::team(scene, gpu(), &adapter(), division, options, state).expect("ranks")
 }
 
 fn divided(scene: &Checked, parts: [u32; 3], batch: u64, options: Options) -> Bytes {

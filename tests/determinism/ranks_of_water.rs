@@ -188,14 +188,8 @@ fn crowded_slabs_get_more_room() {
         {"species":"water","count":512,"placement":{"type":"lattice"},"velocities":{"type":"thermal"}},
         {"species":"water","count":12000,"placement":{"type":"circle","center":[3,1],"radius":0.7}}]"#]);
     let (_, state) = start(&scene);
-    let ended = run::team(
-        &scene,
-        crate::support::gpu(),
-        &crate::support::adapter(),
-        (slabs(3), false),
-        Options::default(),
-        &state,
-    );
+    let ended =
+        run::team(&scene, crate::support::gpu(), &crate::support::adapter(), slabs(3), Options::default(), &state);
     let Err(error) = ended.map(|_: Team<'_>| ()) else { panic!("it fits") };
     assert!(error.to_string().contains("capacity"), "{error}");
     let sorted = Options { storage: Some(Storage::Sorted), ..Options::default() };

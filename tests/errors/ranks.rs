@@ -227,7 +227,7 @@ fn honest(summary: &Summary) {
 }
 
 /// A team whose second rank introduces itself as something else, or panics when it is told to advance.
-fn team(arithmetic: u32, mixed: bool, panics: bool) -> Result<Team<'static>, EngineError> {
+fn team(arithmetic: u32, panics: bool) -> Result<Team<'static>, EngineError> {
     let scene = scene();
     let (_, state) = start(&scene);
     let engine = move |rank, peers: Peers| {
@@ -254,17 +254,18 @@ fn team(arithmetic: u32, mixed: bool, panics: bool) -> Result<Team<'static>, Eng
         }
         let _ = serve(&mut engine, introduction(arithmetic), &mut channel, &|_| Err("no other numbers".to_owned()));
     });
-    Team::new(first_engine, introduction(1), Box::new(first.channel), &state, mixed)
+    Team::new(first_engine, introduction(1), Box::new(first.channel), &state)
 }
 
 #[test]
 fn ranks_that_introduce_themselves_as_unlike_are_refused_unless_mixed() {
-    let alike = team(1, false, false).unwrap();
+    let alike = team(1, false).unwrap();
     assert!(computes_alike(alike.ranks()));
-    let mixed = team(2, true, false).unwrap();
+    alike.check_alike().unwrap();
+    let mixed = team(2, false).unwrap();
     assert!(!computes_alike(mixed.ranks()));
     assert_eq!(mixed.ranks()[1].arithmetic, 2);
-    let refused = team(2, false, false).err().unwrap().to_string();
+    let refused = mixed.check_alike().unwrap_err().to_string();
     let expected = "from the same state they get\n  rank 0 on here, some: 00000001\n  rank 1 on here, some: 00000002\n";
     assert!(refused.contains(expected) && refused.contains("`--mixed`"), "{refused}");
 }
@@ -272,5 +273,5 @@ fn ranks_that_introduce_themselves_as_unlike_are_refused_unless_mixed() {
 /// A thread that panics is missed at once.
 #[test]
 fn a_rank_that_panics_is_told_of() {
-    assert_eq!(team(1, false, true).err().unwrap().to_string(), "rank 1 has ended");
+    assert_eq!(team(1, true).err().unwrap().to_string(), "rank 1 has ended");
 }
