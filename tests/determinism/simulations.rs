@@ -338,10 +338,13 @@ fn a_hotter_scene_has_larger_units() {
 #[test]
 fn announced_numbers_change_no_unit() {
     let walls = ["space.box=[6,6,6]", "output={}"];
+    let heavy = r#"particles=[{"species":"A","number_density":2},{"species":"B","number_density":1,"mass":9}]"#;
     let cases = [
         (fluid(&[SPLITTING]), "temperature", 16.0),
         (built_in("couette", &walls), "temperature", 16.0),
         (built_in("couette", &walls), "space.walls.z.upper_velocity.0", 40.0),
+        // Units of energies follow from heavy particles where these are the warm ones, and else from light ones.
+        (built_in("couette", &[&walls[..], &[heavy]].concat()), "temperature", 16.0),
         (cells(64, &[ENERGY]), "temperature", 50.0),
         (oscillators(&[]), "temperature", 64.0),
         (water(&[]), "temperature", 10.0),
