@@ -126,13 +126,11 @@ impl Scene {
     }
 
     /// Whether a file or molecules say which particles there are, and where they start.
-    #[must_use]
     pub(crate) fn has_start(&self) -> bool {
         self.state.is_some() || !self.molecules.is_empty()
     }
 
     /// Where the velocities of such particles come from.
-    #[must_use]
     pub(crate) fn start_velocities(&self) -> Option<StateVelocities> {
         let thermal = (!self.molecules.is_empty()).then_some(StateVelocities::Thermal);
         self.state.as_ref().map(|state| state.velocities).or(thermal)
@@ -151,7 +149,6 @@ impl Scene {
     }
 
     /// The earlier run that it goes on with, to the last bit, if it does.
-    #[must_use]
     pub(crate) fn earlier_run(&self) -> Option<EarlierRun> {
         match self.start()?.origin? {
             Origin::Anew => None,
@@ -160,7 +157,6 @@ impl Scene {
     }
 
     /// The seed of the noise: that of the scene, unless particles are from a file.
-    #[must_use]
     pub(crate) fn noise_seed(&self) -> u64 {
         let checksum = || u32::from_str_radix(self.state.as_ref()?.checksum.as_ref()?, 16).ok();
         match self.start().and_then(|start| start.origin) {
@@ -239,7 +235,6 @@ pub enum Distribution {
 
 impl Space {
     /// Volume of the box (area in two dimensions).
-    #[must_use]
     pub(crate) fn volume(&self) -> f64 {
         self.lengths.iter().product()
     }

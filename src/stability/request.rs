@@ -214,7 +214,6 @@ impl Request {
     }
 
     /// Scenes of the grid.
-    #[must_use]
     pub(crate) fn cell_count(&self) -> usize {
         self.row_count() * self.along.values.len()
     }
