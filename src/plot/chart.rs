@@ -1,5 +1,7 @@
 //! What a chart shows: panels, axes, series. No layout and no colours.
 
+use crate::table::Table;
+
 /// A chart: panels stacked above each other under one title.
 ///
 /// Neighbouring panels whose x axes are alike (label, scale and range) share them.
@@ -62,6 +64,22 @@ impl Panel {
     #[must_use]
     pub fn with(mut self, series: Series) -> Self {
         self.series.push(series);
+        self
+    }
+
+    /// The panel with a line for each of these columns that a table has, with a name in the legend, and with a band where the table
+    /// has errors of the column.
+    pub(super) fn with_columns<Column: AsRef<str>, Name: AsRef<str>>(
+        mut self,
+        table: &Table,
+        x: &str,
+        columns: impl IntoIterator<Item = (Column, Name)>,
+    ) -> Self {
+        for (column, name) in columns {
+            let errors = table.values(&format!("{}_error", column.as_ref()));
+            let line = |points| Series::line(name.as_ref(), points).with_band(errors);
+            self.series.extend(table.points(x, column.as_ref()).map(line));
+        }
         self
     }
 
@@ -183,18 +201,6 @@ impl Series {
     /// The series drawn with this ink.
     pub(crate) fn with_ink(mut self, ink: SeriesInk) -> Self {
         self.ink = ink;
-        self
-    }
-
-    /// The series with hollow markers for points whose error is from few samples.
-    pub(crate) fn with_few(mut self, few: Vec<bool>) -> Self {
-        self.few = few;
-        self
-    }
-
-    /// The series with a word beside every point.
-    pub(crate) fn with_labels(mut self, labels: Vec<String>) -> Self {
-        self.labels = labels;
         self
     }
 

@@ -58,6 +58,7 @@ pub trait Record: Debug + Clone + Serialize + DeserializeOwned {
     }
 
     /// The same, ready to go on in its directory.
+    #[must_use]
     fn resumed(self, _: &Self::Request, _: &RunDirectory) -> Self {
         self
     }

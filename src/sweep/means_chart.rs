@@ -139,7 +139,7 @@ impl<'a> MeansAxis<'a> {
                 (true, false) => &name,
             };
             let style = if self.axis.categories.is_empty() { SeriesStyle::LineMarkers } else { SeriesStyle::Markers };
-            panel.series.push(Series { style, ..Series::markers(name, points).with_errors(errors).with_few(few) });
+            panel.series.push(Series { style, few, ..Series::markers(name, points).with_errors(errors) });
         }
         let places: Vec<f64> = panel.series.iter().flat_map(|series| &series.points).map(|point| point[0]).collect();
         places.iter().any(|place| *place != places[0]).then_some(panel)
