@@ -106,6 +106,12 @@ impl Scene {
         self.system.shallow_water().map(|water| water.mesh)
     }
 
+    /// Places of the interactions of this name in the list.
+    pub(crate) fn places_of(&self, name: &'static str) -> impl Iterator<Item = usize> {
+        let all = self.interactions().iter().enumerate();
+        all.filter(move |(_, interaction)| interaction.name() == name).map(|(place, _)| place)
+    }
+
     /// The `dpd` interactions, with their places in the list.
     pub(crate) fn pair_interactions(&self) -> impl Iterator<Item = (usize, &DpdInteraction)> {
         self.interactions().iter().enumerate().filter_map(|(index, interaction)| match interaction {

@@ -255,10 +255,6 @@ fn at_times(scene: &Checked) -> Vec<Strain> {
     strains
 }
 
-fn place_of(scene: &Scene, wanted: impl Fn(&Interaction) -> bool) -> usize {
-    scene.interactions().iter().position(wanted).unwrap_or(0)
-}
-
 fn inverse_mass(model: &Model, species: usize) -> f64 {
     let species = &model.species[species];
     if species.fixed { 0.0 } else { 1.0 / species.mass }
@@ -268,9 +264,7 @@ fn inverse_mass(model: &Model, species: usize) -> f64 {
 fn of_particles(scene: &Checked) -> Vec<Strain> {
     let model = scene.model();
     let particles = model.particles();
-    let of_baths = |interaction: &Interaction| matches!(interaction, Interaction::Langevin(_));
-    let of_springs = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_));
-    let place = scene.interactions().iter().position(of_baths).unwrap_or_else(|| place_of(scene, of_springs));
+    let place = scene.places_of("langevin").chain(scene.places_of("tether")).next().unwrap_or(0);
     let spring = particles.tethers.map_or(0.0, |tethers| tethers.stiffness);
     // A bath that relaxes exactly puts no strain on the step.
     let bath = particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles());
@@ -288,23 +282,21 @@ fn of_particles(scene: &Checked) -> Vec<Strain> {
 /// as large, but particles that repel each other keep away from where ω is largest: half of the mean is certain.
 fn of_pairs_on_average(scene: &Checked) -> Vec<Strain> {
     let model = scene.model();
-    let (mut strains, step) = (Vec::new(), model.time_step);
-    let Some(force) =
-        model.particles().pair_force.as_ref().filter(|_| model.particles().integrator == Integrator::CotterReich {})
-    else {
-        return strains;
-    };
-    let place = place_of(scene, |interaction| matches!(interaction, Interaction::Dpd(_)));
-    for (index, species) in model.species.iter().enumerate().filter(|(_, species)| species.count > 0) {
+    let (step, particles) = (model.time_step, model.particles());
+    let force = particles.pair_force.as_ref().filter(|_| particles.integrator == Integrator::CotterReich {});
+    let Some(force) = force else { return Vec::new() };
+    let place = scene.places_of("dpd").next().unwrap_or(0);
+    let species = model.species.iter().enumerate().filter(|(_, species)| species.count > 0);
+    let strain = |(index, species): (usize, &Species)| {
         let others = model.densities(index).map(|(other, density)| {
             let weight = force.weight_volume(index, other, model.units.dimension);
             force.bath_step(index, other, step).coupling * density * weight
         });
         let mean = others.sum::<f64>() * step * step * inverse_mass(model, index) / model.units.dimension as f64;
         let what = format!("the bath of pairs of `{}` with their neighbours", species.name);
-        strains.push(Strain { sum: 0.5 * mean, bath: 0.5 * mean, place, what });
-    }
-    strains
+        Strain { sum: 0.5 * mean, bath: 0.5 * mean, place, what }
+    };
+    species.map(strain).collect()
 }
 
 /// K and λₑ of a kind of bonds; K at rest, the least of a bond that is finitely extensible.
@@ -320,12 +312,10 @@ fn stiffnesses(model: &Model, kind: &BondKind) -> [f64; 2] {
 
 /// The interaction that each kind of bonds comes from.
 fn places(scene: &Scene, bonds: &Bonds) -> Vec<usize> {
-    let of_chains = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
-    if let Some(place) = scene.interactions().iter().position(of_chains) {
-        return vec![place; bonds.kinds.len()];
+    match scene.places_of("harmonic-chain").next() {
+        Some(place) => vec![place; bonds.kinds.len()],
+        None => scene.places_of("bonds").collect(),
     }
-    let is_bonds = |index: &usize| matches!(scene.interactions()[*index], Interaction::Bonds(_));
-    (0..scene.interactions().len()).filter(is_bonds).collect()
 }
 
 /// The species of all particles.

@@ -1,7 +1,7 @@
 //! Bonds at the start: their lengths, and the variables of their baths.
 
 use super::Bonds;
-use crate::document::{BondPotential, Interaction, Problems};
+use crate::document::{BondPotential, Problems};
 use crate::families::{BathStep, Checked, Model};
 use crate::noise::{self, stream};
 use crate::state::{State, sheared_copy};
@@ -30,9 +30,7 @@ pub(crate) fn check_extents(scene: &Checked, state: &State, problems: &mut Probl
     if (0..bonds.kinds.len()).all(|kind| finite(kind as u32).is_none()) {
         return;
     }
-    let places: Vec<usize> = (0..scene.interactions().len())
-        .filter(|index| matches!(scene.interactions()[*index], Interaction::Bonds(_)))
-        .collect();
+    let places: Vec<usize> = scene.places_of("bonds").collect();
     let mut reported = HashSet::new();
     for bond in bonds.iter() {
         let Some((extent, length)) = finite(bond.kind) else { continue };
