@@ -67,8 +67,8 @@ impl Panel {
         self
     }
 
-    /// The panel with a line for each of these columns that a table has, with a name in the legend, and with a band where the table
-    /// has errors of the column.
+    /// The panel with a line for each of these columns that a table has, with a name in the legend, and with a band
+    /// where the table has errors of the column.
     pub(super) fn with_columns<Column: AsRef<str>, Name: AsRef<str>>(
         mut self,
         table: &Table,

@@ -29,7 +29,7 @@ pub fn stress_chart(title: &str, table: &Table, means: &dyn Fn(&str) -> Option<M
         let columns = components.map(|component| (format!("pressure_{component}"), format!("P_{{{component}}}")));
         let panel = Panel::new(TIME, &axis_label(name, Unit::Pressure, dimension)).settled();
         let mut panel = panel.with_columns(table, "time", columns);
-        // What two dimensions lack are the last.
+        // Two dimensions lack the last of them.
         panel.series.iter_mut().zip(components).for_each(|(series, component)| series.mean = means(component));
         panel
     };

@@ -114,18 +114,15 @@ fn check_number_of_particles(scene: &Scene, problems: &mut Problems) {
     if total <= MOST_PARTICLES as f64 {
         return;
     }
-    let largest = amounts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-    let path = match largest.map(|(index, _)| (index, &scene.particles[index])) {
+    let of_groups = scene.particles.iter().enumerate().zip(&amounts);
+    let path = match of_groups.max_by(|a, b| a.1.total_cmp(b.1)).map(|(group, _)| group) {
         Some((index, group)) if group.count.is_some() => format!("particles[{index}].count"),
         Some((index, group)) if group.number_density.is_some() => format!("particles[{index}].number_density"),
         _ => "particles".to_owned(),
     };
-    let gibibytes = total * BYTES_PER_PARTICLE as f64 / (1_u64 << 30) as f64;
-    let found = format!(
-        "{} particles in the scene, which need {} GiB at {BYTES_PER_PARTICLE} bytes each",
-        quantity(total),
-        quantity(gibibytes)
-    );
+    let [total, gibibytes] = [total, total * BYTES_PER_PARTICLE as f64 / (1_u64 << 30) as f64].map(quantity);
+    let found =
+        format!("{total} particles in the scene, which need {gibibytes} GiB at {BYTES_PER_PARTICLE} bytes each");
     let accepted = format!("at most {MOST_PARTICLES} particles, since they are numbered by 32-bit words");
     problems.refuse(path, found, accepted);
 }
@@ -216,9 +213,8 @@ fn check_durations(scene: &Scene, problems: &mut Problems) {
             problems.refuse(format!("output.{path}"), distance, accepted);
         }
     }
-    if let Some(interfaces) =
-        output.stress.as_ref().filter(|asked| asked.normal.is_none()).and_then(|asked| asked.interfaces)
-    {
+    let without_normal = output.stress.as_ref().filter(|asked| asked.normal.is_none());
+    if let Some(interfaces) = without_normal.and_then(|asked| asked.interfaces) {
         problems.refuse("output.stress.interfaces", interfaces, "`normal`, the axis across them, beside it");
     }
 }
@@ -241,11 +237,8 @@ fn check_wave_numbers(factor: &StructureFactor, scene: &Scene, problems: &mut Pr
             format!("at least {least:.4}, the wave number of one wave along the longest periodic edge of the box");
         problems.refuse(format!("{path}.range"), factor.range, accepted);
     }
-    let species = if factor.species.is_some() || scene.particles.iter().any(ParticleGroup::is_frozen) {
-        scene.particles.len()
-    } else {
-        1
-    };
+    let is_told_apart = factor.species.is_some() || scene.particles.iter().any(ParticleGroup::is_frozen);
+    let species = if is_told_apart { scene.particles.len() } else { 1 };
     let waves = u64::from(factor.bins) * u64::from(factor.vectors) * species.max(1) as u64;
     if waves > MOST_WAVES {
         let found = format!("{} bins of {} wave vectors and {species} species", factor.bins, factor.vectors);

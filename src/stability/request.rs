@@ -259,7 +259,7 @@ impl Request {
         ShortKeys::of(&self.keys())
     }
 
-    /// A scene of the map, with the length that the base has and the seed that is `further` places after that of the base.
+    /// A scene of the map, with the length that the base has and the seed that is `further` places after its own.
     pub(super) fn varied(&self, row: usize, value: f64, further: u32) -> Result<Checked, SceneError> {
         let along = Setting { key: self.along.key.clone(), value: number_of(value) };
         let settings = self.setting(row).into_iter().chain([along]).map(|setting| setting.argument());
@@ -278,7 +278,7 @@ impl Request {
         self.arguments.seeds.unwrap_or(1)
     }
 
-    /// A scene of the map, over the common stretch of time, with the seed that is `further` places after that of the base.
+    /// A scene of the map over the common stretch of time, with such a seed.
     pub(super) fn scene(&self, row: usize, value: f64, further: u32) -> Result<Checked, SceneError> {
         let found = self.varied(row, value, further)?;
         let stretch = Stretch::of(&self.base);

@@ -79,7 +79,10 @@ impl TradeoffSummary {
         let mut notes = Vec::new();
         if !self.physical_keys.is_empty() {
             let keys = self.physical_keys.join("`, `");
-            notes.push(format!("`{keys}` changes what is simulated, and not only how it is computed: all choices are compared with the scene as it is."));
+            notes.push(format!(
+                "`{keys}` changes what is simulated, and not only how it is computed: all choices are compared with \
+                 the scene as it is."
+            ));
         }
         let spoilt = |choice: &Choice| {
             let (label, columns) = (&choice.label, choice.unequilibrated.join(", "));
@@ -93,15 +96,18 @@ impl TradeoffSummary {
         let alike = by_key(measured.map(|choice| ((choice.steps, &choice.measured), format!("`{}`", choice.label))));
         for (_, labels) in alike.into_iter().filter(|(_, labels)| labels.len() > 1) {
             let labels = labels.join(" and ");
-            notes.push(format!("{labels} are the same run, to the last digit of all that is measured: what tells them apart can only change what a step costs."));
+            notes.push(format!(
+                "{labels} are the same run, to the last digit of all that is measured: what tells them apart can only \
+                 change what a step costs."
+            ));
         }
         // Nothing of a deterministic scene depends on its seed.
         let copied: Vec<&str> = self.with_seeds_alike().map(|choice| choice.label.as_str()).collect();
         if !copied.is_empty() {
             let copied = copied.join(" and ");
             notes.push(format!(
-                "All seeds of {copied} gave the same numbers, whose errors are those of one run: nothing that was measured \
-                 depends on the seed."
+                "All seeds of {copied} gave the same numbers, whose errors are those of one run: nothing that was \
+                 measured depends on the seed."
             ));
         }
         // Choices that came to their end though a run of their scene alone is refused.

@@ -57,11 +57,8 @@ pub(super) fn check_kinds(asked: &ChainSizes, particles: &Particles, problems: &
     let kinds = particles.chain_groups.len();
     if let Some(name) = asked.species.as_ref().filter(|_| kinds == 0) {
         let found = format!("`{name}`, of which no chain and no molecule has particles");
-        problems.refuse(
-            "output.chain_sizes.species",
-            found,
-            "the species of a chain, or of a bead of a molecule with bonds",
-        );
+        let accepted = "the species of a chain, or of a bead of a molecule with bonds";
+        problems.refuse("output.chain_sizes.species", found, accepted);
     }
     if kinds > MOST {
         let found = format!("{} kinds of molecules, which differ in their particles or bonds", grouped(kinds as u64));
@@ -120,22 +117,21 @@ fn check_numbers(scene: &Scene, problems: &mut Problems) {
 fn check_groups(scene: &Scene, problems: &mut Problems) {
     let mut first: HashMap<&str, usize> = HashMap::new();
     for (index, group) in scene.particles.iter().enumerate() {
-        let path = format!("particles[{index}]");
-        let known = *first.entry(&group.species).or_insert(index);
+        let (path, name) = (format!("particles[{index}]"), &group.species);
+        let known = *first.entry(name).or_insert(index);
         let held = scene.particles[known].fixed;
         if held != group.fixed {
             let accepted = format!(
-                "{held} as in particles[{known}]: particles of species `{}` are all held or all free; or another name",
-                group.species
+                "{held} as in particles[{known}]: particles of species `{name}` are all held or all free; or another \
+                 name"
             );
             problems.refuse(format!("{path}.fixed"), group.fixed, accepted);
         }
         if scene.particles[known].is_frozen() != group.is_frozen() {
             let accepted = format!(
-                "another name than `{}` in particles[{known}]: species are frozen behind walls or between them",
-                group.species
+                "another name than `{name}` in particles[{known}]: species are frozen behind walls or between them"
             );
-            problems.refuse(format!("{path}.species"), format!("`{}`", group.species), accepted);
+            problems.refuse(format!("{path}.species"), format!("`{name}`"), accepted);
         }
         if matches!(group.placement, Placement::Circle { .. }) && scene.space.lengths.len() != 2 {
             let accepted = "a two-dimensional box for a circle";

@@ -63,11 +63,10 @@ pub(crate) fn warn_of_prediction(scene: &Checked) -> Option<Warning> {
     let network = Network::of(scene);
     let cold = cold_by_prediction(&certain(scene, network.as_ref()), scene.model());
     (cold.abs() > TOLERANCE).then(|| {
+        let (percent, way) = (100.0 * cold.abs(), if cold > 0.0 { "low" } else { "high" });
         let message = format!(
-            "friction of particles or bonds sees predicted velocities, which makes their kinetic temperature {:.1} % \
-             too {}; `lambda` 0.5 or a smaller `time.step` does not",
-            100.0 * cold.abs(),
-            if cold > 0.0 { "low" } else { "high" }
+            "friction of particles or bonds sees predicted velocities, which makes their kinetic temperature \
+             {percent:.1} % too {way}; `lambda` 0.5 or a smaller `time.step` does not"
         );
         Warning { path: "integrator.lambda".to_owned(), message }
     })
@@ -90,7 +89,7 @@ struct Strain {
 pub(crate) fn check(scene: &Checked, problems: &mut Problems) {
     let step = scene.time.step;
     let network = Network::of(scene);
-    let Some(worst) = worst(&certain(scene, network.as_ref())) else { return };
+    let Some(worst) = strongest(&certain(scene, network.as_ref())) else { return };
     if worst.sum < LIMIT {
         return;
     }
@@ -98,7 +97,7 @@ pub(crate) fn check(scene: &Checked, problems: &mut Problems) {
     let found = format!("{step}, at which B + W is {sum} for {}", worst.what);
     let share = |step: f64| {
         let other = at_step(scene, step);
-        strongest(&certain(&other, network.as_ref())) / LIMIT
+        strongest(&certain(&other, network.as_ref())).map_or(0.0, |strain| strain.sum) / LIMIT
     };
     let largest = largest_step([step, worst.sum / LIMIT], 1e-6, &share);
     let mut accepted = format!(
@@ -126,7 +125,7 @@ pub(crate) fn check_pairs(scene: &Checked, problems: &mut Problems) {
     let step = scene.time.step;
     // Particles of a gas meet now and then.
     let meets = model.most_neighbours(force) >= NEIGHBOURS;
-    let accepted = |most: f64, beyond: &str, reliable: f64, less: &str| {
+    let advice = |most: f64, beyond: &str, reliable: f64, less: &str| {
         let most = two_digits(most);
         format!("at most {most}, beyond which {beyond}, and {reliable:.2e} for reliable results; or less {less}")
     };
@@ -138,38 +137,29 @@ pub(crate) fn check_pairs(scene: &Checked, problems: &mut Problems) {
         let (name, times) = (&model.species[index].name, brief(rate * step));
         let found = format!("{step}, in which friction relaxes the velocities of `{name}` {times} times over");
         let beyond = if staged { "no step was measured" } else { "no such step is stable" };
-        problems.refuse("time.step", found, accepted(most / rate, beyond, model.friction_limit() / rate, "friction"));
+        problems.refuse("time.step", found, advice(most / rate, beyond, model.friction_limit() / rate, "friction"));
     }
     let (frequency, index) = model.largest_repulsion_frequency(force);
     let most = if force.many_body.is_some() { MOST_MANY_BODY_OSCILLATION } else { MOST_OSCILLATION };
     if frequency * step >= most && meets {
         let (name, angle) = (&model.species[index].name, brief(frequency * step));
         let found = format!("{step}, in which crowds of `{name}` oscillate by {angle} radians in their repulsion");
-        let reliable = FREQUENCY_LIMIT / frequency;
-        problems.refuse(
-            "time.step",
-            found,
-            accepted(most / frequency, "no such step is stable", reliable, "repulsion"),
-        );
+        let accepted = advice(most / frequency, "no such step is stable", FREQUENCY_LIMIT / frequency, "repulsion");
+        problems.refuse("time.step", found, accepted);
     }
 }
 
 /// Warns of a time step near the edge.
 pub(crate) fn warn(scene: &Checked) -> Option<Warning> {
-    let worst = worst(&at_times(scene)).filter(|strain| strain.sum > CLEAN)?;
-    let verdict = if worst.sum >= LIMIT {
+    let Strain { sum, what, .. } = strongest(&at_times(scene)).filter(|strain| strain.sum > CLEAN)?;
+    let verdict = if sum >= LIMIT {
         format!("{LIMIT} is the limit of stability, which is passed at times")
     } else {
         format!("{LIMIT} is the limit of stability, and up to {CLEAN} is advisable")
     };
     // Stiffness goes with the square of the step, friction with a lower power.
-    let advisable = scene.time.step * (CLEAN / worst.sum).min(1.0);
-    let message = format!(
-        "B + W = (λₑ + K)dt²/m is {:.3} for {}: {verdict}; a step of {} is safe",
-        worst.sum,
-        worst.what,
-        two_digits(advisable)
-    );
+    let safe = two_digits(scene.time.step * (CLEAN / sum).min(1.0));
+    let message = format!("B + W = (λₑ + K)dt²/m is {sum:.3} for {what}: {verdict}; a step of {safe} is safe");
     Some(Warning { path: "time.step".to_owned(), message })
 }
 
@@ -178,7 +168,7 @@ pub(super) fn limits(particles: &Particles, scene: &Checked) -> Vec<Limit> {
     let model = scene.model();
     let step = scene.time.step;
     let strains = at_times(scene);
-    let strain = strongest(&strains);
+    let strain = strongest(&strains).map_or(0.0, |strain| strain.sum);
     let pairs = particles.pair_force.as_ref();
     let friction = pairs.map_or(0.0, |force| model.largest_friction_rate(force).0);
     let frequency = pairs.map_or(0.0, |force| model.largest_repulsion_frequency(force).0);
@@ -210,12 +200,7 @@ pub(super) fn limits(particles: &Particles, scene: &Checked) -> Vec<Limit> {
     limits
 }
 
-/// B + W of the worst.
-fn strongest(strains: &[Strain]) -> f64 {
-    strains.iter().map(|strain| strain.sum).fold(0.0, f64::max)
-}
-
-fn worst(strains: &[Strain]) -> Option<Strain> {
+fn strongest(strains: &[Strain]) -> Option<Strain> {
     strains.iter().max_by(|a, b| a.sum.total_cmp(&b.sum)).cloned()
 }
 
@@ -405,9 +390,7 @@ impl Network {
             if length == 0.0 {
                 return None;
             }
-            for component in &mut vector {
-                *component /= length;
-            }
+            vector = vector.iter().map(|component| component / length).collect();
         }
         let [sum, bath] = [0, 1].map(|part| dot(&vector, &product(&vector, part)));
         Some(Strain { sum, bath, place: self.place, what: "all bonds together".to_owned() })

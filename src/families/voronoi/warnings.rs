@@ -10,7 +10,7 @@ use crate::families::{Beyond, Checked, Limit, Voronoi, speeds};
 pub(super) fn warnings(cells: &Voronoi, scene: &Checked) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if let Some(voronoi) = scene.system.voronoi() {
-        // What has no temperature is not hot by Euler's scheme either.
+        // A fluid without a temperature is not hot by Euler's scheme either.
         let is_hot = |law: &StepLaw| scene.temperature > 0.0 || law.law != EULER;
         let exceeded = laws(cells, scene, voronoi.form).into_iter().filter(|law| law.share > 1.0 && is_hot(law));
         exceeded.for_each(|law| warn(&mut warnings, "time.step", law.warning));
@@ -73,7 +73,8 @@ fn laws(cells: &Voronoi, scene: &Checked, form: VoronoiForm) -> [StepLaw; 3] {
             law: EULER,
             share: excess * friction / HOT,
             warning: format!(
-                "`euler` runs hot by about {:.0} % at this step; {:.1e} would be hot by {:.0} %, and `splitting` takes this one",
+                "`euler` runs hot by about {:.0} % at this step; {:.1e} would be hot by {:.0} %, and `splitting` takes \
+                 this one",
                 100.0 * excess * friction,
                 HOT / excess * lightest / cells.viscosity,
                 100.0 * HOT
@@ -84,8 +85,8 @@ fn laws(cells: &Voronoi, scene: &Checked, form: VoronoiForm) -> [StepLaw; 3] {
             law: "friction dt η/M = 1/20",
             share: friction / FRICTION_LIMIT,
             warning: format!(
-                "friction of a step, dt η/M, is {friction:.3}; temperatures have been measured up to {FRICTION_LIMIT}, a step \
-                 of {:.2e}, and the solver takes more iterations beyond",
+                "friction of a step, dt η/M, is {friction:.3}; temperatures have been measured up to {FRICTION_LIMIT}, \
+                 a step of {:.2e}, and the solver takes more iterations beyond",
                 FRICTION_LIMIT * lightest / cells.viscosity
             ),
         }
@@ -95,8 +96,8 @@ fn laws(cells: &Voronoi, scene: &Checked, form: VoronoiForm) -> [StepLaw; 3] {
         law: "conduction cut by its limit",
         share: RARELY * random / most,
         warning: format!(
-            "the random heat through a face is {random:.2} of the energy of a cell in one step, and `exchange_limit` {most} will \
-             cut it often; a step of {:.2e} or less is advisable",
+            "the random heat through a face is {random:.2} of the energy of a cell in one step, and `exchange_limit` \
+             {most} will cut it often; a step of {:.2e} or less is advisable",
             step * (most / (RARELY * random)).powi(2)
         ),
     };

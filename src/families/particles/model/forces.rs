@@ -121,7 +121,8 @@ impl<'a> Particles<'a> {
         stiffness.sqrt() * self.starts(bonds, length).into_iter().map(of).fold(0.0, f64::max)
     }
 
-    /// The masses that bonds of a length at rest move, and how far off that length they start: of those that start alike, one.
+    /// The masses that bonds of a length at rest move, and how far off that length they start: of those that start
+    /// alike, one.
     fn starts(&self, bonds: &BondsInteraction, length: f64) -> Vec<(f64, f64)> {
         // Half a box from each other on every axis, or in the same place.
         let farthest = 0.5 * self.scene.space.lengths.iter().map(|edge| edge * edge).sum::<f64>().sqrt();

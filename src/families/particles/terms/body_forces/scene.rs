@@ -67,12 +67,11 @@ impl SceneTerm for BodyForceInteraction {
             waves: self.waves.unwrap_or(1),
             forces: vec![[0.0; 3]; species.len()],
         });
-        for (species, sum) in species.iter().zip(&mut forces.forces) {
-            let named = self.species.as_ref().is_none_or(|names| names.contains(&species.name));
-            if named && !species.fixed {
-                for (sum, component) in sum.iter_mut().zip(&self.force) {
-                    *sum += component;
-                }
+        let is_named = |species: &Species| self.species.as_ref().is_none_or(|names| names.contains(&species.name));
+        let all = species.iter().zip(&mut forces.forces);
+        for (_, force) in all.filter(|(species, _)| is_named(species) && !species.fixed) {
+            for (sum, component) in force.iter_mut().zip(&self.force) {
+                *sum += component;
             }
         }
     }

@@ -40,14 +40,13 @@ pub(crate) fn check_extents(scene: &Checked, state: &State, problems: &mut Probl
             None => b,
         };
         let distance = model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt();
-        if (distance - length).abs() >= extent && reported.insert(bond.kind) {
+        let ([first, second], off) = (bond.ends, (distance - length).abs());
+        if off >= extent && reported.insert(bond.kind) {
             let found = format!(
-                "{extent}, and a distance of {distance:.6} between particles {} and {} at the start",
-                bond.ends[0], bond.ends[1]
+                "{extent}, and a distance of {distance:.6} between particles {first} and {second} at the start"
             );
             let accepted = format!(
-                "more than {:.6}, by which that bond starts off its length {length}; or a start with shorter bonds",
-                (distance - length).abs()
+                "more than {off:.6}, by which that bond starts off its length {length}; or a start with shorter bonds"
             );
             problems.refuse(format!("interactions[{}].potential.extent", places[bond.kind as usize]), found, accepted);
         }
