@@ -159,7 +159,6 @@ impl Quantity {
     }
 
     /// Its name with symbol and unit, for an axis or a bar of colours.
-    #[must_use]
     pub(crate) fn label(&self, dimension: usize) -> String {
         let mut letters = self.meaning.chars();
         let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();

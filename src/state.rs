@@ -102,7 +102,6 @@ impl Units {
     }
 
     /// A real position in the box as an integer one: between walls the nearest place there.
-    #[must_use]
     pub(crate) fn place(&self, position: [f64; 3]) -> [u32; 3] {
         let ends = self.ends();
         let folded = self.fraction(position);
@@ -206,13 +205,11 @@ impl From<State> for Reported {
 
 impl Reported {
     /// How often a particle has gone round the box along every axis, as far as that is known.
-    #[must_use]
     pub(crate) fn image(&self, particle: usize) -> [i32; 3] {
         self.images.get(particle).copied().unwrap_or_default()
     }
 
     /// The particles of these numbers, in their order; those that do not exist are left out.
-    #[must_use]
     pub(crate) fn of_particles(&self, numbers: &[u32]) -> Self {
         fn of<T: Copy>(array: &[T], numbers: &[u32]) -> Vec<T> {
             numbers.iter().filter_map(|number| array.get(*number as usize).copied()).collect()
@@ -273,19 +270,16 @@ macro_rules! state_arrays {
             pub const ALL: [Self; [$(stringify!($field)),*].len()] = [$(Self::$variant),*];
 
             /// The name, also in a checkpoint.
-            #[must_use]
             pub(crate) const fn name(self) -> &'static str {
                 match self { $(Self::$variant => stringify!($field),)* }
             }
 
             /// True if it has an element for every particle, if any.
-            #[must_use]
             pub(crate) const fn is_of_particles(self) -> bool {
                 match self { $(Self::$variant => $of_particles,)* }
             }
 
             /// Words of an element.
-            #[must_use]
             pub(crate) const fn width(self) -> usize {
                 match self { $(Self::$variant => size_of::<$element>() / 4,)* }
             }
@@ -365,7 +359,6 @@ pub fn crossings(from: [u32; 3], to: [u32; 3]) -> [i32; 3] {
 }
 
 /// The copy of `b` that is nearest to `a` across an axis, where the copy of the box above it is displaced along x by a part of the box.
-#[must_use]
 pub(crate) fn sheared_copy(a: [u32; 3], b: [u32; 3], (axis, shift): (usize, u32)) -> [u32; 3] {
     let boxes_up = crossings(a, b)[axis] as u32;
     [b[0].wrapping_add(boxes_up.wrapping_mul(shift)), b[1], b[2]]
@@ -471,13 +464,11 @@ impl WallImpulse {
 
 impl State {
     /// Number of elements of an array.
-    #[must_use]
     pub(crate) fn length(&self, array: StateArray) -> usize {
         self.words(array).len() / array.width()
     }
 
     /// The first array that has neither no element nor one for each particle, where it should.
-    #[must_use]
     pub(crate) fn misshapen(&self) -> Option<StateArray> {
         let wrong = |array: &StateArray| ![0, self.len()].contains(&self.length(*array));
         StateArray::ALL.into_iter().filter(|array| array.is_of_particles()).find(wrong)

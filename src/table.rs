@@ -48,11 +48,15 @@ impl Table {
         self.column(name).unwrap_or_else(|| vec![f64::NAN; self.rows.len()])
     }
 
+    /// Points of two columns, or none unless there are both.
+    pub(crate) fn points(&self, x: &str, y: &str) -> Option<Vec<[f64; 2]>> {
+        let (x, y) = (self.place(x)?, self.place(y)?);
+        Some(self.column_at(x).zip(self.column_at(y)).map(|(x, y)| [x, y]).collect())
+    }
+
     /// Points (`time`, value / `divisor`) of a column, or none if there is no such column.
     #[must_use]
     pub fn over_time(&self, name: &str, divisor: f64) -> Option<Vec<[f64; 2]>> {
-        let (time, values) = (self.place("time")?, self.place(name)?);
-        let values = self.column_at(values).map(|value| value / divisor);
-        Some(self.column_at(time).zip(values).map(|(time, value)| [time, value]).collect())
+        Some(self.points("time", name)?.into_iter().map(|[time, value]| [time, value / divisor]).collect())
     }
 }

@@ -52,13 +52,11 @@ pub struct Face {
 
 impl Face {
     /// |rₖ - rₗ|.
-    #[must_use]
     pub(crate) fn distance(&self) -> f64 {
         self.separation[0].hypot(self.separation[1])
     }
 
     /// The unit vector e from l to k.
-    #[must_use]
     pub(crate) fn direction(&self) -> [f64; 2] {
         let distance = self.distance();
         self.separation.map(|component| component / distance)

@@ -42,7 +42,6 @@ impl Default for Bath {
 
 impl Bath {
     /// Whether it does anything to what has such a friction.
-    #[must_use]
     pub(crate) fn acts(&self, friction: f64) -> bool {
         match self {
             Self::White { .. } => friction > 0.0,
@@ -51,7 +50,6 @@ impl Bath {
     }
 
     /// The bath has memory.
-    #[must_use]
     pub(crate) fn remembers(&self) -> bool {
         matches!(self, Self::Memory { .. })
     }

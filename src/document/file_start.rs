@@ -42,7 +42,6 @@ pub struct Surroundings {
 
 impl Surroundings {
     /// The largest density of all species together.
-    #[must_use]
     pub(crate) fn largest(&self) -> f64 {
         self.densest.iter().map(|of_all| of_all.iter().sum()).fold(self.mean, f64::max)
     }
@@ -118,13 +117,11 @@ pub struct FileLinks<const LENGTH: usize> {
 
 impl<const LENGTH: usize> FileLinks<LENGTH> {
     /// Number of links in all copies.
-    #[must_use]
     pub(crate) fn count(&self) -> u64 {
         self.members.len() as u64 * number_of_copies(self.copies)
     }
 
     /// The particles of one of them, copy by copy.
-    #[must_use]
     pub(crate) fn link(&self, index: u64) -> [u32; LENGTH] {
         let each = self.members.len().max(1) as u64;
         let (copy, place) = (index / each, (index % each) as usize);
@@ -172,7 +169,6 @@ impl FileStart {
     }
 
     /// The species of a particle.
-    #[must_use]
     pub(crate) fn species_of(&self, particle: u32) -> Option<usize> {
         self.species.get(particle as usize % self.species.len().max(1)).map(|species| *species as usize)
     }
@@ -198,7 +194,6 @@ impl FileStart {
     }
 
     /// What a run needs of it to continue, as bytes: all but places.
-    #[must_use]
     pub(crate) fn to_bytes(&self) -> Vec<u8> {
         fn described<const LENGTH: usize>(all: &[Arc<FileLinks<LENGTH>>]) -> Vec<DescribedLinks> {
             let one = |links: &Arc<FileLinks<LENGTH>>| DescribedLinks {
@@ -235,7 +230,6 @@ impl FileStart {
     }
 
     /// What [`to_bytes`](Self::to_bytes) has written; none of anything else.
-    #[must_use]
     pub(crate) fn from_bytes(bytes: &[u8]) -> Option<Self> {
         fn take<'a>(bytes: &mut &'a [u8], count: u64) -> Option<&'a [u8]> {
             let (taken, rest) = bytes.split_at_checked(usize::try_from(count).ok()?)?;

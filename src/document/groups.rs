@@ -169,7 +169,6 @@ impl Placement {
     }
 
     /// Whether the particles start on a lattice, shifted or not.
-    #[must_use]
     pub(crate) fn is_lattice(&self) -> bool {
         matches!(self, Self::Lattice { .. })
     }
@@ -255,13 +254,11 @@ impl ParticleGroup {
     }
 
     /// Whether the particles make up a layer behind walls, and never move against them.
-    #[must_use]
     pub(crate) fn is_frozen(&self) -> bool {
         matches!(self.placement, Placement::BehindWalls { .. })
     }
 
     /// Whether nothing that acts on the particles moves them.
-    #[must_use]
     pub(crate) fn is_held(&self) -> bool {
         self.fixed || self.is_frozen()
     }

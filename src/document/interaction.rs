@@ -31,7 +31,6 @@ pub enum Interaction {
 
 impl Interaction {
     /// Its name in a scene.
-    #[must_use]
     pub(crate) fn name(&self) -> &'static str {
         match self {
             Self::Dpd(_) => "dpd",

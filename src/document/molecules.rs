@@ -41,7 +41,6 @@ pub struct Molecule {
 
 impl Molecule {
     /// Number of molecules, whichever way the scene gives it.
-    #[must_use]
     pub(crate) fn resolved_count(&self, volume: f64) -> u64 {
         match (self.count, self.number_density) {
             (Some(count), _) => count,
@@ -51,7 +50,6 @@ impl Molecule {
     }
 
     /// Bonds from end to end: along the shortest way between the two beads that are farthest apart, exactly where there are no rings.
-    #[must_use]
     pub(crate) fn longest_way(&self) -> usize {
         let mut bonded = vec![Vec::new(); self.beads.len()];
         for [a, b] in self.bonds.iter().map(|ends| ends.map(|end| end as usize)) {

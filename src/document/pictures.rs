@@ -88,7 +88,6 @@ pub struct UnitNames {
 
 impl UnitNames {
     /// True if no unit has another name.
-    #[must_use]
     pub(crate) fn are_usual(&self) -> bool {
         *self == Self::default()
     }
@@ -252,7 +251,6 @@ pub struct SnapshotSlice {
 
 impl SnapshotSlice {
     /// True if it holds a coordinate along its axis, which repeats after `period`, or does not.
-    #[must_use]
     pub(crate) fn holds(&self, coordinate: f64, period: Option<f64>) -> bool {
         let distance = coordinate - self.position;
         let distance = period.map_or(distance, |period| distance - period * (distance / period).round());

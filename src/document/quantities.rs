@@ -19,7 +19,6 @@ pub enum CorrelatedQuantity {
 
 impl CorrelatedQuantity {
     /// The name in a scene.
-    #[must_use]
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Velocity => "velocity",
@@ -70,7 +69,6 @@ pub enum CountedQuantity {
 
 impl CountedQuantity {
     /// The name in a scene.
-    #[must_use]
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Velocity => "velocity",
@@ -103,7 +101,6 @@ impl ProfiledQuantity {
     pub const USUAL: [Self; 3] = [Self::Density, Self::Velocity, Self::Temperature];
 
     /// The name in a scene.
-    #[must_use]
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Density => "density",
@@ -128,7 +125,6 @@ pub enum Axis {
 
 impl Axis {
     /// The name in a scene.
-    #[must_use]
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::X => "x",

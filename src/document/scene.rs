@@ -121,6 +121,12 @@ impl Scene {
         self.system.shallow_water().map(|water| water.mesh)
     }
 
+    /// Places of the interactions of this name in the list.
+    pub(crate) fn places_of(&self, name: &'static str) -> impl Iterator<Item = usize> {
+        let all = self.interactions().iter().enumerate();
+        all.filter(move |(_, interaction)| interaction.name() == name).map(|(place, _)| place)
+    }
+
     /// The `dpd` interactions, with their places in the list.
     pub(crate) fn pair_interactions(&self) -> impl Iterator<Item = (usize, &DpdInteraction)> {
         self.interactions().iter().enumerate().filter_map(|(index, interaction)| match interaction {
@@ -156,13 +162,11 @@ impl Scene {
     }
 
     /// Whether a file or molecules say which particles there are, and where they start.
-    #[must_use]
     pub(crate) fn has_start(&self) -> bool {
         self.state.is_some() || !self.molecules.is_empty()
     }
 
     /// Where the velocities of such particles come from.
-    #[must_use]
     pub(crate) fn start_velocities(&self) -> Option<StateVelocities> {
         let thermal = (!self.molecules.is_empty()).then_some(StateVelocities::Thermal);
         self.state.as_ref().map(|state| state.velocities).or(thermal)
@@ -181,7 +185,6 @@ impl Scene {
     }
 
     /// The earlier run that it goes on with, to the last bit, if it does.
-    #[must_use]
     pub(crate) fn earlier_run(&self) -> Option<EarlierRun> {
         match self.start()?.origin? {
             Origin::Anew => None,
@@ -190,7 +193,6 @@ impl Scene {
     }
 
     /// The seed of the noise: that of the scene, unless particles are from a file.
-    #[must_use]
     pub(crate) fn noise_seed(&self) -> u64 {
         let checksum = || u32::from_str_radix(self.state.as_ref()?.checksum.as_ref()?, 16).ok();
         match self.start().and_then(|start| start.origin) {
@@ -269,7 +271,6 @@ pub enum Distribution {
 
 impl Space {
     /// Volume of the box (area in two dimensions).
-    #[must_use]
     pub(crate) fn volume(&self) -> f64 {
         self.lengths.iter().product()
     }

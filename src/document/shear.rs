@@ -25,13 +25,11 @@ pub struct Shear {
 
 impl Shear {
     /// The largest velocity of the linear profile in a box with such edges, that at a boundary.
-    #[must_use]
     pub(crate) fn speed(&self, edges: &[f64]) -> f64 {
         0.5 * (self.rate * edges.get(self.gradient as usize).copied().unwrap_or(1.0)).abs()
     }
 
     /// The displacement at the start in 2⁻³² of the edge along the flow, of boxes with such edges.
-    #[must_use]
     pub(crate) fn first_shift(&self, edges: &[f64]) -> u32 {
         let boxes = (self.displacement / edges.first().copied().unwrap_or(1.0)).fract();
         (boxes * 4_294_967_296.0).round_ties_even() as i64 as u32

@@ -68,7 +68,6 @@ pub enum StateVelocities {
 
 impl StateFile {
     /// Copies along every axis.
-    #[must_use]
     pub(crate) fn copies(&self) -> [u32; 3] {
         std::array::from_fn(|axis| self.replicate.get(axis).copied().unwrap_or(1).max(1))
     }

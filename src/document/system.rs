@@ -49,7 +49,6 @@ impl SystemKind {
     pub const ALL: [Self; 3] = [Self::Particles, Self::ShallowWater, Self::Voronoi];
 
     /// The name of the kind in the schema; that of its interaction, where it has one of its own.
-    #[must_use]
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Particles => "particles",
@@ -59,7 +58,6 @@ impl SystemKind {
     }
 
     /// The kind, as messages call it.
-    #[must_use]
     pub(crate) const fn in_words(self) -> &'static str {
         match self {
             Self::Particles => "particles",
@@ -80,7 +78,6 @@ impl System {
     pub(crate) const STANDING_ALONE: [&str; 3] = ["harmonic-chain", "shallow-water", "voronoi"];
 
     /// The kind of the system.
-    #[must_use]
     pub(crate) const fn kind(&self) -> SystemKind {
         match self {
             Self::Particles { .. } => SystemKind::Particles,
@@ -116,7 +113,6 @@ impl System {
     }
 
     /// The interactions of particles, of which systems of other kinds have none.
-    #[must_use]
     pub(crate) fn interactions(&self) -> &[Interaction] {
         if let Self::Particles { interactions, .. } = self { interactions } else { &[] }
     }
@@ -128,7 +124,6 @@ impl System {
     }
 
     /// Shallow water, in a system of it.
-    #[must_use]
     pub(crate) fn shallow_water(&self) -> Option<&ShallowWaterInteraction> {
         if let Self::ShallowWater { water, .. } = self { Some(water) } else { None }
     }
@@ -140,7 +135,6 @@ impl System {
     }
 
     /// The fluid of Voronoi cells, in a system of them.
-    #[must_use]
     pub(crate) fn voronoi(&self) -> Option<&VoronoiInteraction> {
         if let Self::Voronoi { cells, .. } = self { Some(cells) } else { None }
     }

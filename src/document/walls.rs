@@ -48,13 +48,11 @@ pub enum Reflection {
 
 impl Walls {
     /// Whether there are none.
-    #[must_use]
     pub(crate) fn is_empty(&self) -> bool {
         self.of_axes().iter().all(Option::is_none)
     }
 
     /// The walls across each axis.
-    #[must_use]
     pub(crate) fn of_axes(&self) -> [Option<&WallPair>; 3] {
         [self.x.as_ref(), self.y.as_ref(), self.z.as_ref()]
     }
@@ -62,7 +60,6 @@ impl Walls {
 
 impl WallPair {
     /// The velocities of the lower and the upper wall, with zeros for axes that are not given.
-    #[must_use]
     pub(crate) fn velocities(&self) -> [[f64; 3]; 2] {
         [&self.lower_velocity, &self.upper_velocity].map(|velocity| {
             let given = velocity.as_deref().unwrap_or_default();

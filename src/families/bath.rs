@@ -40,7 +40,6 @@ impl BathStep {
     }
 
     /// Whether the bath has a memory.
-    #[must_use]
     pub(crate) fn remembers(&self) -> bool {
         self.continuous_coupling.is_finite()
     }
@@ -60,20 +59,17 @@ impl BathStep {
     }
 
     /// The step of white noise with a friction: the limit of a fast bath at λ/α = γ.
-    #[must_use]
     pub(crate) fn without_memory(friction: f64, time_step: f64) -> Self {
         Self { persistence: 0.0, coupling: 2.0 * friction / time_step, continuous_coupling: f64::INFINITY }
     }
 
     /// The step of this bath where it is coupled to nothing.
-    #[must_use]
     pub(crate) fn uncoupled(self) -> Self {
         let continuous_coupling = if self.remembers() { 0.0 } else { self.continuous_coupling };
         Self { coupling: 0.0, continuous_coupling, ..self }
     }
 
     /// λₑ (1 + e)/2: what a change of h adds to s.
-    #[must_use]
     pub(crate) fn response(&self) -> f64 {
         0.5 * self.coupling * (1.0 + self.persistence)
     }

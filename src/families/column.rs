@@ -23,7 +23,6 @@ enum Value {
 
 impl Column {
     /// Its value in a row, given the time step.
-    #[must_use]
     pub(crate) fn value(&self, row: &Observables, time_step: f64) -> f64 {
         match self.value {
             Value::Number(number) => number(row, time_step),

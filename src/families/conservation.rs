@@ -29,13 +29,11 @@ impl KeptQuantity {
     pub const MOMENTUM: Self = Self::Momentum { walls: false, shear: false, body_forces: false };
 
     /// True if it is kept only if both ends of a pair are computed alike, as by ranks that round alike.
-    #[must_use]
     pub(crate) fn is_exchanged(self) -> bool {
         !matches!(self, Self::Mass | Self::MeshMass)
     }
 
     /// Its name in a summary.
-    #[must_use]
     pub(crate) fn name(self) -> String {
         match self {
             Self::Mass => "mass".to_owned(),
@@ -71,7 +69,6 @@ pub struct KeptSum {
 
 impl KeptSum {
     /// The kept sum, from the sums of a report.
-    #[must_use]
     pub(crate) fn of(&self, sums: &[i64]) -> Option<i64> {
         self.parts
             .iter()

@@ -81,7 +81,6 @@ impl Model {
     /// assert!(model.conserves_momentum() && !model.has_memory());
     /// # Ok::<(), mesoscope::scene::SceneError>(())
     /// ```
-    #[must_use]
     pub(crate) fn new(scene: &Scene) -> Self {
         let mut species = Species::of(scene);
         let mut lengths = [1.0; 3];
@@ -141,13 +140,11 @@ impl Model {
 
     /// What noise and forces that depend on time go by at a step: the steps since the first of the earlier runs that it goes on with. At zero
     /// momenta are those of the report point; later they are half a step behind.
-    #[must_use]
     pub(crate) fn clock(&self, step: u64) -> u64 {
         self.steps_before.wrapping_add(step)
     }
 
     /// Whether its steps are those of another model, whenever they begin.
-    #[must_use]
     pub(crate) fn has_the_steps_of(&self, other: &Self) -> bool {
         let (mut one, mut other) = (self.clone(), other.clone());
         one.steps_before = other.steps_before;
@@ -161,7 +158,6 @@ impl Model {
     }
 
     /// Whether any force derives from a potential.
-    #[must_use]
     pub(crate) fn has_potential(&self) -> bool {
         self.physics().has_potential()
     }
@@ -173,14 +169,12 @@ impl Model {
     }
 
     /// Whether some particles are held where they start; those behind walls are not among them.
-    #[must_use]
     pub(crate) fn has_fixed_particles(&self) -> bool {
         self.species.iter().any(|species| species.fixed && !species.frozen && species.count > 0)
     }
 
     /// Whether it is counted how often particles go round the box: for trajectories and displacements, and not where boundaries shear,
     /// for then that is no whole number.
-    #[must_use]
     pub(crate) fn follows_paths(&self, output: &Output) -> bool {
         (output.trajectory.is_some() || output.diffusion.is_some()) && self.particles().shear.is_none()
     }
@@ -200,7 +194,6 @@ impl Model {
     }
 
     /// Whether there are frozen particles behind walls.
-    #[must_use]
     pub(crate) fn has_frozen_particles(&self) -> bool {
         self.species.iter().any(|species| species.frozen && species.count > 0)
     }
@@ -212,20 +205,17 @@ impl Model {
     }
 
     /// The number of a species.
-    #[must_use]
     pub(crate) fn species_named(&self, name: &str) -> Option<usize> {
         self.species.iter().position(|species| species.name == name)
     }
 
     /// Number of particles of a species that can move; without a name of all.
-    #[must_use]
     pub(crate) fn mobile_particles_of(&self, species: Option<&str>) -> u64 {
         let asked = |known: &&Species| !known.fixed && species.is_none_or(|name| known.name == name);
         self.species.iter().filter(asked).map(|species| species.count).sum()
     }
 
     /// Mass of all particles but those of layers behind walls, which have none that counts.
-    #[must_use]
     pub(crate) fn mobile_mass(&self) -> f64 {
         let species = self.species.iter().filter(|species| !species.frozen);
         species.map(|species| species.mass * species.count as f64).sum()
@@ -243,14 +233,12 @@ impl Model {
 
     /// True if particles get momentum from each other, from body forces and from walls only, so that the total is the
     /// momentum that the two have added.
-    #[must_use]
     pub(crate) fn exchanges_momentum(&self) -> bool {
         self.particles().coloured_noise.is_none() && self.physics().is_free() && !self.has_fixed_particles()
     }
 
     /// Whether temperatures are about the velocity of the centre of mass: where that is constant, and where it is driven by
     /// nothing but a random force.
-    #[must_use]
     pub(crate) fn measures_about_centre_of_mass(&self) -> bool {
         self.physics().is_free()
             && !self.has_fixed_particles()
@@ -280,7 +268,6 @@ impl Model {
     }
 
     /// Edges of what pictures show: the box, with the layers of frozen particles behind its walls.
-    #[must_use]
     pub(crate) fn edges_with_layers(&self) -> [f64; 3] {
         let mut edges = self.units.edges();
         for walls in &self.particles().walls {
@@ -290,7 +277,6 @@ impl Model {
     }
 
     /// The physics of its family.
-    #[must_use]
     pub(crate) fn physics(&self) -> &dyn Physics {
         self.family.physics()
     }

@@ -37,7 +37,6 @@ impl Family {
     }
 
     /// Its physics.
-    #[must_use]
     pub(crate) fn physics(&self) -> &dyn Physics {
         match self {
             Self::Particles(particles) => particles.as_ref(),

@@ -54,13 +54,11 @@ fn moving(scene: &Scene) -> impl Iterator<Item = (usize, &ParticleGroup)> {
 pub(super) fn expected(scene: &Scene, species: &[Species], physics: &dyn Physics) -> f64 {
     let hottest = hottest(scene);
     let of_group = |group| at_start(scene, group, physics).max(thermal(hottest, physics.mean_mass(group)));
-    let mut most = moving(scene).map(|(_, group)| of_group(group)).fold(of_walls(scene), f64::max);
+    let most = moving(scene).map(|(_, group)| of_group(group)).fold(of_walls(scene), f64::max);
+    let shear = scene.space.shear.as_ref().map_or(0.0, |shear| shear.speed(&scene.space.lengths));
     let mobile = species.iter().filter(|species| !species.fixed && species.count > 0);
     let lightest = mobile.map(|species| species.mass).fold(f64::INFINITY, f64::min);
-    if let Some(shear) = &scene.space.shear {
-        most += shear.speed(&scene.space.lengths);
-    }
-    most.max(random_momenta(scene)[0] / lightest)
+    (most + shear).max(random_momenta(scene)[0] / lightest)
 }
 
 /// Refuses a time step in which particles go beyond the reach of their family with the velocities that they start with or that
@@ -89,14 +87,10 @@ pub(super) fn check(scene: &Checked, problems: &mut Problems) {
     if fastest * step <= reach {
         return;
     }
-    let found =
-        format!("{step}, in which {what} of {} take particles[{place}] {} far", brief(fastest), brief(fastest * step));
-    let accepted = format!(
-        "a step that takes them no further than {}, {}: {} or less",
-        physics.reach_in_words(),
-        brief(reach),
-        brief_step(round_down(longest_step(model), 1))
-    );
+    let [fastest, far, reach] = [fastest, fastest * step, reach].map(brief);
+    let (in_words, longest) = (physics.reach_in_words(), brief_step(round_down(longest_step(model), 1)));
+    let found = format!("{step}, in which {what} of {fastest} take particles[{place}] {far} far");
+    let accepted = format!("a step that takes them no further than {in_words}, {reach}: {longest} or less");
     problems.refuse("time.step", found, accepted);
 }
 

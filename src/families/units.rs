@@ -21,15 +21,11 @@ pub(super) fn momentum_unit(scene: &Scene, species: &[Species], pair_force: Opti
     let heaviest = species.iter().map(|species| species.mass).fold(0.0, f64::max);
     let hottest = speeds::hottest(scene).max(scene.temperature);
     let own = terms::acting(scene).map(|term| term.momentum_of_particles(scene)).fold(0.0, f64::max);
-    let mut scale = (heaviest * hottest).sqrt().max(own);
-    for group in &scene.particles {
-        scale = scale.max(group.mass * speeds::given(scene, group).unwrap_or(0.0) / 8.0);
-    }
-    scale = scale.max(heaviest * speeds::of_walls(scene) / 8.0);
-    if let Some(shear) = &scene.space.shear {
-        scale = scale.max(heaviest * shear.speed(&scene.space.lengths) / 8.0);
-    }
-    scale = scale.max(terms::random_momenta(scene)[0]);
+    let shear = scene.space.shear.as_ref().map_or(0.0, |shear| shear.speed(&scene.space.lengths));
+    let given = scene.particles.iter().map(|group| group.mass * speeds::given(scene, group).unwrap_or(0.0));
+    let driven = given.fold(heaviest * speeds::of_walls(scene).max(shear), f64::max);
+    let random = terms::random_momenta(scene)[0];
+    let mut scale = (heaviest * hottest).sqrt().max(own).max(driven / 8.0).max(random);
     if scale == 0.0
         && let Some(force) = pair_force
     {

@@ -39,7 +39,6 @@ impl BlockSums {
     }
 
     /// Begins with rows of so many numbers in at most so many blocks: 64 know an error to some tenth, in an eighth of the memory.
-    #[must_use]
     pub(crate) fn with_most(width: usize, most: u64) -> Self {
         Self { width, most: most.max(2), samples: 0, blocks: Vec::new() }
     }
@@ -56,7 +55,6 @@ impl BlockSums {
     }
 
     /// Number of blocks after so many samples, the last of which may not be full.
-    #[must_use]
     pub(crate) fn blocks_after(&self, samples: u64) -> u64 {
         samples.div_ceil(self.length(samples))
     }
@@ -87,19 +85,16 @@ impl BlockSums {
     }
 
     /// Numbers in a row.
-    #[must_use]
     pub(crate) fn width(&self) -> usize {
         self.width
     }
 
     /// Number of samples.
-    #[must_use]
     pub(crate) fn samples(&self) -> u64 {
         self.samples
     }
 
     /// The sums of all blocks, one row after the other.
-    #[must_use]
     pub(crate) fn sums(&self) -> &[f64] {
         &self.blocks
     }
@@ -145,7 +140,6 @@ impl BlockSums {
     }
 
     /// The mean over samples of a number that is made of their sums.
-    #[must_use]
     pub(crate) fn mean(&self, number: impl Fn(&[f64]) -> f64) -> Option<Estimate> {
         // What every sample counts once is a quantity of its own.
         let length = self.length(self.samples) as f64;
@@ -158,7 +152,6 @@ impl BlockSums {
 
     /// A number that is made of the means of all quantities, by a jackknife over the blocks that are full; none where it does not exist, if
     /// only without one of them. There is no error with fewer than two.
-    #[must_use]
     pub(crate) fn jackknife(&self, number: impl Fn(&[f64]) -> Option<f64>) -> Option<Estimate> {
         let totals: Vec<f64> = (0..self.width).map(|quantity| self.total(quantity)).collect();
         let mean = |row: Option<&[f64]>| {

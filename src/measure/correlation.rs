@@ -32,13 +32,11 @@ impl WindowedAverage {
     }
 
     /// Number of lags in a window.
-    #[must_use]
     pub(crate) fn lags(&self) -> usize {
         self.lags
     }
 
     /// The full windows; one that is not yet full is left out.
-    #[must_use]
     pub(crate) fn windows(&self) -> impl ExactSizeIterator<Item = &[f64]> {
         self.samples.chunks_exact(self.lags)
     }
@@ -58,7 +56,6 @@ impl WindowedAverage {
     }
 
     /// The mean over all lags from one on, over the mean at lag 0, in the same way; none before the first window is full, or without a lag.
-    #[must_use]
     pub(crate) fn normalised_mean(&self, from: usize) -> Option<Estimate> {
         let count = self.lags.checked_sub(from).filter(|count| *count > 0)? as f64;
         self.ratio(|window| window[from..].iter().sum::<f64>() / count)

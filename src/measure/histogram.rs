@@ -56,7 +56,6 @@ impl Histogram {
     }
 
     /// The lower and the upper edge of a bin.
-    #[must_use]
     pub(crate) fn edges(&self, bin: usize) -> [f64; 2] {
         [bin, bin + 1].map(|edge| self.range[0] + edge as f64 * self.width())
     }
@@ -89,19 +88,16 @@ pub struct PowerMeans {
 
 impl PowerMeans {
     /// Standard deviation.
-    #[must_use]
     pub(crate) fn standard_deviation(&self) -> f64 {
         (self.second - self.first * self.first).max(0.0).sqrt()
     }
 
     /// Variance of the square.
-    #[must_use]
     pub(crate) fn variance_of_square(&self) -> f64 {
         self.fourth - self.second * self.second
     }
 
     /// ⟨x⁴⟩/⟨x²⟩² about zero: 3 for a Gaussian around it, less where two peaks stand apart, more with heavy tails.
-    #[must_use]
     pub(crate) fn kurtosis(&self) -> f64 {
         self.fourth / (self.second * self.second)
     }

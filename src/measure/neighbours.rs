@@ -45,19 +45,16 @@ impl NeighbourCounts {
     }
 
     /// Number of samples.
-    #[must_use]
     pub(crate) fn len(&self) -> usize {
         self.samples.len()
     }
 
     /// Whether there is no sample.
-    #[must_use]
     pub(crate) fn is_empty(&self) -> bool {
         self.samples.is_empty()
     }
 
     /// The fraction of cells with so many neighbours.
-    #[must_use]
     pub(crate) fn fraction(&self, neighbours: usize) -> Option<Estimate> {
         self.estimate(|counts| counts[neighbours] / counts.iter().sum::<f64>())
     }
@@ -69,7 +66,6 @@ impl NeighbourCounts {
     }
 
     /// The variance of the number of neighbours between the cells of a sample; 1.78 for random points.
-    #[must_use]
     pub(crate) fn variance(&self) -> Option<Estimate> {
         self.estimate(|counts| moment(counts, 2) - moment(counts, 1).powi(2))
     }

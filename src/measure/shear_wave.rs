@@ -62,7 +62,6 @@ impl WaveDecay {
     }
 
     /// The decay at a time after the first amplitude.
-    #[must_use]
     pub(crate) fn at(&self, time: f64) -> f64 {
         self.amplitude * (-self.rate.value * time).exp()
     }

@@ -121,7 +121,6 @@ impl RunDirectory {
     }
 
     /// Where the directory is.
-    #[must_use]
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }

@@ -109,7 +109,6 @@ impl Id {
     }
 
     /// What files call it.
-    #[must_use]
     pub(crate) fn key(self) -> &'static str {
         self.kind.words()[1]
     }

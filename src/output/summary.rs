@@ -116,7 +116,6 @@ pub struct MeshSummary {
 
 impl MeshSummary {
     /// The nodes of a box with edges of these lengths.
-    #[must_use]
     pub(crate) fn new(nodes: [usize; 2], lengths: [f64; 2]) -> Self {
         Self { nodes, spacing: std::array::from_fn(|axis| lengths[axis] / nodes[axis] as f64) }
     }
@@ -140,7 +139,6 @@ pub struct ColumnSummary {
 
 impl ColumnSummary {
     /// A column of a quantity in a box of this dimension.
-    #[must_use]
     pub(crate) fn new(name: &str, quantity: &Quantity, dimension: usize) -> Self {
         let Quantity { symbol, unit, meaning, .. } = quantity;
         let error = if name.ends_with("_error") { "standard error of: " } else { "" };
@@ -149,7 +147,6 @@ impl ColumnSummary {
     }
 
     /// The columns of the table of energies of a model.
-    #[must_use]
     pub(crate) fn of_energies(model: &Model) -> Vec<Self> {
         let columns = model.physics().columns(model).into_iter();
         let summary =
@@ -174,7 +171,6 @@ pub struct StartSummary {
 
 impl StartSummary {
     /// That of a scene and its model, if its particles are from a file.
-    #[must_use]
     pub(crate) fn new(scene: &Checked) -> Option<Self> {
         let model = scene.model();
         let what = start_in_words(scene)?;
@@ -353,7 +349,6 @@ impl Summary {
     }
 
     /// Whether everything that the run was to leave in its directory is there, and its tables are those that it wrote.
-    #[must_use]
     pub(crate) fn is_complete(&self, directory: &RunDirectory) -> bool {
         let written = |name: &String| directory.file(name).is_file();
         self.files.as_ref().is_some_and(|files| files.iter().all(written)) && self.check_tables(directory).is_ok()

@@ -38,7 +38,6 @@ impl Grid {
     }
 
     /// The same with at least so many cells on each axis, all of which are wider than the cutoff.
-    #[must_use]
     pub(crate) fn with_least(units: &Units, cutoff: f64, particles: u64, least: [u32; 3]) -> Self {
         let dimension = units.dimension;
         let mut cells = [1_u32; 3];
@@ -100,7 +99,6 @@ impl Grid {
     }
 
     /// Whether rows are framed by copies of their last and first cell.
-    #[must_use]
     pub(crate) fn framed(&self) -> bool {
         self.cells[0] >= 3
     }

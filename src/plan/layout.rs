@@ -67,7 +67,6 @@ pub enum Length {
 
 impl Length {
     /// Number of elements, as far as it is known beforehand.
-    #[must_use]
     pub(crate) fn expected(self) -> usize {
         match self {
             Self::Exactly(count) | Self::AfterFirstStep(count) | Self::About(count) => count,
@@ -75,7 +74,6 @@ impl Length {
     }
 
     /// Whether an array of a state at a step may have so many elements.
-    #[must_use]
     pub(crate) fn allows(self, count: usize, step: u64) -> bool {
         match self {
             Self::Exactly(expected) => count == expected,
@@ -156,7 +154,6 @@ pub struct Places(Vec<bool>);
 
 impl Places {
     /// Of so many particles.
-    #[must_use]
     pub(crate) fn of(count: usize) -> Self {
         Self(vec![false; count])
     }

@@ -91,7 +91,6 @@ impl Options {
     }
 
     /// Whether longer bonds may be expected.
-    #[must_use]
     pub(crate) fn may_lengthen(&self) -> bool {
         self.part.is_some() && self.lengthened < 31
     }
@@ -103,7 +102,6 @@ impl Options {
     }
 
     /// Whether kernels are adapted to lanes that run one after the other.
-    #[must_use]
     pub(crate) fn suits_serial_memory(&self, hardware: Hardware) -> bool {
         self.serial_memory.unwrap_or(hardware.serial_memory)
     }

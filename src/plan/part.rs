@@ -60,7 +60,6 @@ pub struct Cells {
 
 impl Cells {
     /// Their part of a grid of so many cells.
-    #[must_use]
     pub(crate) fn share(&self, of: [u32; 3]) -> f64 {
         (0..3).map(|axis| f64::from(self.count[axis]) / f64::from(of[axis])).product()
     }
@@ -148,7 +147,6 @@ impl Division {
     }
 
     /// The ranks around a rank with anything nearer to its part than a distance, each once and without it.
-    #[must_use]
     pub(crate) fn peers(&self, rank: u32, units: &Units, distance: f64) -> Vec<u32> {
         let place = self.place(rank);
         let along = |axis: usize| {
@@ -179,7 +177,6 @@ impl Division {
     }
 
     /// The most parts of an axis that suit.
-    #[must_use]
     pub(crate) fn most_parts(units: &Units, halo: f64, reach: f64, axis: usize) -> u32 {
         if axis >= units.dimension {
             return 1;
@@ -196,7 +193,6 @@ impl Division {
 
 impl Domain {
     /// The same with what is nearer than a distance.
-    #[must_use]
     pub(crate) fn with_halo(mut self, units: &Units, distance: f64) -> Self {
         for axis in 0..3 {
             if self.width[axis] == 0 {
@@ -211,7 +207,6 @@ impl Domain {
     }
 
     /// The same without what is nearer than a distance to its faces, if anything is left. It must not go round the box.
-    #[must_use]
     pub(crate) fn without_edge(mut self, units: &Units, distance: f64) -> Option<Self> {
         for axis in 0..3 {
             if self.width[axis] == 0 {
@@ -267,7 +262,6 @@ impl Domain {
     }
 
     /// Whether it is the whole box.
-    #[must_use]
     pub(crate) fn is_whole(&self) -> bool {
         self.width == [0; 4]
     }
@@ -282,7 +276,6 @@ impl Domain {
     }
 
     /// Its part of the volume of the box.
-    #[must_use]
     pub(crate) fn share(&self) -> f64 {
         let along = |width: u32| if width == 0 { 1.0 } else { f64::from(width) / 2_f64.powi(32) };
         self.width[..3].iter().map(|width| along(*width)).product()
@@ -399,7 +392,6 @@ pub struct Stretch {
 
 impl SharedSum {
     /// The parts of a stretch in the array, each from where on and how many words: one, or two of a stretch that goes past the end.
-    #[must_use]
     pub(crate) fn pieces(&self, stretch: Stretch) -> [Stretch; 2] {
         let before_end = stretch.count.min(self.length - stretch.first);
         [Stretch { count: before_end, ..stretch }, Stretch { first: 0, count: stretch.count - before_end }]
@@ -408,7 +400,6 @@ impl SharedSum {
 
 impl PlannedPart {
     /// Bytes of what is summed that it sends in a step.
-    #[must_use]
     pub(crate) fn summed_bytes(&self) -> u64 {
         let own = |sum: &SharedSum| sum.stretches.get(self.part.rank as usize).map_or(0, |stretch| stretch.count);
         4 * self.sum.as_ref().map_or(0, own) * self.others().len() as u64
@@ -421,13 +412,11 @@ impl PlannedPart {
     }
 
     /// Whether it knows particles of others, at some steps at least.
-    #[must_use]
     pub(crate) fn has_halo(&self) -> bool {
         self.halo > 0.0 || self.wider.is_some()
     }
 
     /// All other ranks.
-    #[must_use]
     pub(crate) fn others(&self) -> Vec<u32> {
         self.part.division.others(self.part.rank)
     }

@@ -68,7 +68,6 @@ impl Sampler {
     }
 
     /// The next step after one with a sample.
-    #[must_use]
     pub(crate) fn next_after(&self, step: u64) -> u64 {
         if step < self.first {
             return self.first;
@@ -93,7 +92,6 @@ impl Sampler {
     }
 
     /// The buffer of the window that is open before the sample of a step, and the number of its samples so far.
-    #[must_use]
     pub(crate) fn open_window(&self, step: u64) -> Option<(Array, u64)> {
         let window = self.window?;
         let taken = self.samples_before(step) % window.samples;

@@ -31,7 +31,6 @@ impl Sums {
     }
 
     /// These sums, and if a condition holds others of one component.
-    #[must_use]
     pub(crate) fn with_if(self, condition: bool, sums: &[Sum]) -> Self {
         sums.iter().filter(|_| condition).fold(self, |all, sum| all.with(*sum, 1))
     }
@@ -104,7 +103,6 @@ pub struct ReportRow<'a> {
 
 impl ReportRow<'_> {
     /// The value of a sum; nothing if the report lacks it.
-    #[must_use]
     pub(crate) fn value(&self, sum: Sum) -> Option<i64> {
         self.component(sum, 0)
     }

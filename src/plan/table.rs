@@ -36,7 +36,6 @@ pub struct Table(Arc<dyn Words>);
 
 impl Table {
     /// A table of these words.
-    #[must_use]
     pub(crate) fn new(words: impl Words) -> Self {
         Self(Arc::new(words))
     }

@@ -24,17 +24,13 @@ fn compared(table: &Table, quantity: &str) -> Vec<Series> {
     let every = table.rows.len().div_ceil(MOST_MARKERS).max(1);
     let measured = CHAINS.iter().map(|(chain, name)| {
         let points = points(table, "tau", &format!("{chain}_{quantity}"));
-        let mut series = Series::markers(name, points.into_iter().step_by(every).collect());
-        let errors = format!("{chain}_{quantity}_error");
-        if table.columns.contains(&errors) {
-            series = series.with_errors(table.values(&errors).into_iter().step_by(every).collect());
-        }
-        series
+        let errors = table.values(&format!("{chain}_{quantity}_error"));
+        Series::markers(name, points.into_iter().step_by(every).collect())
+            .with_known_errors(errors.into_iter().step_by(every).collect())
     });
-    let exact = CHAINS.iter().enumerate().map(|(number, (chain, _))| {
-        let name = if number == 0 { "exact" } else { "" };
-        Series::line(name, points(table, "tau", &format!("{chain}_exact_{quantity}")))
-            .with_ink(SeriesInk::Ink { pattern: 0 })
+    let exact = CHAINS.iter().zip(["exact", "", ""]).map(|((chain, _), name)| {
+        let points = points(table, "tau", &format!("{chain}_exact_{quantity}"));
+        Series::line(name, points).with_ink(SeriesInk::Ink { pattern: 0 })
     });
     measured.chain(exact).collect()
 }
@@ -174,12 +170,10 @@ pub fn chain_memory_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
 /// ```
 #[must_use]
 pub fn chain_equilibrium_chart(title: &str, subtitle: &str, table: &Table) -> Chart {
-    let lines = |quantity: &str| {
-        let line =
-            |(chain, name): &(&str, &str)| Series::line(name, points(table, "tau", &format!("{chain}_{quantity}")));
-        CHAINS.iter().map(line).collect::<Vec<_>>()
+    let panel = |quantity: &str, label: &str| {
+        let columns = CHAINS.map(|(chain, name)| (format!("{chain}_{quantity}"), name));
+        Panel::new(REDUCED_TIME, label).with_columns(table, "tau", columns)
     };
-    let panel = |quantity: &str, label: &str| Panel { series: lines(quantity), ..Panel::new(REDUCED_TIME, label) };
     let momenta = panel("momentum_variance", "⟨P²⟩ / nmkT").with_reference("exact", 1.0);
     let mut separations = panel("separation_variance", "var(X_{μ+1} − X_{μ}) κ/nkT");
     for (chain, name) in [("micro", "exact, beads"), ("dpd", "exact, clusters")] {

@@ -1,5 +1,7 @@
 //! What a chart shows: panels, axes, series. No layout and no colours.
 
+use crate::table::Table;
+
 /// A chart: panels stacked above each other under one title.
 ///
 /// Neighbouring panels whose x axes are alike (label, scale and range) share them.
@@ -65,6 +67,22 @@ impl Panel {
         self
     }
 
+    /// The panel with a line for each of these columns that a table has, with a name in the legend, and with a band
+    /// where the table has errors of the column.
+    pub(super) fn with_columns<Column: AsRef<str>, Name: AsRef<str>>(
+        mut self,
+        table: &Table,
+        x: &str,
+        columns: impl IntoIterator<Item = (Column, Name)>,
+    ) -> Self {
+        for (column, name) in columns {
+            let errors = table.values(&format!("{}_error", column.as_ref()));
+            let line = |points| Series::line(name.as_ref(), points).with_band(errors);
+            self.series.extend(table.points(x, column.as_ref()).map(line));
+        }
+        self
+    }
+
     /// The panel with one more horizontal line at `value`.
     #[must_use]
     pub fn with_reference(mut self, label: &str, value: f64) -> Self {
@@ -91,20 +109,17 @@ pub struct Axis {
 
 impl Axis {
     /// A linear axis that fits its data.
-    #[must_use]
     pub(crate) fn linear(label: &str) -> Self {
         Self { label: label.to_owned(), ..Self::default() }
     }
 
     /// An axis of names, with the same width for each.
-    #[must_use]
     pub(crate) fn categories(label: &str, names: Vec<String>) -> Self {
         let range = Some([-0.5, names.len().max(1) as f64 - 0.5]);
         Self { label: label.to_owned(), scale: Scale::Linear, range, categories: names, ..Self::default() }
     }
 
     /// A logarithmic axis that fits its data; what is not positive is left out and the subtitle says so.
-    #[must_use]
     pub(crate) fn log(label: &str) -> Self {
         Self { label: label.to_owned(), scale: Scale::Log, ..Self::default() }
     }
@@ -173,7 +188,6 @@ impl Series {
     }
 
     /// A line that others are compared with, dashed in the ink of the axes: a fit, or what is exact.
-    #[must_use]
     pub(crate) fn compared(name: &str, points: Vec<[f64; 2]>) -> Self {
         Self::line(name, points).with_ink(SeriesInk::Ink { pattern: 1 })
     }
@@ -185,34 +199,17 @@ impl Series {
     }
 
     /// The series drawn with this ink.
-    #[must_use]
     pub(crate) fn with_ink(mut self, ink: SeriesInk) -> Self {
         self.ink = ink;
         self
     }
 
-    /// The series with hollow markers for points whose error is from few samples.
-    #[must_use]
-    pub(crate) fn with_few(mut self, few: Vec<bool>) -> Self {
-        self.few = few;
-        self
-    }
-
-    /// The series with a word beside every point.
-    #[must_use]
-    pub(crate) fn with_labels(mut self, labels: Vec<String>) -> Self {
-        self.labels = labels;
-        self
-    }
-
     /// The series with an error for every point, if any of them is known.
-    #[must_use]
     pub(super) fn with_known_errors(self, errors: Vec<f64>) -> Self {
         if errors.iter().any(|error| error.is_finite()) { self.with_errors(errors) } else { self }
     }
 
     /// The series in a band of errors, if any of them is known.
-    #[must_use]
     pub(crate) fn with_band(self, errors: Vec<f64>) -> Self {
         let series = self.with_known_errors(errors);
         let style = if series.errors.is_some() { SeriesStyle::Band } else { SeriesStyle::Line };

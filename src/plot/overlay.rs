@@ -8,7 +8,6 @@ const MOST_NAMES: usize = 12;
 
 /// The curves of a quantity over each other, against time, each with a name that tells its run from the others. Curves
 /// on a scale of colours are named at even distances where there are too many of them.
-#[must_use]
 pub(crate) fn overlay_chart(
     title: &str,
     subtitle: &str,

@@ -79,11 +79,8 @@ pub fn autocorrelation_chart(
     let mut panel = Panel::new("Lag (time units)", &format!("Normalised {quantity} autocorrelation"));
     let name = if fit.is_empty() { "autocorrelation" } else { "measured" };
     let few = lags.len() <= MOST_MARKERS;
-    let measured = if few {
-        Series::markers(name, pairs(lags, values))
-    } else {
-        Series { style: SeriesStyle::Band, ..Series::line(name, pairs(lags, values)) }
-    };
+    let style = if few { SeriesStyle::Markers } else { SeriesStyle::Band };
+    let measured = Series { style, ..Series::line(name, pairs(lags, values)) };
     panel.series.push(measured.with_known_errors(errors.to_vec()));
     if !fit.is_empty() {
         // Over separate points; under a line, which it would hide.

@@ -1,7 +1,7 @@
 //! Charts of profiles along an axis of the box.
 
-use super::chart::{Chart, Panel, Series, SeriesInk, SeriesStyle};
-use super::points::{MOST_MARKERS, pairs};
+use super::chart::{Chart, Panel, SeriesInk, SeriesStyle};
+use super::points::MOST_MARKERS;
 use super::quantities::axis_label;
 use crate::numbers::short;
 use crate::quantity::Unit;
@@ -45,20 +45,13 @@ pub fn profiles_chart(
     densities: &[ProfiledSpecies],
     temperature: Option<f64>,
 ) -> Chart {
-    let positions = table.values("position");
-    let few = positions.len() <= MOST_MARKERS;
-    let series = |column: &str, name: &str| {
-        let values = table.column(column)?;
-        let points = pairs(&positions, &values);
-        let style = if few { SeriesStyle::LineMarkers } else { SeriesStyle::Band };
-        let series = Series { style, ..Series::line(name, points) };
-        Some(series.with_known_errors(table.values(&format!("{column}_error"))))
-    };
     let along = format!("Position along {axis} (length units)");
     let panel = |label: &str, columns: &[(&str, &str)]| {
-        let found = columns.iter().filter_map(|(column, name)| series(column, name)).enumerate();
-        let series = found.map(|(number, series)| series.with_ink(SeriesInk::Numbered(number))).collect();
-        Panel { series, ..Panel::new(&along, label) }
+        let mut panel = Panel::new(&along, label).with_columns(table, "position", columns.iter().copied());
+        if table.rows.len() <= MOST_MARKERS {
+            panel.series.iter_mut().for_each(|series| series.style = SeriesStyle::LineMarkers);
+        }
+        panel
     };
     let columns: Vec<_> = densities.iter().map(|of| (of.column.as_str(), of.name.as_str())).collect();
     let mut density = panel(&axis_label("Number density", Unit::Density, dimension), &columns);

@@ -166,7 +166,6 @@ pub(super) fn axis_label(name: &str, unit: Unit, dimension: usize) -> String {
 }
 
 /// The label of an axis for a column of the table of energies, with its unit.
-#[must_use]
 pub(crate) fn quantity_label(quantity: &str, relative: bool) -> String {
     let name = capitalised(&quantity.replace("center", "centre").replace('_', " "));
     if relative {

@@ -1,6 +1,6 @@
 //! Charts of the pressure tensor.
 
-use super::chart::{Chart, Mean, Panel, Series, SeriesInk};
+use super::chart::{Chart, Mean, Panel};
 use super::quantities::{TIME, axis_label};
 use crate::measure::statistics::Estimate;
 use crate::quantity::Unit;
@@ -25,17 +25,15 @@ use crate::table::Table;
 #[must_use]
 pub fn stress_chart(title: &str, table: &Table, means: &dyn Fn(&str) -> Option<Mean>) -> Chart {
     let dimension = if table.column("pressure_zz").is_some() { 3 } else { 2 };
-    let panel = |name: &str, components: &[&str]| {
-        let mut panel = Panel::new(TIME, &axis_label(name, Unit::Pressure, dimension)).settled();
-        for (number, component) in components.iter().enumerate() {
-            if let Some(points) = table.over_time(&format!("pressure_{component}"), 1.0) {
-                let series = Series::line(&format!("P_{{{component}}}"), points).with_ink(SeriesInk::Numbered(number));
-                panel.series.push(Series { mean: means(component), ..series });
-            }
-        }
+    let panel = |name: &str, components: [&str; 3]| {
+        let columns = components.map(|component| (format!("pressure_{component}"), format!("P_{{{component}}}")));
+        let panel = Panel::new(TIME, &axis_label(name, Unit::Pressure, dimension)).settled();
+        let mut panel = panel.with_columns(table, "time", columns);
+        // Two dimensions lack the last of them.
+        panel.series.iter_mut().zip(components).for_each(|(series, component)| series.mean = means(component));
         panel
     };
-    let panels = [panel("Normal pressure", &["xx", "yy", "zz"]), panel("Shear stress", &["xy", "xz", "yz"])];
+    let panels = [panel("Normal pressure", ["xx", "yy", "zz"]), panel("Shear stress", ["xy", "xz", "yz"])];
     Chart::of_found(title, "pressure tensor", panels)
 }
 
@@ -57,11 +55,7 @@ pub fn stress_chart(title: &str, table: &Table, means: &dyn Fn(&str) -> Option<M
 #[must_use]
 pub fn stress_correlation_chart(title: &str, table: &Table, viscosity: Option<Estimate>) -> Chart {
     let panel = |column: &str, label: &str, name: &str| {
-        let mut panel = Panel::new("Lag (time units)", label);
-        if let Some(points) = table.over_time(column, 1.0) {
-            panel.series.push(Series::line(name, points).with_band(table.values(&format!("{column}_error"))));
-        }
-        panel.with_reference("zero", 0.0)
+        Panel::new("Lag (time units)", label).with_columns(table, "time", [(column, name)]).with_reference("zero", 0.0)
     };
     let name = viscosity.map_or("sum up to the lag".to_owned(), |found| format!("η = {found} at the longest lag"));
     let correlation = panel("autocorrelation", "Autocorrelation of the shear stress, times V/kT", "autocorrelation");

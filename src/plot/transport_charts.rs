@@ -37,30 +37,23 @@ pub fn diffusion_chart(
     einstein: Option<Estimate>,
     green_kubo: Option<Estimate>,
 ) -> Chart {
-    let mut chart = Chart { title: title.to_owned(), ..Chart::default() };
+    let (x, y) = (Axis::log(LAG), Axis::log("Mean squared displacement (length units²)"));
+    let mut displacement = Panel { x, y, ..Panel::default() };
     if let Some(points) = table.over_time("mean_squared_displacement", 1.0) {
-        let (x, y) = (Axis::log(LAG), Axis::log("Mean squared displacement (length units²)"));
-        let mut panel = Panel { x, y, ..Panel::default() };
         // At lag zero the displacement is zero by definition and has no logarithm.
         let shown = points.iter().copied().filter(|point| point[0] > 0.0).collect();
-        panel.series.push(Series::line("displacement", shown));
+        displacement.series.push(Series::line("displacement", shown));
         if let Some(found) = einstein {
             let slope = 2.0 * dimension as f64 * found.value;
             let name = format!("{} D t + b, D = {found}", 2 * dimension);
-            panel.series.push(Series::compared(&name, displacement_line(&points, slope)));
+            displacement.series.push(Series::compared(&name, displacement_line(&points, slope)));
         }
-        chart.panels.push(panel);
     }
-    if let Some(points) = table.over_time("velocity_autocorrelation", 1.0) {
-        let panel = Panel::new(LAG, "Velocity autocorrelation (length units²/time unit²)");
-        let name = green_kubo.map_or_else(
-            || "autocorrelation".to_owned(),
-            |found| format!("autocorrelation; from its integral D = {found}"),
-        );
-        let series = Series::line(&name, points).with_band(table.values("velocity_autocorrelation_error"));
-        chart.panels.push(panel.with(series).with_reference("zero", 0.0));
-    }
-    chart
+    let name = green_kubo.map(|found| format!("autocorrelation; from its integral D = {found}"));
+    let columns = [("velocity_autocorrelation", name.as_deref().unwrap_or("autocorrelation"))];
+    let correlation = Panel::new(LAG, "Velocity autocorrelation (length units²/time unit²)");
+    let correlation = correlation.with_columns(table, "time", columns).with_reference("zero", 0.0);
+    Chart::of_found(title, "", [displacement, correlation])
 }
 
 /// The line of a slope through the second half of mean squared displacements, with weights 1/t² as in

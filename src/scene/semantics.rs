@@ -114,18 +114,15 @@ fn check_number_of_particles(scene: &Scene, problems: &mut Problems) {
     if total <= MOST_PARTICLES as f64 {
         return;
     }
-    let largest = amounts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-    let path = match largest.map(|(index, _)| (index, &scene.particles[index])) {
+    let of_groups = scene.particles.iter().enumerate().zip(&amounts);
+    let path = match of_groups.max_by(|a, b| a.1.total_cmp(b.1)).map(|(group, _)| group) {
         Some((index, group)) if group.count.is_some() => format!("particles[{index}].count"),
         Some((index, group)) if group.number_density.is_some() => format!("particles[{index}].number_density"),
         _ => "particles".to_owned(),
     };
-    let gibibytes = total * BYTES_PER_PARTICLE as f64 / (1_u64 << 30) as f64;
-    let found = format!(
-        "{} particles in the scene, which need {} GiB at {BYTES_PER_PARTICLE} bytes each",
-        quantity(total),
-        quantity(gibibytes)
-    );
+    let [total, gibibytes] = [total, total * BYTES_PER_PARTICLE as f64 / (1_u64 << 30) as f64].map(quantity);
+    let found =
+        format!("{total} particles in the scene, which need {gibibytes} GiB at {BYTES_PER_PARTICLE} bytes each");
     let accepted = format!("at most {MOST_PARTICLES} particles, since they are numbered by 32-bit words");
     problems.refuse(path, found, accepted);
 }
@@ -216,9 +213,8 @@ fn check_durations(scene: &Scene, problems: &mut Problems) {
             problems.refuse(format!("output.{path}"), distance, accepted);
         }
     }
-    if let Some(interfaces) =
-        output.stress.as_ref().filter(|asked| asked.normal.is_none()).and_then(|asked| asked.interfaces)
-    {
+    let without_normal = output.stress.as_ref().filter(|asked| asked.normal.is_none());
+    if let Some(interfaces) = without_normal.and_then(|asked| asked.interfaces) {
         problems.refuse("output.stress.interfaces", interfaces, "`normal`, the axis across them, beside it");
     }
 }
@@ -241,11 +237,8 @@ fn check_wave_numbers(factor: &StructureFactor, scene: &Scene, problems: &mut Pr
             format!("at least {least:.4}, the wave number of one wave along the longest periodic edge of the box");
         problems.refuse(format!("{path}.range"), factor.range, accepted);
     }
-    let species = if factor.species.is_some() || scene.particles.iter().any(ParticleGroup::is_frozen) {
-        scene.particles.len()
-    } else {
-        1
-    };
+    let is_told_apart = factor.species.is_some() || scene.particles.iter().any(ParticleGroup::is_frozen);
+    let species = if is_told_apart { scene.particles.len() } else { 1 };
     let waves = u64::from(factor.bins) * u64::from(factor.vectors) * species.max(1) as u64;
     if waves > MOST_WAVES {
         let found = format!("{} bins of {} wave vectors and {species} species", factor.bins, factor.vectors);
@@ -293,8 +286,19 @@ fn check_species_of_analyses(scene: &Scene, species: &SpeciesNames<'_>, problems
             problems.refuse(path, format!("\"{name}\", which is held"), accepted);
         }
     }
-    for (path, name) in scene.output.placed_species() {
-        if species.check(name, path, problems) && is(name, ParticleGroup::is_frozen) {
+    let mut placed: Vec<(String, &str)> = Vec::new();
+    placed.extend(scene.output.placed_species().map(|(path, name)| (path.to_owned(), name)));
+    for (path, pairs, bins) in scene.output.pairs_of_species() {
+        match pairs {
+            CountedPairs::Within(all) if all == CountedPairs::ALL => check_all_pairs(species, path, bins, problems),
+            CountedPairs::Within(name) => placed.push((path.to_owned(), name)),
+            CountedPairs::Between(names) => {
+                placed.extend((0..).zip(names).map(|(place, name)| (format!("{path}[{place}]"), name.as_str())));
+            }
+        }
+    }
+    for (path, name) in placed {
+        if species.check(name, &path, problems) && is(name, ParticleGroup::is_frozen) {
             let accepted = "a species that is not frozen behind walls, where nothing is counted";
             problems.refuse(path, format!("\"{name}\", which is frozen"), accepted);
         }
@@ -305,53 +309,20 @@ fn check_species_of_analyses(scene: &Scene, species: &SpeciesNames<'_>, problems
             species.check(name, &format!("output.{key}.species[{index}]"), problems);
         }
     }
-    for (path, pairs, bins) in scene.output.pairs_of_species() {
-        check_pairs(pairs, path, bins, scene, species, problems);
-    }
 }
 
-/// Pairs of species name those that there are, and that are not frozen.
-fn check_pairs(
-    pairs: &CountedPairs,
-    path: &str,
-    bins: u32,
-    scene: &Scene,
-    species: &SpeciesNames<'_>,
-    problems: &mut Problems,
-) {
-    let names: Vec<(String, &str)> = match pairs {
-        CountedPairs::Within(name) if name == CountedPairs::ALL => {
-            let pairs = species.count() as u64 * (species.count() as u64 + 1) / 2;
-            let found = format!("{pairs} pairs of species with {bins} bins each");
-            let pair = "`species` with one or two names";
-            match MOST_BINS / pairs.max(1) {
-                _ if species.place(name).is_some() => {
-                    let accepted = format!("[\"{name}\", \"{name}\"] for pairs of the species, or another name of it");
-                    problems.refuse(path, format!("\"{name}\", which is also a species"), accepted);
-                }
-                0 => problems.refuse(path, found, pair),
-                most if most < u64::from(bins) => {
-                    problems.refuse(
-                        path,
-                        found,
-                        format!("at most {MOST_BINS} bins in all: `bins` up to {most}, or {pair}"),
-                    );
-                }
-                _ => {}
-            }
-            Vec::new()
-        }
-        CountedPairs::Within(name) => vec![(path.to_owned(), name.as_str())],
-        CountedPairs::Between(names) => {
-            names.iter().enumerate().map(|(place, name)| (format!("{path}[{place}]"), name.as_str())).collect()
-        }
-    };
-    let is_frozen = |name: &str| scene.particles.iter().any(|group| group.species == name && group.is_frozen());
-    for (path, name) in names {
-        if species.check(name, &path, problems) && is_frozen(name) {
-            let accepted = "a species that is not frozen behind walls, where nothing is counted";
-            problems.refuse(path, format!("\"{name}\", which is frozen"), accepted);
-        }
+/// All pairs of species have so many bins that a workgroup holds them; `all` names no species.
+fn check_all_pairs(species: &SpeciesNames<'_>, path: &str, bins: u32, problems: &mut Problems) {
+    let (all, pairs) = (CountedPairs::ALL, species.count() as u64 * (species.count() as u64 + 1) / 2);
+    let pair = "`species` with one or two names";
+    let most = MOST_BINS / pairs.max(1);
+    if species.place(all).is_some() {
+        let accepted = format!("[\"{all}\", \"{all}\"] for pairs of the species, or another name of it");
+        problems.refuse(path, format!("\"{all}\", which is also a species"), accepted);
+    } else if most < u64::from(bins) {
+        let fewer = format!("at most {MOST_BINS} bins in all: `bins` up to {most}, or {pair}");
+        let accepted = if most == 0 { pair } else { &fewer };
+        problems.refuse(path, format!("{pairs} pairs of species with {bins} bins each"), accepted);
     }
 }
 

@@ -72,7 +72,6 @@ impl Function {
     ];
 
     /// As WGSL writes it.
-    #[must_use]
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Quotient => "x / y",

@@ -60,13 +60,11 @@ impl Choices {
     }
 
     /// These and a variant, under a condition.
-    #[must_use]
     pub(crate) fn with_if(self, condition: bool, variant: impl Into<Choice>) -> Self {
         if condition { self.with(variant) } else { self }
     }
 
     /// These and a variant, if there is one.
-    #[must_use]
     pub(crate) fn with_any(self, variant: Option<impl Into<Choice>>) -> Self {
         match variant {
             Some(variant) => self.with(variant),
@@ -75,7 +73,6 @@ impl Choices {
     }
 
     /// These and others, which replace those of the same slots.
-    #[must_use]
     pub(crate) fn and(mut self, others: &Self) -> Self {
         others.0.iter().for_each(|choice| self.choose(*choice));
         self

@@ -135,7 +135,6 @@ impl Library {
     }
 
     /// The same files, some of which are parts of others, by their paths.
-    #[must_use]
     pub(crate) fn with_sources(mut self, sources: &[(&'static str, &'static str)]) -> Self {
         for file in &mut self.files {
             let shared = sources.iter().find(|(path, _)| *path == file.path);

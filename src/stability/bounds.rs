@@ -97,7 +97,7 @@ fn ends_outside(
 
 /// What laws say of one scene; none where it is none.
 fn limits(request: &Request, row: usize, value: f64) -> Result<Option<Vec<families::Limit>>, SceneError> {
-    match request.varied(row, value) {
+    match request.varied(row, value, 0) {
         Ok(scene) => Ok(Some(families::limits(&scene))),
         // That says nothing about the scene.
         Err(error @ (SceneError::Read { .. } | SceneError::StateChanged { .. })) => Err(error),

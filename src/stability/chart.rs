@@ -41,13 +41,10 @@ pub(super) fn chart(summary: &StabilitySummary, request: &Request) -> Chart {
 fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Panel {
     let key = &name_of(request.row_key().unwrap_or_default(), request);
     let numbers = request.row_numbers();
-    let y = if let Some((_, spacing)) = &numbers {
-        axis(key, *spacing)
-    } else {
-        let name =
-            |row: &Row| row.setting.as_ref().map_or_else(|| "the scene".to_owned(), |setting| readable(&setting.value));
-        Axis::categories(key, summary.rows.iter().map(name).collect())
-    };
+    let value = |row: &Row| row.setting.as_ref().map(|setting| readable(&setting.value));
+    let name = |row: &Row| value(row).unwrap_or_else(|| "the scene".to_owned());
+    let named = || Axis::categories(key, summary.rows.iter().map(name).collect());
+    let y = numbers.as_ref().map_or_else(named, |(_, spacing)| axis(key, *spacing));
     let height = |row: usize| numbers.as_ref().map_or(row as f64, |(numbers, _)| numbers[row]);
     let rows = || summary.rows.iter().enumerate();
     let mut panel = Panel { x: axis(&name_of(&summary.key, request), summary.spacing), y, ..Panel::default() };

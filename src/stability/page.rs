@@ -121,21 +121,17 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
         let (date, version) = (&summary.date, &summary.mesoscope_version);
         format!(" {date}, {} ({}), version {version}.", adapter.name, adapter.driver)
     });
-    let seeds = summary
-        .arguments
-        .seeds
-        .map(|seeds| format!(" Means are over {seeds} seeds, with errors from their scatter."))
-        .unwrap_or_default();
+    let seeds = summary.arguments.seeds;
+    let averaged = seeds.map(|seeds| format!(" Means are over {seeds} seeds, with errors from their scatter."));
     let right = summary.right_in_a_word();
     let header = ["row".to_owned(), format!("{right}: {key} up to"), "unstable from".to_owned(), "laws".to_owned()];
+    let title = format!("# {}: how far it may go", request.base.title);
+    let [averaged, begun] = [averaged, begun].map(Option::unwrap_or_default);
+    let varied = format!("`{}` is varied. {meaning}{averaged}{begun}", summary.key);
+    let table = markdown([header].into_iter().chain(summary.in_words()).map(Vec::from), "---");
     let findings: Vec<String> = summary.findings().iter().map(|finding| format!("- {finding}")).collect();
-    let mut paragraphs = vec![
-        format!("# {}: how far it may go", request.base.title),
-        format!("`{}` is varied. {meaning}{seeds}{}", summary.key, begun.unwrap_or_default()),
-        markdown([header].into_iter().chain(summary.in_words()).map(Vec::from), "---"),
-    ];
-    paragraphs.extend((!findings.is_empty()).then(|| findings.join("\n")));
-    paragraphs.join("\n\n") + "\n"
+    let paragraphs = [title, varied, table, findings.join("\n")].into_iter().filter(|text| !text.is_empty());
+    paragraphs.collect::<Vec<_>>().join("\n\n") + "\n"
 }
 
 impl StabilitySummary {

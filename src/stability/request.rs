@@ -124,7 +124,7 @@ impl Request {
         // A key that is misspelt, say: no scene at all is a mistake, some that are none are a result.
         let (mut first, mut is_one) = (None, false);
         for (row, value) in request.places() {
-            match request.scene(row, value) {
+            match request.scene(row, value, 0) {
                 Ok(scene) => {
                     request.arguments.state_files.note(&scene);
                     is_one = true;
@@ -214,7 +214,6 @@ impl Request {
     }
 
     /// Scenes of the grid.
-    #[must_use]
     pub(crate) fn cell_count(&self) -> usize {
         self.row_count() * self.along.values.len()
     }
@@ -260,13 +259,8 @@ impl Request {
         ShortKeys::of(&self.keys())
     }
 
-    /// A scene of the map, with the length that the base has.
-    pub(super) fn varied(&self, row: usize, value: f64) -> Result<Checked, SceneError> {
-        self.seeded(row, value, 0)
-    }
-
-    /// The same with the seed that is `further` places after that of the base.
-    fn seeded(&self, row: usize, value: f64, further: u32) -> Result<Checked, SceneError> {
+    /// A scene of the map, with the length that the base has and the seed that is `further` places after its own.
+    pub(super) fn varied(&self, row: usize, value: f64, further: u32) -> Result<Checked, SceneError> {
         let along = Setting { key: self.along.key.clone(), value: number_of(value) };
         let settings = self.setting(row).into_iter().chain([along]).map(|setting| setting.argument());
         let settings: Vec<String> = settings.chain(further_seed(self.base.seed, further)).collect();
@@ -274,14 +268,9 @@ impl Request {
         scene.clone().with(&settings).check_among(state_files, StepCheck::Allow)
     }
 
-    /// A scene of the map, over the common stretch of time.
-    pub(super) fn scene(&self, row: usize, value: f64) -> Result<Checked, SceneError> {
-        self.scene_with_seed(row, value, 0)
-    }
-
-    /// The same with each seed.
+    /// A scene of the map over the common stretch of time with each seed.
     pub(super) fn scenes(&self, row: usize, value: f64) -> Result<Vec<Checked>, SceneError> {
-        (0..self.seeds()).map(|further| self.scene_with_seed(row, value, further)).collect()
+        (0..self.seeds()).map(|further| self.scene(row, value, further)).collect()
     }
 
     /// The independent runs of each scene.
@@ -289,8 +278,9 @@ impl Request {
         self.arguments.seeds.unwrap_or(1)
     }
 
-    fn scene_with_seed(&self, row: usize, value: f64, further: u32) -> Result<Checked, SceneError> {
-        let found = self.seeded(row, value, further)?;
+    /// A scene of the map over the common stretch of time, with such a seed.
+    pub(super) fn scene(&self, row: usize, value: f64, further: u32) -> Result<Checked, SceneError> {
+        let found = self.varied(row, value, further)?;
         let stretch = Stretch::of(&self.base);
         let step = found.time.step;
         // However long the steps, there are enough of them to see what becomes of the scene.
@@ -306,7 +296,7 @@ impl Request {
 
     /// What tells this map from others: its scenes, and what is right.
     pub(super) fn id(&self) -> Id {
-        let scenes = self.places().into_iter().filter_map(|(row, value)| self.scene(row, value).ok());
+        let scenes = self.places().into_iter().filter_map(|(row, value)| self.scene(row, value, 0).ok());
         Id::of_study(scenes.map(|scene| Id::of_run(&scene)), &self.arguments)
     }
 }
@@ -366,7 +356,7 @@ mod tests {
         let time = |scene: &Checked| (scene.time.steps - scene.time.equilibration) as f64 * scene.time.step;
         let wanted = time(&map.base);
         for value in &map.along.values {
-            let scene = map.scene(0, *value).unwrap();
+            let scene = map.scene(0, *value, 0).unwrap();
             let averaged = scene.time.steps - scene.time.equilibration;
             assert!(averaged >= 256 && averaged / scene.output.energies.every >= 64, "{value}");
             assert!(time(&scene) >= wanted * (1.0 - 1e-12), "{value}");

@@ -52,7 +52,7 @@ impl StudyRun<StabilitySummary> {
         // Beside those of the grid there may be so many that locate edges, in every row.
         let (bisections, points) = (self.request.arguments.bisections as usize, self.request.along.values.len());
         let more = (MOST_EDGES * bisections) as f64 / points.max(1) as f64;
-        let scenes = waiting.iter().filter_map(|(row, value)| self.request.scene(*row, *value).ok());
+        let scenes = waiting.iter().filter_map(|(row, value)| self.request.scene(*row, *value, 0).ok());
         let scenes: Vec<Checked> = scenes.collect();
         let seconds = self.expected(&scenes, &gpu).map(|seconds| (1.0 + more) * seconds);
         self.refuse_long(seconds.unwrap_or_default())?;

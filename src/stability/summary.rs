@@ -91,7 +91,6 @@ impl Row {
     }
 
     /// Where the first scenes become unstable: the largest value before, and the value at which it is seen.
-    #[must_use]
     pub(crate) fn unstable_from(&self) -> Option<(Option<f64>, f64)> {
         let first = self.cells.iter().position(|cell| cell.verdict == Verdict::Unstable)?;
         Some((first.checked_sub(1).map(|before| self.cells[before].value), self.cells[first].value))
@@ -115,13 +114,11 @@ impl Row {
 
 impl StabilitySummary {
     /// The largest error of what is right.
-    #[must_use]
     pub(crate) fn tolerance(&self) -> f64 {
         self.arguments.tolerance
     }
 
     /// Whether no run is compared with anything: no law says what should be, or there are too few particles for what it says.
-    #[must_use]
     pub(crate) fn compares_nothing(&self) -> bool {
         let cells = || self.rows.iter().flat_map(|row| &row.cells);
         let is_all_undefined =

@@ -86,7 +86,6 @@ pub struct Chunk {
 
 impl Chunk {
     /// Bytes of a number; none of an unknown type.
-    #[must_use]
     pub(crate) fn size(self) -> Option<u64> {
         match self.kind {
             1 | 5 | 11 => Some(1),
@@ -98,7 +97,6 @@ impl Chunk {
     }
 
     /// Where it begins in the file.
-    #[must_use]
     pub(crate) fn location(&self) -> u64 {
         self.location
     }
@@ -206,7 +204,6 @@ impl GsdReader {
     }
 
     /// The program that wrote the file.
-    #[must_use]
     pub(crate) fn application(&self) -> Cow<'_, str> {
         text(&self.header.application)
     }
@@ -224,7 +221,6 @@ impl GsdReader {
     }
 
     /// The name of an array; none where the list has no such place.
-    #[must_use]
     pub(crate) fn name(&self, chunk: Chunk) -> Option<&str> {
         self.names.get(usize::from(chunk.name)).map(String::as_str)
     }

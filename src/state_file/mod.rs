@@ -120,7 +120,6 @@ impl Mistake {
     }
 
     /// What is found, with the file and the place.
-    #[must_use]
     pub(crate) fn found_in(&self, path: &Path) -> String {
         let comma = if self.place.is_empty() { "" } else { ", " };
         format!("`{}`{comma}{}: {}", printable::path(path), self.place, self.found)
@@ -332,14 +331,12 @@ impl ParticleFile {
     }
 
     /// What the file calls a particle.
-    #[must_use]
     pub(crate) fn number(&self, particle: usize) -> u64 {
         self.numbers.get(particle).copied().unwrap_or(particle as u64)
     }
 
     /// What is wrong with the particles in a box of so many dimensions, but for their velocities: axes beyond are not looked at. Across some axes
     /// there are walls, along which nothing is periodic; where positions are wrapped, along the others they may be anywhere.
-    #[must_use]
     pub(crate) fn mistakes(&self, dimension: usize, lengths: [f64; 3], walled: [bool; 3], wraps: bool) -> Vec<Mistake> {
         let mut mistakes = Mistakes::default();
         let mut nowhere = Tally::default();
@@ -389,7 +386,6 @@ impl ParticleFile {
     }
 
     /// What is wrong with the velocities in so many dimensions, which matters where they are used.
-    #[must_use]
     pub(crate) fn mistakes_of_velocities(&self, dimension: usize) -> Vec<Mistake> {
         let mut mistakes = self.velocity_mistakes.clone();
         let is_endless =

@@ -99,7 +99,6 @@ impl Kind {
     }
 
     /// Whether it may have written a file of this name.
-    #[must_use]
     pub(crate) fn has_file(&self, name: &str) -> bool {
         name == self.summary || self.files.contains(&name) || self.has_plots && self.is_plot(name)
     }

@@ -43,13 +43,11 @@ impl Shard {
     }
 
     /// Its number, from one.
-    #[must_use]
     pub(crate) fn number(self) -> u64 {
         self.number
     }
 
     /// How many there are.
-    #[must_use]
     pub(crate) fn count(self) -> u64 {
         self.count
     }

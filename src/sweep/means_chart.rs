@@ -88,10 +88,7 @@ impl<'a> MeansAxis<'a> {
         // Of equals the first.
         let chosen = varied().rev().max_by_key(most)?;
         let short = ShortKeys::of(&[&chosen.key]);
-        let scene = sweep.variants().first().map(|variant| &*variant.scene);
-        let short = short.short(&chosen.key);
-        let label = scene.map_or_else(|| short.to_owned(), |scene| parameter_label(&chosen.key, short, scene));
-        let label = label.as_str();
+        let label = &parameter_label(&chosen.key, short.short(&chosen.key), &sweep.variants().first()?.scene);
         let (axis, places) = if let Some(places) = numbers(&chosen.values) {
             (if is_geometric(&places) { Axis::log(label) } else { Axis::linear(label) }, places)
         } else {
@@ -139,7 +136,7 @@ impl<'a> MeansAxis<'a> {
                 (true, false) => &name,
             };
             let style = if self.axis.categories.is_empty() { SeriesStyle::LineMarkers } else { SeriesStyle::Markers };
-            panel.series.push(Series { style, ..Series::markers(name, points).with_errors(errors).with_few(few) });
+            panel.series.push(Series { style, few, ..Series::markers(name, points).with_errors(errors) });
         }
         let places: Vec<f64> = panel.series.iter().flat_map(|series| &series.points).map(|point| point[0]).collect();
         places.iter().any(|place| *place != places[0]).then_some(panel)

@@ -51,11 +51,9 @@ pub(super) fn charts<'c>(
         });
         let groups = by_key(found);
         let averaged = groups.iter().any(|(_, members)| members.len() > 1);
-        let curves: Vec<Series> = groups
-            .iter()
-            .enumerate()
-            .flat_map(|(number, ((settings, _), members))| curves_of_seeds(number, settings, members))
-            .collect();
+        let numbered = (0..).zip(&groups);
+        let curves = numbered.flat_map(|(number, ((own, _), members))| curves_of_seeds(number, own, members));
+        let curves: Vec<Series> = curves.collect();
         if curves.is_empty() || look.quantities.is_empty() && !changes(&curves) {
             return None;
         }

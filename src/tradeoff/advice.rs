@@ -6,6 +6,7 @@ use super::reference::Source;
 use super::summary::{Choice, ChoiceState, TradeoffSummary};
 use super::target::{Target, Verdict};
 use crate::numbers::{counted, short, with_error};
+use crate::plot::capitalised;
 use crate::study::table::{list, markdown};
 use crate::study::{Setting, by_key, each_once, in_hours};
 
@@ -75,10 +76,14 @@ impl TradeoffSummary {
     /// Caveats about the numbers, line by line.
     #[must_use]
     pub fn notes(&self) -> Vec<String> {
-        let keys = self.physical_keys.join("`, `");
-        let physical = (!keys.is_empty()).then(|| {
-            format!("`{keys}` changes what is simulated, and not only how it is computed: all choices are compared with the scene as it is.")
-        });
+        let mut notes = Vec::new();
+        if !self.physical_keys.is_empty() {
+            let keys = self.physical_keys.join("`, `");
+            notes.push(format!(
+                "`{keys}` changes what is simulated, and not only how it is computed: all choices are compared with \
+                 the scene as it is."
+            ));
+        }
         let spoilt = |choice: &Choice| {
             let (label, columns) = (&choice.label, choice.unequilibrated.join(", "));
             choice.unequilibrated.iter().any(|column| self.measures.contains(column)).then(|| {
@@ -86,30 +91,31 @@ impl TradeoffSummary {
             })
         };
         // A choice may be the run that others are compared with.
-        let spoilt = each_once(self.choices.iter().chain(&self.finer).filter_map(spoilt));
+        notes.extend(each_once(self.choices.iter().chain(&self.finer).filter_map(spoilt)));
         let measured = self.choices.iter().filter(|choice| choice.measured.iter().any(|found| found.fluctuates));
         let alike = by_key(measured.map(|choice| ((choice.steps, &choice.measured), format!("`{}`", choice.label))));
-        let same_runs = alike.into_iter().map(|(_, labels)| labels).filter(|labels| labels.len() > 1).map(|labels| {
-            format!(
-                "{} are the same run, to the last digit of all that is measured: what tells them apart can only change what a step costs.",
-                labels.join(" and ")
-            )
-        });
+        for (_, labels) in alike.into_iter().filter(|(_, labels)| labels.len() > 1) {
+            let labels = labels.join(" and ");
+            notes.push(format!(
+                "{labels} are the same run, to the last digit of all that is measured: what tells them apart can only \
+                 change what a step costs."
+            ));
+        }
         // Nothing of a deterministic scene depends on its seed.
         let copied: Vec<&str> = self.with_seeds_alike().map(|choice| choice.label.as_str()).collect();
-        let copied = (!copied.is_empty()).then(|| {
-            format!(
-                "All seeds of {} gave the same numbers, whose errors are those of one run: nothing that was measured \
-                 depends on the seed.",
-                copied.join(" and ")
-            )
-        });
+        if !copied.is_empty() {
+            let copied = copied.join(" and ");
+            notes.push(format!(
+                "All seeds of {copied} gave the same numbers, whose errors are those of one run: nothing that was \
+                 measured depends on the seed."
+            ));
+        }
         // Choices that came to their end though a run of their scene alone is refused.
-        let refused = self.finished().filter_map(|choice| {
+        notes.extend(self.finished().filter_map(|choice| {
             let (label, refusal) = (&choice.label, choice.refusal.as_ref()?);
             Some(format!("{label} is never chosen, for `mesoscope run` refuses its scene: {refusal}."))
-        });
-        physical.into_iter().chain(spoilt).chain(same_runs).chain(copied).chain(refused).collect()
+        }));
+        notes
     }
 
     /// What every choice costs and how far it is off, a row for each below the names of the columns. `*` marks errors on the Pareto
@@ -165,12 +171,12 @@ pub(super) fn page(summary: &TradeoffSummary, title: &str) -> String {
              which two hold the true value with 95 %."
         )
     });
-    let seeds = seeds.unwrap_or_default();
     let mut paragraphs = vec![
         format!("# What accuracy costs: {title}"),
         format!(
             "{count} choices, each averaged over {time} units of simulated time after {before} of equilibration, on {adapter}. \
-             Costs are medians of steps timed in turns, without reports.{seeds}"
+             Costs are medians of steps timed in turns, without reports.{}",
+            seeds.unwrap_or_default()
         ),
     ];
     paragraphs.extend(summary.notes());
@@ -320,12 +326,6 @@ fn conserved(summary: &TradeoffSummary) -> Vec<String> {
         format!("{whose}: {what}")
     };
     kinds.into_iter().map(in_words).collect()
-}
-
-/// The beginning of a sentence.
-fn capitalised(text: &str) -> String {
-    let mut rest = text.chars();
-    rest.next().into_iter().flat_map(char::to_uppercase).chain(rest).collect()
 }
 
 /// What a measure says.

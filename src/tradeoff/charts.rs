@@ -2,16 +2,19 @@
 
 use super::deviation::Deviation;
 use super::request::Request;
-use super::summary::{Choice, TradeoffSummary};
+use super::summary::TradeoffSummary;
 use crate::plot::{Axis, Chart, Panel, Series, SeriesInk};
-use crate::study::{Setting, ShortKeys, each_once, numbers, readable};
+use crate::study::{Setting, ShortKeys, by_key, numbers, readable};
 
 /// A choice in the picture.
 struct Point<'a> {
-    choice: &'a Choice,
     error: &'a Deviation,
     place: [f64; 2],
     bar: f64,
+    /// What the choices of a colour have in common: they differ in one key of numbers alone.
+    group: String,
+    /// What tells a choice from others of its colour.
+    label: String,
 }
 
 /// The chart of a measure; none where no choice has both a cost and an error.
@@ -20,16 +23,22 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     let relative = !reference.is_zero();
     let is_part = summary.choices.iter().find_map(|choice| choice.error(measure)).is_some_and(Deviation::is_part);
     let scale = if is_part { 100.0 } else { 1.0 };
+    let sweep = request.sweep();
+    let short = ShortKeys::of(&sweep.keys());
+    let varied = sweep.variations().iter().filter(|varied| numbers(&varied.values).is_some());
+    let labelled = varied.max_by_key(|varied| varied.values.len()).map(|varied| varied.key.as_str());
     let points = summary.choices.iter().filter_map(|choice| {
         let (error, cost) = (choice.error(measure)?, choice.cost?);
         let place = [cost.seconds_per_time, scale * error.on_log_axis()?];
-        Some(Point { choice, error, place, bar: scale * error.uncertainty.unwrap_or(0.0) })
+        let is_label = |setting: &&Setting| Some(setting.key.as_str()) == labelled;
+        let (own, common): (Vec<_>, Vec<_>) = choice.settings.iter().partition(is_label);
+        let [label, group] = [own, common].map(|settings| in_words(&settings, &short));
+        Some(Point { error, place, bar: scale * error.uncertainty.unwrap_or(0.0), group, label })
     });
     let points: Vec<Point<'_>> = points.collect();
     if points.is_empty() {
         return None;
     }
-    let groups = Groups::of(request);
     let what = measure.replace('_', " ");
     let unit = if is_part { " (%)" } else { "" };
     let mut panel = Panel {
@@ -40,21 +49,18 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     let (on_front, dominated): (Vec<_>, Vec<_>) = points.iter().partition(|point| point.error.on_front);
     let mut front: Vec<[f64; 2]> = on_front.iter().map(|point| point.place).collect();
     front.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    for name in each_once(points.iter().map(|point| groups.name(point.choice))) {
-        let own = on_front.iter().copied().filter(|point| groups.name(point.choice) == name);
-        let own: Vec<&Point<'_>> = own.collect();
+    for (group, mut own) in by_key(points.iter().map(|point| (point.group.as_str(), point))) {
+        own.retain(|point| point.error.on_front);
         if !own.is_empty() {
-            panel.series.push(series(&name, &own, &groups));
+            panel.series.push(series(group, &own));
         }
     }
     if !dominated.is_empty() {
-        let whole = |point: &Point<'_>| {
-            let (group, label) = (groups.name(point.choice), groups.label(point.choice));
-            [group, label].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join(", ")
+        let whole = |Point { group, label, .. }: &&Point<'_>| {
+            [group.as_str(), label].into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join(", ")
         };
-        let labels = dominated.iter().map(|point| whole(point)).collect();
-        let series = series("dominated", &dominated, &groups).with_ink(SeriesInk::Faint);
-        panel.series.push(series.with_labels(labels));
+        let labels = dominated.iter().map(whole).collect();
+        panel.series.push(Series { labels, ink: SeriesInk::Faint, ..series("dominated", &dominated) });
     }
     panel.series.push(Series::compared("Pareto front", front));
     let of_this = |target: &&super::Target| target.measure == measure && !target.is_part_of_nothing(relative);
@@ -71,49 +77,21 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     Some(Chart { title: format!("{}: {what}", request.base.title), subtitle, panels: vec![panel] })
 }
 
-fn series(name: &str, points: &[&Point<'_>], groups: &Groups<'_>) -> Series {
-    let labels = points.iter().map(|point| groups.label(point.choice)).collect();
-    let series = Series::markers(name, points.iter().map(|point| point.place).collect()).with_labels(labels);
+fn series(name: &str, points: &[&Point<'_>]) -> Series {
+    let labels = points.iter().map(|point| point.label.clone()).collect();
     let few = points.iter().map(|point| point.error.from_few_samples).collect();
-    series.with_errors(points.iter().map(|point| point.bar).collect()).with_few(few)
+    let series = Series::markers(name, points.iter().map(|point| point.place).collect());
+    Series { few, labels, ..series.with_errors(points.iter().map(|point| point.bar).collect()) }
 }
 
-/// Choices that differ in one key of numbers alone are of one colour, and labelled by their numbers.
-struct Groups<'a> {
-    short: ShortKeys,
-    /// The key whose values are the labels.
-    labelled: Option<&'a str>,
-}
-
-impl<'a> Groups<'a> {
-    fn of(request: &'a Request) -> Self {
-        let sweep = request.sweep();
-        let short = ShortKeys::of(&sweep.keys());
-        let varied = sweep.variations().iter().filter(|varied| numbers(&varied.values).is_some());
-        let labelled = varied.max_by_key(|varied| varied.values.len()).map(|varied| varied.key.as_str());
-        Self { short, labelled }
-    }
-
-    fn in_words(&self, settings: &[Setting], wanted: impl Fn(&str) -> bool) -> String {
-        let own = settings.iter().filter(|setting| wanted(&setting.key));
-        let words = own.map(|setting| {
-            let key = self.short.short(&setting.key);
-            let value = readable(&setting.value);
-            // A word says what it is of by itself.
-            if setting.value.is_string() || setting.value.is_object() { value } else { format!("{key} {value}") }
-        });
-        words.collect::<Vec<_>>().join(", ")
-    }
-
-    /// What the choices of a colour have in common.
-    fn name(&self, choice: &Choice) -> String {
-        self.in_words(&choice.settings, |key| Some(key) != self.labelled)
-    }
-
-    /// What tells a choice from others of its colour.
-    fn label(&self, choice: &Choice) -> String {
-        self.in_words(&choice.settings, |key| Some(key) == self.labelled)
-    }
+/// Settings of a choice in words.
+fn in_words(settings: &[&Setting], short: &ShortKeys) -> String {
+    let words = settings.iter().map(|Setting { key, value }| {
+        // A word says what it is of by itself.
+        let is_named = value.is_string() || value.is_object();
+        if is_named { readable(value) } else { format!("{} {}", short.short(key), readable(value)) }
+    });
+    words.collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

@@ -55,7 +55,6 @@ impl Deviation {
     }
 
     /// Whether it is a part of something: of the reference, or what a drift, a distance or a share is one of.
-    #[must_use]
     pub(crate) fn is_part(&self) -> bool {
         self.relative || measures::is_part(&self.measure)
     }
@@ -91,7 +90,6 @@ impl Deviation {
     }
 
     /// Whether the error may as well be zero: it is within two standard errors.
-    #[must_use]
     pub(crate) fn is_within_noise(&self) -> bool {
         self.uncertainty.is_some_and(|uncertainty| self.size() <= CONFIDENCE * uncertainty)
     }

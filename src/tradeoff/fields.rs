@@ -35,14 +35,16 @@ struct Squares {
 }
 
 /// √(Σ(a-b)²/Σ(b-⟨b⟩)²) by name, over both components of a velocity, where all of them are compared.
-fn distances_of<'f>(fields: impl Iterator<Item = (&'f str, Option<Squares>)>) -> Vec<(&'f str, f64)> {
-    let distance = |(name, parts): (&'f str, Vec<Option<Squares>>)| {
+fn distances_of(fields: Vec<(&str, Option<Squares>)>, end: &str, standard_error: Option<f64>) -> Vec<Measured> {
+    let distance = |(name, parts): (&str, Vec<Option<Squares>>)| {
         let parts: Vec<Squares> = parts.into_iter().collect::<Option<_>>()?;
         let sum = |of: fn(&Squares) -> f64| parts.iter().map(of).sum::<f64>();
         let distance = (sum(|part| part.between) / sum(|part| part.scale)).sqrt();
-        Some((name, distance)).filter(|(_, distance)| distance.is_finite())
+        let measured = || Measured::from_one_sample(format!("{name}{end}"), distance, standard_error);
+        distance.is_finite().then(measured)
     };
-    by_key(fields.map(|(field, squares)| (compared_as(field), squares))).into_iter().filter_map(distance).collect()
+    let named = fields.into_iter().map(|(field, squares)| (compared_as(field), squares));
+    by_key(named).into_iter().filter_map(distance).collect()
 }
 
 /// The distances of a run from a finer one at the same time, by name: √(Σ(a-b)²/Σ(b-⟨b⟩)²) for every field that both leave on common
@@ -55,9 +57,7 @@ pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<
             fields.push((field, on_common_nodes(&read_npy(&own)?, &read_npy(&other)?)));
         }
     }
-    let distances = distances_of(fields.into_iter());
-    let mut found: Vec<Measured> =
-        distances.into_iter().map(|(field, distance)| measured(field, DISTANCE, distance, None)).collect();
+    let mut found = distances_of(fields, DISTANCE, None);
     let name = AnalysisId::RadialDistribution.name();
     let [own, other] = [run, finer].map(|place| place.file(&format!("{name}.csv")));
     if own.exists() && other.exists() {
@@ -71,14 +71,11 @@ pub(super) fn distances(run: &RunDirectory, finer: &RunDirectory) -> Result<Vec<
         let differences = own_values.iter().zip(&other_values).map(|(a, b)| (a - b).powi(2));
         let squares: Vec<f64> = differences.filter(|square| square.is_finite()).collect();
         if own.columns == other.columns && own_values.len() == other_values.len() && !squares.is_empty() {
-            found.push(measured(name, DISTANCE, (squares.iter().sum::<f64>() / squares.len() as f64).sqrt(), None));
+            let distance = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+            found.push(Measured::from_one_sample(format!("{name}{DISTANCE}"), distance, None));
         }
     }
     Ok(found)
-}
-
-fn measured(name: &str, end: &str, value: f64, standard_error: Option<f64>) -> Measured {
-    Measured::from_one_sample(format!("{name}{end}"), value, standard_error)
 }
 
 /// Fields that say how far a flow is from another, whatever a scene draws.
@@ -121,8 +118,7 @@ pub(super) fn from_exact(scene: &Checked, run: &RunDirectory) -> Result<Vec<Meas
         let exact = (own.0.clone(), exact);
         fields.push((field.stem(), on_common_nodes(&own, &exact)));
     }
-    let from_exact = |(field, distance)| measured(field, FROM_EXACT, distance, Some(0.0));
-    Ok(distances_of(fields.into_iter()).into_iter().map(from_exact).collect())
+    Ok(distances_of(fields, FROM_EXACT, Some(0.0)))
 }
 
 /// The squares on the nodes that both meshes have; none where they are not multiples of each other.
@@ -177,14 +173,18 @@ mod tests {
     #[test]
     fn a_velocity_is_one_vector_whose_direction_counts() {
         let squares = |between, scale| Some(Squares { between, scale });
-        let fields = [
+        let fields = vec![
             ("depth", squares(4.0, 16.0)),
             ("velocity_x", squares(0.0, 2.0)),
             ("velocity_y", squares(32.0, 6.0)),
             ("speed", squares(0.0, 0.0)),
         ];
         // A flow along y that is turned round has the same speed, and is twice its own size away.
-        assert_eq!(distances_of(fields.into_iter()), [("depth", 0.5), ("velocity", 2.0)]);
-        assert_eq!(distances_of([("velocity_x", squares(1.0, 1.0)), ("velocity_y", None)].into_iter()), []);
+        let found = |fields| -> Vec<(String, f64)> {
+            let found = distances_of(fields, DISTANCE, None).into_iter();
+            found.map(|found| (found.measure, found.value)).collect()
+        };
+        assert_eq!(found(fields), [("depth_distance".to_owned(), 0.5), ("velocity_distance".to_owned(), 2.0)]);
+        assert_eq!(found(vec![("velocity_x", squares(1.0, 1.0)), ("velocity_y", None)]), []);
     }
 }

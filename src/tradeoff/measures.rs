@@ -174,10 +174,8 @@ pub(super) fn usual(measured: &[Measured]) -> Vec<String> {
     let drift_alone = known(ENERGY_DRIFT);
     let columns =
         Quantity::usual().map(|usual| usual.name).filter(|name| !drift_alone && known(name)).map(str::to_owned);
-    let others = measured.iter().filter(|found| {
-        let of_analysis = found.measure.contains('.') && found.standard_error.is_some();
-        of_analysis || !found.fluctuates
-    });
+    let is_of_analysis = |found: &Measured| found.measure.contains('.') && found.standard_error.is_some();
+    let others = measured.iter().filter(|found| !found.fluctuates || is_of_analysis(found));
     columns.chain(others.map(|found| found.measure.clone())).collect()
 }
 

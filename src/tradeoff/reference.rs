@@ -27,7 +27,6 @@ impl Reference {
     }
 
     /// Whether it is zero for all that is known of it, so that nothing is a part of it.
-    #[must_use]
     pub(crate) fn is_zero(&self) -> bool {
         self.value.abs() <= 2.0 * self.uncertainty.unwrap_or(0.0)
     }

@@ -137,7 +137,6 @@ impl Request {
     }
 
     /// The independent runs of each choice.
-    #[must_use]
     pub(crate) fn seeds(&self) -> u32 {
         self.arguments.seeds.unwrap_or(1)
     }
@@ -255,7 +254,6 @@ impl Request {
     }
 
     /// What is varied.
-    #[must_use]
     pub(crate) fn sweep(&self) -> &Sweep {
         &self.sweep
     }

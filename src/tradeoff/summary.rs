@@ -182,7 +182,6 @@ impl fmt::Display for Choice {
 
 impl TradeoffSummary {
     /// The reference of a measure.
-    #[must_use]
     pub(crate) fn reference(&self, measure: &str) -> Option<&Reference> {
         self.references.iter().find(|reference| reference.measure == measure)
     }

@@ -102,7 +102,6 @@ impl Target {
     }
 
     /// The verdict on an error, for a reference of this value. An error that nothing is known about stays open, and so does a part of nothing.
-    #[must_use]
     pub(crate) fn verdict(&self, deviation: &Deviation, reference: f64) -> Verdict {
         if self.is_part_of_nothing(deviation.relative) {
             return Verdict::Open;

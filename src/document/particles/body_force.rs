@@ -43,7 +43,6 @@ pub enum ForceProfile {
 
 impl ForceProfile {
     /// Whether it is the same everywhere.
-    #[must_use]
     pub(crate) fn is_uniform(self) -> bool {
         self == Self::Uniform
     }

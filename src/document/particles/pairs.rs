@@ -103,13 +103,11 @@ pub struct DpdPair {
 
 impl DpdInteraction {
     /// The many-body repulsion, if it has any strength.
-    #[must_use]
     pub(crate) fn acting_many_body(&self) -> Option<ManyBody> {
         self.many_body.filter(|many_body| many_body.repulsion > 0.0)
     }
 
     /// The cutoff of the interaction, unless every pair of this many species has one of its own.
-    #[must_use]
     pub(crate) fn common_cutoff(&self, species: usize) -> Option<f64> {
         let mut own: Vec<[&str; 2]> =
             self.pairs.iter().filter(|pair| pair.cutoff.is_some()).map(DpdPair::key).collect();
@@ -121,7 +119,6 @@ impl DpdInteraction {
 
 impl DpdPair {
     /// Both species, in alphabetical order.
-    #[must_use]
     pub(crate) fn key(&self) -> [&str; 2] {
         let mut key = [self.between[0].as_str(), self.between[1].as_str()];
         key.sort_unstable();

@@ -142,13 +142,11 @@ impl Default for FrictionSolver {
 
 impl VoronoiInteraction {
     /// Viscosity η of the law of friction.
-    #[must_use]
     pub(crate) fn friction_viscosity(&self) -> f64 {
         self.viscosity.or_else(|| Some(self.shear_viscosity? / NETWORK_VISCOSITY)).unwrap_or(1.0)
     }
 
     /// The highest temperature kT at the start, in a scene of a temperature.
-    #[must_use]
     pub(crate) fn hottest(&self, temperature: f64) -> f64 {
         let regions = self.energy.iter().flat_map(|energy| &energy.initial_temperatures);
         regions.fold(temperature, |most, region| most.max(region.temperature))

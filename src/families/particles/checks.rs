@@ -31,8 +31,7 @@ pub(crate) fn check(scene: &Scene, integrator: &Integrator, names: &SpeciesNames
     if scene.output.chain_sizes.is_some() {
         check_chain_sizes(scene, problems);
     }
-    let is_chain = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
-    if scene.output.chain.is_some() && !scene.interactions().iter().any(is_chain) {
+    if scene.output.chain.is_some() && scene.places_of("harmonic-chain").next().is_none() {
         let accepted = "no `chain`, or a scene with the interaction `harmonic-chain`";
         problems.refuse("output.chain", "in a scene without harmonic chains", accepted);
     }
@@ -44,8 +43,7 @@ pub(crate) fn check(scene: &Scene, integrator: &Integrator, names: &SpeciesNames
 /// There are chains or, where a start says which particles there are, bonds that make molecules of them.
 fn check_chain_sizes(scene: &Scene, problems: &mut Problems) {
     let chained = scene.particles.iter().any(|group| group.chain.is_some());
-    let bonded = scene.has_start()
-        && scene.interactions().iter().any(|interaction| matches!(interaction, Interaction::Bonds(_)));
+    let bonded = scene.has_start() && scene.places_of("bonds").next().is_some();
     if !chained && !bonded {
         let accepted =
             "a scene with chains, a `chain` in one of `particles`, or with `bonds` of `molecules` or of a file";
@@ -59,11 +57,8 @@ pub(super) fn check_kinds(asked: &ChainSizes, particles: &Particles, problems: &
     let kinds = particles.chain_groups.len();
     if let Some(name) = asked.species.as_ref().filter(|_| kinds == 0) {
         let found = format!("`{name}`, of which no chain and no molecule has particles");
-        problems.refuse(
-            "output.chain_sizes.species",
-            found,
-            "the species of a chain, or of a bead of a molecule with bonds",
-        );
+        let accepted = "the species of a chain, or of a bead of a molecule with bonds";
+        problems.refuse("output.chain_sizes.species", found, accepted);
     }
     if kinds > MOST {
         let found = format!("{} kinds of molecules, which differ in their particles or bonds", grouped(kinds as u64));
@@ -122,22 +117,21 @@ fn check_numbers(scene: &Scene, problems: &mut Problems) {
 fn check_groups(scene: &Scene, problems: &mut Problems) {
     let mut first: HashMap<&str, usize> = HashMap::new();
     for (index, group) in scene.particles.iter().enumerate() {
-        let path = format!("particles[{index}]");
-        let known = *first.entry(&group.species).or_insert(index);
+        let (path, name) = (format!("particles[{index}]"), &group.species);
+        let known = *first.entry(name).or_insert(index);
         let held = scene.particles[known].fixed;
         if held != group.fixed {
             let accepted = format!(
-                "{held} as in particles[{known}]: particles of species `{}` are all held or all free; or another name",
-                group.species
+                "{held} as in particles[{known}]: particles of species `{name}` are all held or all free; or another \
+                 name"
             );
             problems.refuse(format!("{path}.fixed"), group.fixed, accepted);
         }
         if scene.particles[known].is_frozen() != group.is_frozen() {
             let accepted = format!(
-                "another name than `{}` in particles[{known}]: species are frozen behind walls or between them",
-                group.species
+                "another name than `{name}` in particles[{known}]: species are frozen behind walls or between them"
             );
-            problems.refuse(format!("{path}.species"), format!("`{}`", group.species), accepted);
+            problems.refuse(format!("{path}.species"), format!("`{name}`"), accepted);
         }
         if matches!(group.placement, Placement::Circle { .. }) && scene.space.lengths.len() != 2 {
             let accepted = "a two-dimensional box for a circle";
@@ -224,22 +218,9 @@ fn fits(value: f64) -> bool {
 /// Mistakes of a list that are reported one by one; more are counted.
 const LISTED: usize = 5;
 
-/// Species that are named, or particles that are listed, have to exist.
-fn check_members<const LENGTH: usize>(
-    scene: &Scene,
-    names: &SpeciesNames<'_>,
-    links: &Links<'_, LENGTH>,
-    path: &str,
-    problems: &mut Problems,
-) {
-    let (key, members) = (Links::<LENGTH>::KEY, links.listed);
-    if links.species.is_some() && !members.is_empty() {
-        let found = format!("together with `{key}`");
-        problems.refuse(format!("{path}.species"), found, format!("either `species`, or {key} of particle ids"));
-    }
-    for (index, name) in links.species.unwrap_or_default().iter().enumerate() {
-        names.check(name, &format!("{path}.species[{index}]"), problems);
-    }
+/// Particles that are listed have to exist.
+fn check_members<const LENGTH: usize>(scene: &Scene, members: &[[u32; LENGTH]], path: &str, problems: &mut Problems) {
+    let key = Links::<LENGTH>::KEY;
     let total = scene.numbered_groups().map(|numbered| numbered.count).fold(0, u64::saturating_add);
     let mut known: HashMap<[u32; LENGTH], usize> = HashMap::with_capacity(members.len());
     let mut mistakes = 0;
@@ -286,9 +267,16 @@ pub(crate) fn check_links<const LENGTH: usize>(
     path: &str,
     problems: &mut Problems,
 ) {
-    check_members(scene, names, links, path, problems);
     let (key, noun) = (Links::<LENGTH>::KEY, Links::<LENGTH>::NOUN);
     let listed = !links.listed.is_empty();
+    if links.species.is_some() && listed {
+        let found = format!("together with `{key}`");
+        problems.refuse(format!("{path}.species"), found, format!("either `species`, or {key} of particle ids"));
+    }
+    for (index, name) in links.species.unwrap_or_default().iter().enumerate() {
+        names.check(name, &format!("{path}.species[{index}]"), problems);
+    }
+    check_members(scene, links.listed, path, problems);
     if links.types.is_some() && (!scene.has_start() || listed || links.species.is_some()) {
         let found = match (scene.has_start(), listed) {
             (false, _) => "in a scene without a `state` and without `molecules`".to_owned(),
@@ -308,30 +296,21 @@ pub(crate) fn check_links<const LENGTH: usize>(
             if scene.start().is_none() || are_there {
                 return;
             }
-            let (place, accepted) = match &scene.state {
-                Some(_) => (
-                    "the file of `state`",
-                    format!("a file with {noun}, `{key}` of particle ids, or particles with a `chain`"),
-                ),
-                None => ("`molecules`", format!("molecules with {noun}, or `{key}` of particle ids")),
-            };
-            problems.refuse(path, format!("no {noun} in {place}"), accepted);
+            if scene.state.is_some() {
+                let accepted = format!("a file with {noun}, `{key}` of particle ids, or particles with a `chain`");
+                problems.refuse(path, format!("no {noun} in the file of `state`"), accepted);
+            } else {
+                let accepted = format!("molecules with {noun}, or `{key}` of particle ids");
+                problems.refuse(path, format!("no {noun} in `molecules`"), accepted);
+            }
         }
-        LinkSource::Start(_) | LinkSource::Chains(_) => {
-            check_presence(scene, links.species, key, LENGTH as u32, path, problems);
-        }
+        LinkSource::Start(_) | LinkSource::Chains(_) => check_chains(scene, links, path, problems),
     }
 }
 
 /// An interaction along chains needs chains.
-fn check_presence(
-    scene: &Scene,
-    species: Option<&[String]>,
-    key: &str,
-    length: u32,
-    path: &str,
-    problems: &mut Problems,
-) {
+fn check_chains<const LENGTH: usize>(scene: &Scene, links: &Links<'_, LENGTH>, path: &str, problems: &mut Problems) {
+    let (species, key) = (links.species, Links::<LENGTH>::KEY);
     let exists = |name: &String| scene.particles.iter().any(|group| group.species == *name);
     if species.is_some_and(|names| !names.iter().all(exists)) {
         return;
@@ -340,11 +319,11 @@ fn check_presence(
     let longest = named.filter_map(|group| group.chain.as_ref()).map(|chain| chain.beads);
     let found = match longest.max() {
         // A chain of less than two beads is a mistake by itself.
-        Some(beads) if beads >= length || beads < 2 => return,
+        Some(beads) if beads as usize >= LENGTH || beads < 2 => return,
         Some(beads) => format!("chains of {beads} beads"),
         None if species.is_some() => "no chains of these species".to_owned(),
         None => "neither chains nor a list".to_owned(),
     };
-    let accepted = format!("`{key}` of particle ids, or particles with a `chain` of at least {length} `beads`");
+    let accepted = format!("`{key}` of particle ids, or particles with a `chain` of at least {LENGTH} `beads`");
     problems.refuse(path, found, accepted);
 }

@@ -4,8 +4,6 @@
 //! Two features that no [`Refusal`] names go together, unless a check of one of them says otherwise for some of its
 //! values (tests/combinations runs all pairs against the reference).
 
-use std::fmt;
-
 use super::terms;
 use crate::document::{Integrator, Problems, ProfiledQuantity, Scene};
 
@@ -78,11 +76,13 @@ features! {
 }
 
 /// Why two features do not go together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub enum Reason {
     /// The two together have no meaning, or the result would not be what its name says.
+    #[error("physics: {0}")]
     Physics(&'static str),
     /// The two together have a meaning, and the program cannot do it yet.
+    #[error("not implemented: {0}")]
     NotImplemented(&'static str),
 }
 
@@ -91,15 +91,6 @@ impl Reason {
     #[must_use]
     pub const fn is_missing(&self) -> bool {
         matches!(self, Self::NotImplemented(_))
-    }
-}
-
-impl fmt::Display for Reason {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Physics(why) => write!(formatter, "physics: {why}"),
-            Self::NotImplemented(why) => write!(formatter, "not implemented: {why}"),
-        }
     }
 }
 

@@ -74,7 +74,6 @@ pub(super) static NONE: LazyLock<Particles> = LazyLock::new(Particles::default);
 
 impl Particles {
     /// Temperature kT of the bath of pairs in their model.
-    #[must_use]
     pub(crate) fn pair_temperature(&self, model: &Model) -> f64 {
         self.pair_force.as_ref().map_or(model.temperature, |force| force.temperature)
     }
@@ -87,14 +86,12 @@ impl Particles {
     }
 
     /// Whether a split step relaxes the velocities of pairs.
-    #[must_use]
     pub(crate) fn relaxes_pairs(&self) -> bool {
         matches!(self.integrator, Integrator::Splitting { .. })
             && self.pair_force.as_ref().is_some_and(|force| force.largest_friction() > 0.0)
     }
 
     /// Whether a split step relaxes the momentum of every particle by itself.
-    #[must_use]
     pub(crate) fn relaxes_particles(&self) -> bool {
         matches!(self.integrator, Integrator::Splitting { .. })
             && self.position_bath.as_ref().is_some_and(|bath| !bath.memory)
@@ -120,14 +117,12 @@ impl Particles {
     }
 
     /// Whether a split step relaxes the velocities along bonds.
-    #[must_use]
     pub(crate) fn relaxes_bonds(&self) -> bool {
         matches!(self.integrator, Integrator::Splitting { .. })
             && self.bonds.as_ref().is_some_and(|bonds| bonds.have_friction() && !bonds.have_memory())
     }
 
     /// Whether a split step relaxes the velocities of pairs in two stages.
-    #[must_use]
     pub(crate) fn relaxes_in_two_stages(&self) -> bool {
         self.relaxes_pairs() && self.integrator == Integrator::Splitting { relaxation: Some(PairRelaxation::TwoStages) }
     }

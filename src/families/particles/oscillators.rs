@@ -88,12 +88,8 @@ fn means_of_oscillators(model: &Model) -> Option<Vec<ExactMean>> {
         means.push(("bath_times_displacement", [0.0, product / count]));
         means.push(("momentum_times_displacement", [0.0; 2]));
     }
-    let mean = |(column, [continuous, discrete]): (&'static str, [f64; 2])| ExactMean {
-        column,
-        continuous,
-        discrete: Some(discrete),
-    };
-    Some(means.into_iter().map(mean).collect())
+    let means = means.into_iter();
+    Some(means.map(|(column, [continuous, found])| ExactMean { column, continuous, discrete: Some(found) }).collect())
 }
 
 /// The coordinates of all that moves, alike ones together; none where there is no spring, or where modes are not known.

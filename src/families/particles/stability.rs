@@ -63,11 +63,10 @@ pub(crate) fn warn_of_prediction(scene: &Checked) -> Option<Warning> {
     let network = Network::of(scene);
     let cold = cold_by_prediction(&certain(scene, network.as_ref()), scene.model());
     (cold.abs() > TOLERANCE).then(|| {
+        let (percent, way) = (100.0 * cold.abs(), if cold > 0.0 { "low" } else { "high" });
         let message = format!(
-            "friction of particles or bonds sees predicted velocities, which makes their kinetic temperature {:.1} % \
-             too {}; `lambda` 0.5 or a smaller `time.step` does not",
-            100.0 * cold.abs(),
-            if cold > 0.0 { "low" } else { "high" }
+            "friction of particles or bonds sees predicted velocities, which makes their kinetic temperature \
+             {percent:.1} % too {way}; `lambda` 0.5 or a smaller `time.step` does not"
         );
         Warning { path: "integrator.lambda".to_owned(), message }
     })
@@ -90,7 +89,7 @@ struct Strain {
 pub(crate) fn check(scene: &Checked, problems: &mut Problems) {
     let step = scene.time.step;
     let network = Network::of(scene);
-    let Some(worst) = worst(&certain(scene, network.as_ref())) else { return };
+    let Some(worst) = strongest(&certain(scene, network.as_ref())) else { return };
     if worst.sum < LIMIT {
         return;
     }
@@ -98,7 +97,7 @@ pub(crate) fn check(scene: &Checked, problems: &mut Problems) {
     let found = format!("{step}, at which B + W is {sum} for {}", worst.what);
     let share = |step: f64| {
         let other = at_step(scene, step);
-        strongest(&certain(&other, network.as_ref())) / LIMIT
+        strongest(&certain(&other, network.as_ref())).map_or(0.0, |strain| strain.sum) / LIMIT
     };
     let largest = largest_step([step, worst.sum / LIMIT], 1e-6, &share);
     let mut accepted = format!(
@@ -126,7 +125,7 @@ pub(crate) fn check_pairs(scene: &Checked, problems: &mut Problems) {
     let step = scene.time.step;
     // Particles of a gas meet now and then.
     let meets = model.most_neighbours(force) >= NEIGHBOURS;
-    let accepted = |most: f64, beyond: &str, reliable: f64, less: &str| {
+    let advice = |most: f64, beyond: &str, reliable: f64, less: &str| {
         let most = two_digits(most);
         format!("at most {most}, beyond which {beyond}, and {reliable:.2e} for reliable results; or less {less}")
     };
@@ -138,38 +137,29 @@ pub(crate) fn check_pairs(scene: &Checked, problems: &mut Problems) {
         let (name, times) = (&model.species[index].name, brief(rate * step));
         let found = format!("{step}, in which friction relaxes the velocities of `{name}` {times} times over");
         let beyond = if staged { "no step was measured" } else { "no such step is stable" };
-        problems.refuse("time.step", found, accepted(most / rate, beyond, model.friction_limit() / rate, "friction"));
+        problems.refuse("time.step", found, advice(most / rate, beyond, model.friction_limit() / rate, "friction"));
     }
     let (frequency, index) = model.largest_repulsion_frequency(force);
     let most = if force.many_body.is_some() { MOST_MANY_BODY_OSCILLATION } else { MOST_OSCILLATION };
     if frequency * step >= most && meets {
         let (name, angle) = (&model.species[index].name, brief(frequency * step));
         let found = format!("{step}, in which crowds of `{name}` oscillate by {angle} radians in their repulsion");
-        let reliable = FREQUENCY_LIMIT / frequency;
-        problems.refuse(
-            "time.step",
-            found,
-            accepted(most / frequency, "no such step is stable", reliable, "repulsion"),
-        );
+        let accepted = advice(most / frequency, "no such step is stable", FREQUENCY_LIMIT / frequency, "repulsion");
+        problems.refuse("time.step", found, accepted);
     }
 }
 
 /// Warns of a time step near the edge.
 pub(crate) fn warn(scene: &Checked) -> Option<Warning> {
-    let worst = worst(&at_times(scene)).filter(|strain| strain.sum > CLEAN)?;
-    let verdict = if worst.sum >= LIMIT {
+    let Strain { sum, what, .. } = strongest(&at_times(scene)).filter(|strain| strain.sum > CLEAN)?;
+    let verdict = if sum >= LIMIT {
         format!("{LIMIT} is the limit of stability, which is passed at times")
     } else {
         format!("{LIMIT} is the limit of stability, and up to {CLEAN} is advisable")
     };
     // Stiffness goes with the square of the step, friction with a lower power.
-    let advisable = scene.time.step * (CLEAN / worst.sum).min(1.0);
-    let message = format!(
-        "B + W = (λₑ + K)dt²/m is {:.3} for {}: {verdict}; a step of {} is safe",
-        worst.sum,
-        worst.what,
-        two_digits(advisable)
-    );
+    let safe = two_digits(scene.time.step * (CLEAN / sum).min(1.0));
+    let message = format!("B + W = (λₑ + K)dt²/m is {sum:.3} for {what}: {verdict}; a step of {safe} is safe");
     Some(Warning { path: "time.step".to_owned(), message })
 }
 
@@ -178,7 +168,7 @@ pub(super) fn limits(particles: &Particles, scene: &Checked) -> Vec<Limit> {
     let model = scene.model();
     let step = scene.time.step;
     let strains = at_times(scene);
-    let strain = strongest(&strains);
+    let strain = strongest(&strains).map_or(0.0, |strain| strain.sum);
     let pairs = particles.pair_force.as_ref();
     let friction = pairs.map_or(0.0, |force| model.largest_friction_rate(force).0);
     let frequency = pairs.map_or(0.0, |force| model.largest_repulsion_frequency(force).0);
@@ -210,12 +200,7 @@ pub(super) fn limits(particles: &Particles, scene: &Checked) -> Vec<Limit> {
     limits
 }
 
-/// B + W of the worst.
-fn strongest(strains: &[Strain]) -> f64 {
-    strains.iter().map(|strain| strain.sum).fold(0.0, f64::max)
-}
-
-fn worst(strains: &[Strain]) -> Option<Strain> {
+fn strongest(strains: &[Strain]) -> Option<Strain> {
     strains.iter().max_by(|a, b| a.sum.total_cmp(&b.sum)).cloned()
 }
 
@@ -255,10 +240,6 @@ fn at_times(scene: &Checked) -> Vec<Strain> {
     strains
 }
 
-fn place_of(scene: &Scene, wanted: impl Fn(&Interaction) -> bool) -> usize {
-    scene.interactions().iter().position(wanted).unwrap_or(0)
-}
-
 fn inverse_mass(model: &Model, species: usize) -> f64 {
     let species = &model.species[species];
     if species.fixed { 0.0 } else { 1.0 / species.mass }
@@ -268,9 +249,7 @@ fn inverse_mass(model: &Model, species: usize) -> f64 {
 fn of_particles(scene: &Checked) -> Vec<Strain> {
     let model = scene.model();
     let particles = model.particles();
-    let of_baths = |interaction: &Interaction| matches!(interaction, Interaction::Langevin(_));
-    let of_springs = |interaction: &Interaction| matches!(interaction, Interaction::Tether(_));
-    let place = scene.interactions().iter().position(of_baths).unwrap_or_else(|| place_of(scene, of_springs));
+    let place = scene.places_of("langevin").chain(scene.places_of("tether")).next().unwrap_or(0);
     let spring = particles.tethers.map_or(0.0, |tethers| tethers.stiffness);
     // A bath that relaxes exactly puts no strain on the step.
     let bath = particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles());
@@ -288,23 +267,21 @@ fn of_particles(scene: &Checked) -> Vec<Strain> {
 /// as large, but particles that repel each other keep away from where ω is largest: half of the mean is certain.
 fn of_pairs_on_average(scene: &Checked) -> Vec<Strain> {
     let model = scene.model();
-    let (mut strains, step) = (Vec::new(), model.time_step);
-    let Some(force) =
-        model.particles().pair_force.as_ref().filter(|_| model.particles().integrator == Integrator::CotterReich {})
-    else {
-        return strains;
-    };
-    let place = place_of(scene, |interaction| matches!(interaction, Interaction::Dpd(_)));
-    for (index, species) in model.species.iter().enumerate().filter(|(_, species)| species.count > 0) {
+    let (step, particles) = (model.time_step, model.particles());
+    let force = particles.pair_force.as_ref().filter(|_| particles.integrator == Integrator::CotterReich {});
+    let Some(force) = force else { return Vec::new() };
+    let place = scene.places_of("dpd").next().unwrap_or(0);
+    let species = model.species.iter().enumerate().filter(|(_, species)| species.count > 0);
+    let strain = |(index, species): (usize, &Species)| {
         let others = model.densities(index).map(|(other, density)| {
             let weight = force.weight_volume(index, other, model.units.dimension);
             force.bath_step(index, other, step).coupling * density * weight
         });
         let mean = others.sum::<f64>() * step * step * inverse_mass(model, index) / model.units.dimension as f64;
         let what = format!("the bath of pairs of `{}` with their neighbours", species.name);
-        strains.push(Strain { sum: 0.5 * mean, bath: 0.5 * mean, place, what });
-    }
-    strains
+        Strain { sum: 0.5 * mean, bath: 0.5 * mean, place, what }
+    };
+    species.map(strain).collect()
 }
 
 /// K and λₑ of a kind of bonds; K at rest, the least of a bond that is finitely extensible.
@@ -320,12 +297,10 @@ fn stiffnesses(model: &Model, kind: &BondKind) -> [f64; 2] {
 
 /// The interaction that each kind of bonds comes from.
 fn places(scene: &Scene, bonds: &Bonds) -> Vec<usize> {
-    let of_chains = |interaction: &Interaction| matches!(interaction, Interaction::HarmonicChain(_));
-    if let Some(place) = scene.interactions().iter().position(of_chains) {
-        return vec![place; bonds.kinds.len()];
+    match scene.places_of("harmonic-chain").next() {
+        Some(place) => vec![place; bonds.kinds.len()],
+        None => scene.places_of("bonds").collect(),
     }
-    let is_bonds = |index: &usize| matches!(scene.interactions()[*index], Interaction::Bonds(_));
-    (0..scene.interactions().len()).filter(is_bonds).collect()
 }
 
 /// The species of all particles.
@@ -415,9 +390,7 @@ impl Network {
             if length == 0.0 {
                 return None;
             }
-            for component in &mut vector {
-                *component /= length;
-            }
+            vector = vector.iter().map(|component| component / length).collect();
         }
         let [sum, bath] = [0, 1].map(|part| dot(&vector, &product(&vector, part)));
         Some(Strain { sum, bath, place: self.place, what: "all bonds together".to_owned() })

@@ -2,7 +2,7 @@
 
 use super::stability;
 use super::terms::{self, Springs};
-use crate::document::{Interaction, PairRelaxation, Placement, Scene, Warning, brief};
+use crate::document::{Interaction, PairRelaxation, ParticleGroup, Placement, Scene, Warning, brief};
 use crate::families::warnings::{warn, warn_of_momentum};
 use crate::families::{Checked, FREQUENCY_LIMIT, MOST_RELAXATION, Model, PairForce, Particles, Species};
 
@@ -141,11 +141,10 @@ fn warn_of_long_molecules(scene: &Scene, warnings: &mut Vec<Warning>) {
             (bonds * molecule.spacing, "stretched by its angles")
         };
         if extent > half {
+            let [extent, half] = [extent, half].map(brief);
             let message = format!(
-                "a molecule with {bonds} bonds from end to end reaches over {} as {shape}, more than {}, half of the shortest edge of \
-                 the box, and may touch its own image: take a larger box",
-                brief(extent),
-                brief(half)
+                "a molecule with {bonds} bonds from end to end reaches over {extent} as {shape}, more than {half}, \
+                 half of the shortest edge of the box, and may touch its own image: take a larger box"
             );
             warn(warnings, format!("molecules[{index}]"), message);
         }
@@ -154,16 +153,12 @@ fn warn_of_long_molecules(scene: &Scene, warnings: &mut Vec<Warning>) {
 
 /// Chains that no bond holds together are nothing but a way to place particles.
 fn warn_of_loose_chains(scene: &Scene, warnings: &mut Vec<Warning>) {
-    let bonded = |species: &String| {
-        scene.interactions().iter().any(|interaction| match interaction {
-            Interaction::Bonds(bonds) => {
-                !bonds.pairs.is_empty() || bonds.species.as_ref().is_none_or(|names| names.contains(species))
-            }
-            _ => false,
-        })
+    let bonds = |interaction: &Interaction, group: &ParticleGroup| match interaction {
+        Interaction::Bonds(bonds) => !bonds.pairs.is_empty() || group.is_among(bonds.species.as_deref()),
+        _ => false,
     };
     for (index, group) in scene.particles.iter().enumerate() {
-        if group.chain.is_some() && !bonded(&group.species) {
+        if group.chain.is_some() && !scene.interactions().iter().any(|interaction| bonds(interaction, group)) {
             let message = "no interaction `bonds` holds these chains together: they will fall apart".to_owned();
             warn(warnings, format!("particles[{index}].chain"), message);
         }
@@ -177,11 +172,10 @@ fn warn_of_friction(scene: &Checked, force: &PairForce, warnings: &mut Vec<Warni
     let (relaxed, limit) = (rate * step, model.friction_limit());
     let one_stage = model.relaxation().filter(|errors| errors.rule == PairRelaxation::MeanField);
     let (exceeds, effect) = if let Some(errors) = one_stage {
+        let [cold, thin] = [errors.missing_temperature(), errors.viscosity].map(|part| 100.0 * part);
+        let cure = if relaxed < MOST_RELAXATION { ", which `integrator.relaxation=two-stages` does not" } else { "" };
         let effect = format!(
-            "one stage leaves the temperature about {:.1} % low by that and the viscosity up to {:.1} %{}",
-            100.0 * errors.missing_temperature(),
-            100.0 * errors.viscosity,
-            if relaxed < MOST_RELAXATION { ", which `integrator.relaxation=two-stages` does not" } else { "" }
+            "one stage leaves the temperature about {cold:.1} % low by that and the viscosity up to {thin:.1} %{cure}"
         );
         (model.advisable_relaxation() == PairRelaxation::TwoStages || relaxed > limit, effect)
     } else {
@@ -190,11 +184,10 @@ fn warn_of_friction(scene: &Checked, force: &PairForce, warnings: &mut Vec<Warni
         (relaxed > limit, format!("{what} are reliable up to {limit}, a step of {:.2e}", limit / rate))
     };
     if exceeds {
+        let (name, [rate, relaxed]) = (&model.species[index].name, [rate, relaxed].map(brief));
         let message = format!(
-            "friction relaxes the velocities of `{}` at a mean rate of {}, by {} in one step of {step}; {effect}",
-            model.species[index].name,
-            brief(rate),
-            brief(relaxed),
+            "friction relaxes the velocities of `{name}` at a mean rate of {rate}, by {relaxed} in one step of {step}; \
+             {effect}"
         );
         warn(warnings, "time.step", message);
     }
@@ -205,18 +198,13 @@ fn warn_of_stiffness(scene: &Checked, force: &PairForce, warnings: &mut Vec<Warn
     let step = scene.time.step;
     let (frequency, index) = model.largest_repulsion_frequency(force);
     if frequency * step > FREQUENCY_LIMIT {
-        warn(
-            warnings,
-            "time.step",
-            format!(
-                "repulsion shakes `{}` at a frequency of about {}, {} radians in one step of {step}; \
-                 2 is the limit of stability, and up to {FREQUENCY_LIMIT}, a step of {:.2e}, is advisable",
-                model.species[index].name,
-                brief(frequency),
-                brief(frequency * step),
-                FREQUENCY_LIMIT / frequency
-            ),
+        let (name, advisable) = (&model.species[index].name, FREQUENCY_LIMIT / frequency);
+        let [frequency, angle] = [frequency, frequency * step].map(brief);
+        let message = format!(
+            "repulsion shakes `{name}` at a frequency of about {frequency}, {angle} radians in one step of {step}; \
+             2 is the limit of stability, and up to {FREQUENCY_LIMIT}, a step of {advisable:.2e}, is advisable"
         );
+        warn(warnings, "time.step", message);
     }
 }
 
@@ -270,19 +258,16 @@ fn warn_of_attraction(model: &Model, force: &PairForce, warnings: &mut Vec<Warni
 fn warn_of_lengths(lengths: &[f64], force: &PairForce, warnings: &mut Vec<Warning>) {
     let (cutoff, smallest) = (force.cutoff, force.smallest_cutoff());
     for (axis, length) in lengths.iter().enumerate() {
-        let path = format!("space.box[{axis}]");
-        if *length < 3.0 * cutoff {
-            let message =
-                format!("the edge of {length} is under three cutoffs ({}); this axis is searched whole", 3.0 * cutoff);
-            warn(warnings, path, message);
-            continue;
-        }
-        let resolution = length / 4_294_967_296.0;
-        if resolution > 1e-6 * smallest {
-            let message = format!(
+        let (resolution, least) = (length / 4_294_967_296.0, 3.0 * cutoff);
+        let message = if *length < least {
+            format!("the edge of {length} is under three cutoffs ({least}); this axis is searched whole")
+        } else if resolution > 1e-6 * smallest {
+            format!(
                 "positions are resolved to {resolution:.1e} on the edge of {length}, more than a millionth of the cutoff {smallest}"
-            );
-            warn(warnings, path, message);
-        }
+            )
+        } else {
+            continue;
+        };
+        warn(warnings, format!("space.box[{axis}]"), message);
     }
 }

@@ -131,11 +131,8 @@ fn check_depth(water: &ShallowWaterInteraction, lengths: [f64; 2], problems: &mu
     // Masses are integers of limited range; NaN is no depth.
     let fits = |depth: f64| depth > 0.0 && depth <= LARGEST_DEPTH * mean;
     if let Some((depth, [x, y])) = depths.iter().find(|(depth, _)| !fits(*depth)) {
-        let found = format!(
-            "features that make a depth of {} at ({x:.3}, {y:.3}), and {} on average",
-            brief(*depth),
-            brief(mean)
-        );
+        let [depth, mean] = [*depth, mean].map(brief);
+        let found = format!("features that make a depth of {depth} at ({x:.3}, {y:.3}), and {mean} on average");
         let accepted = format!(
             "a depth above 0 and up to {LARGEST_DEPTH} times the mean everywhere: lower or wider features, or a shorter \
              `smoothing.length`"

@@ -77,7 +77,6 @@ impl MeshFlow {
     }
 
     /// The components of the velocity, along x and along y.
-    #[must_use]
     pub(crate) fn velocity(&self) -> [Vec<f64>; 2] {
         [1, 2].map(|component| self.nodes.iter().map(|node| node[component]).collect())
     }
@@ -98,7 +97,6 @@ impl MeshFlow {
     }
 
     /// The potential vorticity (ζ + f₀)/h over a smoothed depth h on the same nodes.
-    #[must_use]
     pub(crate) fn potential_vorticity(&self, depth: &[f64]) -> Vec<f64> {
         self.vorticity().iter().zip(depth).map(|(vorticity, depth)| (vorticity + self.rotation) / depth).collect()
     }

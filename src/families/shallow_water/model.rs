@@ -122,13 +122,11 @@ impl ShallowWater {
     }
 
     /// The surface at the start in a box with these edges.
-    #[must_use]
     pub(crate) fn surface(&self, lengths: [f64; 2]) -> Surface<'_> {
         Surface::new(&self.surface, lengths)
     }
 
     /// The smaller distance between neighbouring nodes in a box with these edges.
-    #[must_use]
     pub(crate) fn spacing(&self, lengths: [f64; 3]) -> f64 {
         (lengths[0] / f64::from(self.mesh[0])).min(lengths[1] / f64::from(self.mesh[1]))
     }
@@ -140,7 +138,6 @@ impl ShallowWater {
     }
 
     /// Integer mass that a node holds on average.
-    #[must_use]
     pub(crate) fn mean_mass(&self) -> i64 {
         if self.carriers == 0 { 0 } else { (1.0 / self.mass_unit).round() as i64 }
     }
@@ -240,7 +237,6 @@ impl ShallowWater {
     }
 
     /// A time step that takes no more than a clean share of the limit of stability, from one that takes more.
-    #[must_use]
     pub(crate) fn advisable_step(&self, lengths: [f64; 2], time_step: f64) -> f64 {
         let kicks = self.kicks(lengths, time_step);
         // Without memory or with little, the coupling of the bath itself depends on the step: kicks are between dt and dt².

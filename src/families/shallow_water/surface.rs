@@ -55,7 +55,6 @@ impl<'a> Surface<'a> {
     }
 
     /// Whether there are no features.
-    #[must_use]
     pub(crate) fn is_flat(&self) -> bool {
         self.features.is_empty()
     }

@@ -43,10 +43,8 @@ fn warn_of_waves(scene: &Scene, water: &ShallowWater, warnings: &mut Vec<Warning
                 if clean < 0.01 { brief(clean) } else { format!("{clean:.2}") }
             )
         } else {
-            format!(
-                "the rotation turns a particle by {} in one step, half a turn or more",
-                brief((water.rotation * step).abs())
-            )
+            let angle = brief((water.rotation * step).abs());
+            format!("the rotation turns a particle by {angle} in one step, half a turn or more")
         };
         warn(warnings, "time.step", format!("{cause}: {verdict}; a step of {advisable:.2e} is advisable"));
     }
@@ -82,12 +80,11 @@ fn warn_of_sparse_loops(scene: &Scene, water: &ShallowWater, model: &Model, warn
         let points = group.resolved_count(&scene.space);
         let gap = 2.0 * radius * (PI / points as f64).sin();
         if group.tracer && points > 0 && (points < 3 || gap >= spacing) {
+            let least = (2.0 * PI * radius / spacing).ceil().max(3.0) + 1.0;
+            let (name, [gap, spacing]) = (&group.species, [gap, spacing].map(brief));
             let message = format!(
-                "the {points} points of the loop `{}` are {} apart, nodes {}: its circulation cannot be resolved; give at least {:.0}",
-                group.species,
-                brief(gap),
-                brief(spacing),
-                (2.0 * PI * radius / spacing).ceil().max(3.0) + 1.0
+                "the {points} points of the loop `{name}` are {gap} apart, nodes {spacing}: its circulation cannot be \
+                 resolved; give at least {least:.0}"
             );
             warn(warnings, format!("particles[{index}].count"), message);
         }

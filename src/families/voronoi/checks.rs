@@ -50,8 +50,7 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
             problems.refuse(format!("{path}.mass"), group.mass, accepted);
         }
     }
-    let cells: u64 =
-        scene.particles.iter().fold(0, |sum, group| sum.saturating_add(group.resolved_count(&scene.space)));
+    let cells = scene.particles.iter().map(|group| group.resolved_count(&scene.space)).fold(0, u64::saturating_add);
     // A cell between its own images, many of them within its length, takes the longer to cut out the more they are.
     let least = 1e-3 * (scene.space.volume() / cells.max(1) as f64).sqrt();
     for (axis, length) in scene.space.lengths.iter().enumerate() {
@@ -61,11 +60,9 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
         }
     }
     // More than can be numbered at all is a mistake by itself.
-    if cells > 1 << NEIGHBOUR_BITS && u32::try_from(cells).is_ok() {
-        let accepted = format!(
-            "at most {} cells, since faces name their neighbours in {NEIGHBOUR_BITS} bits",
-            1 << NEIGHBOUR_BITS
-        );
+    let most = 1 << NEIGHBOUR_BITS;
+    if cells > most && u32::try_from(cells).is_ok() {
+        let accepted = format!("at most {most} cells, since faces name their neighbours in {NEIGHBOUR_BITS} bits");
         problems.refuse("particles", format!("{cells} cells in the scene"), accepted);
     }
 }

@@ -32,7 +32,6 @@ pub struct Voronoi {
 
 impl Voronoi {
     /// Voronoi DPD of a scene with such species.
-    #[must_use]
     pub(crate) fn new(
         interaction: &VoronoiInteraction,
         integrator: CellIntegrator,
@@ -58,20 +57,17 @@ impl Voronoi {
     }
 
     /// Whether cells exchange mass.
-    #[must_use]
     pub(crate) fn exchanges_mass(&self) -> bool {
         self.form != VoronoiForm::Gradient
     }
 
     /// Whether the limit on what crosses a face may act, on mass, heat or the volume that a turning face sweeps over:
     /// always, but for cells without any pressure.
-    #[must_use]
     pub(crate) fn has_limits(&self, temperature: f64) -> bool {
         self.exchanges_mass() || self.keeps_energy() || temperature > 0.0
     }
 
     /// Whether the velocities after friction are solved for.
-    #[must_use]
     pub(crate) fn solves(&self) -> bool {
         self.viscosity > 0.0 && self.integrator != CellIntegrator::Euler {}
     }

@@ -10,7 +10,10 @@ use crate::families::{Beyond, Checked, Limit, Voronoi, speeds};
 pub(super) fn warnings(cells: &Voronoi, scene: &Checked) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if let Some(voronoi) = scene.system.voronoi() {
-        warn_of_cells(scene, cells, voronoi.form, &mut warnings);
+        // A fluid without a temperature is not hot by Euler's scheme either.
+        let is_hot = |law: &StepLaw| scene.temperature > 0.0 || law.law != EULER;
+        let exceeded = laws(cells, scene, voronoi.form).into_iter().filter(|law| law.share > 1.0 && is_hot(law));
+        exceeded.for_each(|law| warn(&mut warnings, "time.step", law.warning));
         warn_of_fluid(scene, voronoi, cells, &mut warnings);
     }
     warn_of_momentum(scene, &mut warnings);
@@ -29,6 +32,8 @@ fn euler_excess(form: VoronoiForm) -> f64 {
     }
 }
 
+const EULER: &str = "2 % of heat of Euler's scheme";
+
 /// Excess of the temperature that is worth a warning.
 const HOT: f64 = 0.02;
 
@@ -40,32 +45,69 @@ const LARGEST_REYNOLDS: f64 = 4.0;
 
 const MOST_MOLECULES: f64 = 20.0;
 
-/// The laws that bound the time step.
-pub(super) fn limits(cells: &Voronoi, scene: &Checked) -> Vec<Limit> {
-    let (sound, size) = sound_and_size(scene, cells);
-    let friction = cells.viscosity * scene.time.step / lightest(scene.model());
-    let (law, friction) = if cells.integrator == (CellIntegrator::Euler {}) {
-        let form = scene.system.voronoi().map(|voronoi| voronoi.form).unwrap_or_default();
-        ("2 % of heat of Euler's scheme", euler_excess(form) * friction / HOT)
-    } else {
-        ("friction dt η/M = 1/20", friction / FRICTION_LIMIT)
-    };
-    let heat = random_heat(scene, cells).unwrap_or(0.0);
-    let cut = if cells.exchange_limit > 0.0 { RARELY * heat / cells.exchange_limit } else { 0.0 };
-    vec![
-        Limit {
-            law: "sound through a fifth of a cell",
-            share: sound * scene.time.step / (SOUND_LIMIT * size),
-            beyond: Beyond::Biased,
-        },
-        Limit { law, share: friction, beyond: Beyond::Biased },
-        Limit { law: "conduction cut by its limit", share: cut, beyond: Beyond::Biased },
-    ]
+/// A law that bounds the time step, the part of its bound that a step takes, and what warns of a step that takes more.
+struct StepLaw {
+    law: &'static str,
+    share: f64,
+    warning: String,
 }
 
-/// The speed of sound and the width of a cell.
-fn sound_and_size(scene: &Checked, cells: &Voronoi) -> (f64, f64) {
-    (cells.speed_of_sound(speeds::hottest(scene)), Voronoi::mean_volume(scene.model()).sqrt())
+/// The laws that bound the time step.
+fn laws(cells: &Voronoi, scene: &Checked, form: VoronoiForm) -> [StepLaw; 3] {
+    let (step, lightest) = (scene.time.step, lightest(scene.model()));
+    let (sound, size) = (cells.speed_of_sound(speeds::hottest(scene)), Voronoi::mean_volume(scene.model()).sqrt());
+    let passed = StepLaw {
+        law: "sound through a fifth of a cell",
+        share: sound * step / (SOUND_LIMIT * size),
+        warning: format!(
+            "sound of speed {sound:.3} passes {:.2} of a cell of width {size:.3} in one step of {step}; up to \
+             {SOUND_LIMIT}, a step of {:.2e}, is advisable",
+            sound * step / size,
+            SOUND_LIMIT * size / sound
+        ),
+    };
+    let friction = cells.viscosity * step / lightest;
+    let of_friction = if cells.integrator == (CellIntegrator::Euler {}) {
+        let excess = euler_excess(form);
+        StepLaw {
+            law: EULER,
+            share: excess * friction / HOT,
+            warning: format!(
+                "`euler` runs hot by about {:.0} % at this step; {:.1e} would be hot by {:.0} %, and `splitting` takes \
+                 this one",
+                100.0 * excess * friction,
+                HOT / excess * lightest / cells.viscosity,
+                100.0 * HOT
+            ),
+        }
+    } else {
+        StepLaw {
+            law: "friction dt η/M = 1/20",
+            share: friction / FRICTION_LIMIT,
+            warning: format!(
+                "friction of a step, dt η/M, is {friction:.3}; temperatures have been measured up to {FRICTION_LIMIT}, \
+                 a step of {:.2e}, and the solver takes more iterations beyond",
+                FRICTION_LIMIT * lightest / cells.viscosity
+            ),
+        }
+    };
+    let (random, most) = (random_heat(scene, cells).unwrap_or(0.0), cells.exchange_limit);
+    let cut = StepLaw {
+        law: "conduction cut by its limit",
+        share: RARELY * random / most,
+        warning: format!(
+            "the random heat through a face is {random:.2} of the energy of a cell in one step, and `exchange_limit` \
+             {most} will cut it often; a step of {:.2e} or less is advisable",
+            step * (most / (RARELY * random)).powi(2)
+        ),
+    };
+    [passed, of_friction, cut]
+}
+
+/// The laws that bound the time step, with the parts of their bounds that a step takes.
+pub(super) fn limits(cells: &Voronoi, scene: &Checked) -> Vec<Limit> {
+    let form = scene.system.voronoi().map(|voronoi| voronoi.form).unwrap_or_default();
+    laws(cells, scene, form).map(|StepLaw { law, share, .. }| Limit { law, share, beyond: Beyond::Biased }).into()
 }
 
 /// The random heat through a face in one step, as a part of the energy of a cell, where heat is conducted.
@@ -77,42 +119,6 @@ fn random_heat(scene: &Checked, cells: &Voronoi) -> Option<f64> {
         InitialMasses::Equal | InitialMasses::UniformDensity => 1.0,
     };
     cells.conductivity.map(|_| cells.random_heat(lightest(scene.model()), scene.time.step) * thinned)
-}
-
-/// Warns of a time step that is too long for Voronoi cells.
-fn warn_of_cells(scene: &Checked, cells: &Voronoi, form: VoronoiForm, warnings: &mut Vec<Warning>) {
-    let step = scene.time.step;
-    let lightest = lightest(scene.model());
-    let (sound, size) = sound_and_size(scene, cells);
-    if sound * step > SOUND_LIMIT * size {
-        let message = format!(
-            "sound of speed {sound:.3} passes {:.2} of a cell of width {size:.3} in one step of {step}; up to \
-             {SOUND_LIMIT}, a step of {:.2e}, is advisable",
-            sound * step / size,
-            SOUND_LIMIT * size / sound
-        );
-        warn(warnings, "time.step", message);
-    }
-    let friction = cells.viscosity * step / lightest;
-    let euler = cells.integrator == (CellIntegrator::Euler {});
-    let excess = euler_excess(form);
-    if euler && scene.temperature > 0.0 && excess * friction > HOT {
-        let message = format!(
-            "`euler` runs hot by about {:.0} % at this step; {:.1e} would be hot by {:.0} %, and `splitting` takes this one",
-            100.0 * excess * friction,
-            HOT / excess * lightest / cells.viscosity,
-            100.0 * HOT
-        );
-        warn(warnings, "time.step", message);
-    }
-    if !euler && friction > FRICTION_LIMIT {
-        let message = format!(
-            "friction of a step, dt η/M, is {friction:.3}; temperatures have been measured up to {FRICTION_LIMIT}, a step \
-             of {:.2e}, and the solver takes more iterations beyond",
-            FRICTION_LIMIT * lightest / cells.viscosity
-        );
-        warn(warnings, "time.step", message);
-    }
 }
 
 /// Warns of a fluid of Voronoi cells that the model does not describe well.
@@ -141,18 +147,6 @@ fn warn_of_fluid(scene: &Checked, voronoi: &VoronoiInteraction, cells: &Voronoi,
             100.0 / fewest.sqrt()
         );
         warn(warnings, format!("{path}.molecular_mass"), message);
-    }
-    if let Some(random) = random_heat(scene, cells)
-        && RARELY * random > cells.exchange_limit
-    {
-        let message = format!(
-            "the random heat through a face is {:.2} of the energy of a cell in one step, and `exchange_limit` {} will cut \
-             it often; a step of {:.2e} or less is advisable",
-            random,
-            cells.exchange_limit,
-            scene.time.step * (cells.exchange_limit / (RARELY * random)).powi(2)
-        );
-        warn(warnings, "time.step", message);
     }
     if voronoi.hottest(scene.temperature) == 0.0 {
         let how = if cells.keeps_energy() { "until friction has heated them" } else { "at any time" };

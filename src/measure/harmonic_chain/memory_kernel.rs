@@ -61,7 +61,6 @@ impl MemoryKernel {
     }
 
     /// Number n of beads in a cluster.
-    #[must_use]
     pub(crate) fn cluster_size(&self) -> usize {
         self.cluster_size
     }
@@ -74,7 +73,6 @@ impl MemoryKernel {
     }
 
     /// n/2 ∫K from 0 to a time ω₀t: the friction γ* = γ/√(mκ) that a kernel so short would amount to.
-    #[must_use]
     pub(crate) fn running_friction(&self, time: f64) -> f64 {
         self.integral(time, 0.0)
     }

@@ -32,7 +32,6 @@ impl NormalModes {
     }
 
     /// The eigenvalue 4 sin²(πk/2(N+1)) of the Rouse matrix that belongs to mode k = 1 … N.
-    #[must_use]
     pub(crate) fn eigenvalue(&self, mode: usize) -> f64 {
         4.0 * (PI * mode as f64 / (2 * (self.chain.beads + 1)) as f64).sin().powi(2)
     }

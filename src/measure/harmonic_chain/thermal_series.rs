@@ -38,7 +38,6 @@ impl ThermalSeries {
     /// sums of
     /// `(X_{μ+1} - X_μ)²` of all pairs of neighbours, and one after the other the means over the chain of P² and of
     /// `(X_{μ+1} - X_μ)²`.
-    #[must_use]
     pub(crate) fn from_parts(momenta: &[f64], separations: &[f64], history: &[[f64; 2]]) -> Self {
         let clusters = momenta.len().checked_div(history.len()).unwrap_or(0);
         Self { clusters, momenta: momenta.to_vec(), separations: separations.to_vec(), history: history.to_vec() }
@@ -46,7 +45,6 @@ impl ThermalSeries {
 
     /// The numbers that a sample adds to those of [`Self::from_parts`]: its momenta, the squares of its pairs, and the
     /// two means.
-    #[must_use]
     pub(crate) fn numbers_of(displacements: &[f64], momenta: &[f64]) -> Vec<f64> {
         let squares: Vec<f64> =
             displacements.windows(2).map(|pair| (pair[1] - pair[0]) * (pair[1] - pair[0])).collect();
@@ -69,7 +67,6 @@ impl ThermalSeries {
     }
 
     /// Means over the chain of P² and of `(X_{μ+1} - X_μ)²`, sample after sample.
-    #[must_use]
     pub(crate) fn history(&self) -> &[[f64; 2]] {
         &self.history
     }

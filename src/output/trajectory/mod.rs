@@ -206,7 +206,6 @@ impl TrajectoryWriter {
     }
 
     /// The same trajectory with the particles of these species only; an empty list stands for all.
-    #[must_use]
     pub(crate) fn of_species(self, names: &[String]) -> Self {
         let shown = self.description.species.iter().map(|species| names.contains(&species.name)).collect();
         Self { shown: (!names.is_empty()).then_some(shown), ..self }

@@ -44,12 +44,6 @@ fn moved<const LENGTH: usize>(masses: [Option<f64>; LENGTH]) -> f64 {
     masses[usize::from(all_move)]
 }
 
-/// How a bond starts: off its length at rest, and the mass that it moves.
-struct Start {
-    mass: f64,
-    extension: f64,
-}
-
 /// Who the particles of a scene are and, where it says so, where they are.
 pub(crate) struct Particles<'a> {
     scene: &'a Scene,
@@ -123,12 +117,13 @@ impl<'a> Particles<'a> {
     /// The largest momentum that bonds of a stiffness, a length at rest and an extent give.
     pub(crate) fn momentum_of_bonds(&self, bonds: &BondsInteraction, stiffness: f64, length: f64, extent: f64) -> f64 {
         let least = RESOLUTION * self.longest_edge();
-        let of = |start: Start| start.mass.sqrt() * start.extension.min(extent).max(least);
+        let of = |(mass, extension): (f64, f64)| mass.sqrt() * extension.min(extent).max(least);
         stiffness.sqrt() * self.starts(bonds, length).into_iter().map(of).fold(0.0, f64::max)
     }
 
-    /// How bonds of a length at rest start: of those that start alike, one.
-    fn starts(&self, bonds: &BondsInteraction, length: f64) -> Vec<Start> {
+    /// The masses that bonds of a length at rest move, and how far off that length they start: of those that start
+    /// alike, one.
+    fn starts(&self, bonds: &BondsInteraction, length: f64) -> Vec<(f64, f64)> {
         // Half a box from each other on every axis, or in the same place.
         let farthest = 0.5 * self.scene.space.lengths.iter().map(|edge| edge * edge).sum::<f64>().sqrt();
         let off = |distance: Option<f64>| {
@@ -138,24 +133,22 @@ impl<'a> Particles<'a> {
             LinkSource::Start(all) => {
                 let of_span = |((a, b), span): (&(u8, u8), &[f64; 2])| {
                     let mass = moved([*a, *b].map(|place| self.mass_of_species(place.into())));
-                    let extension = span.iter().map(|distance| off(Some(*distance))).fold(0.0, f64::max);
-                    Start { mass, extension }
+                    (mass, span.iter().map(|distance| off(Some(*distance))).fold(0.0, f64::max))
                 };
                 all.iter().flat_map(|links| &links.spans).map(of_span).collect()
             }
             LinkSource::Chains(named) => {
                 let of_chains = self.chains(named).map(|(numbered, chain, mass)| {
                     let spacings = self.spacings(numbered.count, numbered.group, chain);
-                    Start { mass, extension: spacings.into_iter().map(off).fold(0.0, f64::max) }
+                    (mass, spacings.into_iter().map(off).fold(0.0, f64::max))
                 });
                 of_chains.collect()
             }
             LinkSource::Listed(pairs) => {
                 let of_pair = |ends: &[u32; 2]| {
-                    let mass = moved(ends.map(|end| self.mass_of(end)));
                     let [a, b] = ends.map(|end| self.position(end));
                     let distance = a.zip(b).map(|(a, b)| self.distance(&a, &b));
-                    Start { mass, extension: off(distance) }
+                    (moved(ends.map(|end| self.mass_of(end))), off(distance))
                 };
                 pairs.iter().map(of_pair).collect()
             }

@@ -22,13 +22,11 @@ impl BondedMolecules {
     pub const REVISITED: u32 = 1 << 31;
 
     /// Number of molecules.
-    #[must_use]
     pub(crate) fn count(&self) -> u32 {
         (self.walks.len() / self.steps.max(1) as usize) as u32
     }
 
     /// Number of particles in a molecule.
-    #[must_use]
     pub(crate) fn beads(&self) -> u32 {
         self.composition.values().sum()
     }

@@ -50,16 +50,15 @@ fn check_group(scene: &Scene, group: &ParticleGroup, path: &str, problems: &mut 
             problems.refuse(format!("{path}.placement.axis"), format!("\"{name}\""), accepted);
         }
     }
-    if group.fixed {
-        let accepted = "no `fixed`: particles behind walls are frozen, and move with their wall";
-        problems.refuse(format!("{path}.fixed"), "true", accepted);
-    }
-    if group.chain.is_some() {
-        problems.refuse(format!("{path}.chain"), "a chain", "no chains behind walls");
-    }
-    if group.velocities != Velocities::Thermal {
-        let accepted = "no `velocities`: frozen particles have that of their wall";
-        problems.refuse(format!("{path}.velocities"), "velocities", accepted);
+    let is_moved = group.velocities != Velocities::Thermal;
+    for (is_given, key, found, accepted) in [
+        (group.fixed, "fixed", "true", "no `fixed`: particles behind walls are frozen, and move with their wall"),
+        (group.chain.is_some(), "chain", "a chain", "no chains behind walls"),
+        (is_moved, "velocities", "velocities", "no `velocities`: frozen particles have that of their wall"),
+    ] {
+        if is_given {
+            problems.refuse(format!("{path}.{key}"), found, accepted);
+        }
     }
 }
 

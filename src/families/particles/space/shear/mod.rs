@@ -81,19 +81,16 @@ impl ShearedBox {
     }
 
     /// How far it is displaced where the clock begins, in the same unit.
-    #[must_use]
     pub(crate) fn first_shift(&self) -> u32 {
         self.first
     }
 
     /// The low and the high word of what the displacement grows by in half a time step.
-    #[must_use]
     pub(crate) fn increment(&self) -> [u32; 2] {
         [self.increment as u32, (self.increment >> 32) as u32]
     }
 
     /// The shear rate: velocity per length along the gradient.
-    #[must_use]
     pub(crate) fn rate(&self, model: &Model) -> f64 {
         self.velocity / model.units.lengths[self.gradient]
     }

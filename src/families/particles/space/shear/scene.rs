@@ -68,17 +68,11 @@ pub(crate) fn check_step(scene: &Checked, shear: &ShearedBox, problems: &mut Pro
     let edge = scene.space.lengths[shear.gradient];
     let (reach, speed) = (model.physics().reach(model), asked.speed(&scene.space.lengths));
     if speed * scene.time.step > reach {
-        let found = format!(
-            "{}, with which the flow at a boundary goes {} in a step",
-            brief(asked.rate),
-            brief(speed * scene.time.step)
-        );
-        let accepted = format!(
-            "at most {}, so that a step takes particles no further than {}, {}",
-            brief(2.0 * reach / (scene.time.step * edge)),
-            model.physics().reach_in_words(),
-            brief(reach)
-        );
+        let [rate, moved] = [asked.rate, speed * scene.time.step].map(brief);
+        let [most, furthest] = [2.0 * reach / (scene.time.step * edge), reach].map(brief);
+        let found = format!("{rate}, with which the flow at a boundary goes {moved} in a step");
+        let reach = model.physics().reach_in_words();
+        let accepted = format!("at most {most}, so that a step takes particles no further than {reach}, {furthest}");
         problems.refuse(path, found, accepted);
         return;
     }

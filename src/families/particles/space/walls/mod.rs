@@ -66,20 +66,17 @@ impl PlaneWalls {
     }
 
     /// Whether one of them moves.
-    #[must_use]
     pub(crate) fn move_along(&self) -> bool {
         self.velocities.iter().flatten().any(|component| *component != 0.0)
     }
 
     /// What a reflection makes of a unit of momentum along each axis: -1 or 1.
-    #[must_use]
     pub(crate) fn signs(&self) -> [i32; 3] {
         std::array::from_fn(|axis| if axis == self.axis || self.reflection == Reflection::BounceBack { -1 } else { 1 })
     }
 
     /// What a particle of a species gains at one of them beside: twice its mass times the velocity of a wall that reverses velocities, in units
     /// of momentum, in the single precision of kernels.
-    #[must_use]
     pub(crate) fn push(&self, upper: bool, species: usize, model: &Model) -> [f64; 3] {
         self.pushing(upper)
             .map(|velocity| (2.0 * velocity * model.species[species].mass / model.units.momentum).round_ties_even())

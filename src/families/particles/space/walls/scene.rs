@@ -87,10 +87,8 @@ fn check_places(scene: &Scene, problems: &mut Problems) {
         match &group.placement {
             Placement::Listed { positions } => {
                 for (number, position) in positions.iter().enumerate() {
-                    let behind = walled
-                        .iter()
-                        .find(|axis| position.get(**axis).is_some_and(|place| outside(**axis, *place, *place)));
-                    let Some(axis) = behind else { continue };
+                    let is_behind = |axis: usize| position.get(axis).is_some_and(|place| outside(axis, *place, *place));
+                    let Some(axis) = walled.iter().find(|axis| is_behind(**axis)) else { continue };
                     let accepted = format!("0 to {}, between the walls", scene.space.lengths[*axis]);
                     let found = format!("{}, behind a wall", position[*axis]);
                     problems.refuse(format!("{path}.positions[{number}][{axis}]"), found, accepted);
@@ -126,17 +124,12 @@ pub(crate) fn check_bonds(particles: &Particles, model: &Model, state: &State, p
             0 => String::new(),
             more => format!(", and {more} more"),
         };
+        let (name, [a, b], apart) = (AXES[axis], first, apart(first));
         let found = format!(
-            "a bond between particles {} and {}, {:.4} apart along {}{more}: more than half the distance of the walls",
-            first[0],
-            first[1],
-            apart(first),
-            AXES[axis]
+            "a bond between particles {a} and {b}, {apart:.4} apart along {name}{more}: more than half the distance of \
+             the walls"
         );
-        problems.refuse(
-            format!("space.walls.{}", AXES[axis]),
-            found,
-            "bonds that lead through no wall: molecules that are whole between them",
-        );
+        let accepted = "bonds that lead through no wall: molecules that are whole between them";
+        problems.refuse(format!("space.walls.{name}"), found, accepted);
     }
 }

@@ -33,13 +33,11 @@ impl FixedImpulse {
     pub const FRACTIONS: f64 = 4_294_967_296.0;
 
     /// Whole units and the rest, which is not negative.
-    #[must_use]
     pub(crate) fn parts(self) -> (i32, u32) {
         ((self.0 >> 32) as i32, self.0 as u32)
     }
 
     /// Whole units of a step: n steps add up to n times the impulse, less than a unit off.
-    #[must_use]
     pub(crate) fn in_step(self, step: u64) -> i64 {
         // Beyond the last number of a step there is one more.
         let until = |steps: i128| (i128::from(self.0) * steps) >> 32;
@@ -69,7 +67,6 @@ impl Term for BodyForces {
 
 impl BodyForces {
     /// The impulse of half a step on a particle of a species where the force is as large as it gets; none on one that is not there.
-    #[must_use]
     pub(crate) fn impulse(&self, model: &Model, species: usize) -> [FixedImpulse; 3] {
         let units = 0.5 * model.time_step / model.units.momentum * FixedImpulse::FRACTIONS;
         let force = self.forces.get(species).copied().unwrap_or_default();

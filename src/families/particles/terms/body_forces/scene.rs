@@ -67,12 +67,11 @@ impl SceneTerm for BodyForceInteraction {
             waves: self.waves.unwrap_or(1),
             forces: vec![[0.0; 3]; species.len()],
         });
-        for (species, sum) in species.iter().zip(&mut forces.forces) {
-            let named = self.species.as_ref().is_none_or(|names| names.contains(&species.name));
-            if named && !species.fixed {
-                for (sum, component) in sum.iter_mut().zip(&self.force) {
-                    *sum += component;
-                }
+        let is_named = |species: &Species| self.species.as_ref().is_none_or(|names| names.contains(&species.name));
+        let all = species.iter().zip(&mut forces.forces);
+        for (_, force) in all.filter(|(species, _)| is_named(species) && !species.fixed) {
+            for (sum, component) in force.iter_mut().zip(&self.force) {
+                *sum += component;
             }
         }
     }
@@ -80,28 +79,22 @@ impl SceneTerm for BodyForceInteraction {
 
 /// Several add up, but vary in the same way.
 pub(crate) fn check_together(scene: &Scene, problems: &mut Problems) {
-    let mut first: Option<(usize, &BodyForceInteraction)> = None;
-    for (index, interaction) in scene.interactions().iter().enumerate() {
-        let Interaction::BodyForce(force) = interaction else { continue };
-        let Some((earlier, known)) = first else {
-            first = Some((index, force));
-            continue;
-        };
-        let way = |force: &BodyForceInteraction| (force.profile, force.axis, force.waves.unwrap_or(1));
-        if way(force) != way(known) {
-            let found =
-                format!("a body force of another profile, axis or number of waves than interactions[{earlier}]");
-            let accepted = "the same for all body forces of a scene; their strength may differ from species to species";
-            problems.refuse(format!("interactions[{index}]"), found, accepted);
-        }
+    let mut ways = scene.interactions().iter().enumerate().filter_map(|(index, interaction)| match interaction {
+        Interaction::BodyForce(force) => Some((index, (force.profile, force.axis, force.waves.unwrap_or(1)))),
+        _ => None,
+    });
+    let Some((earlier, known)) = ways.next() else { return };
+    for (index, _) in ways.filter(|(_, way)| *way != known) {
+        let found = format!("a body force of another profile, axis or number of waves than interactions[{earlier}]");
+        let accepted = "the same for all body forces of a scene; their strength may differ from species to species";
+        problems.refuse(format!("interactions[{index}]"), found, accepted);
     }
 }
 
 /// Refuses forces whose impulses the integers of momenta do not hold, or lose.
 pub(super) fn check_impulses(scene: &Checked, forces: &BodyForces, problems: &mut Problems) {
     let model = scene.model();
-    let place = |interaction: &Interaction| matches!(interaction, Interaction::BodyForce(_));
-    let path = format!("interactions[{}].force", scene.interactions().iter().position(place).unwrap_or(0));
+    let path = format!("interactions[{}].force", scene.places_of("body-force").next().unwrap_or(0));
     let most = LARGEST * model.units.momentum / (0.5 * model.time_step);
     let least = model.units.momentum / (0.5 * model.time_step) / FixedImpulse::FRACTIONS * 256.0;
     for (species, force) in model.species.iter().zip(&forces.forces) {

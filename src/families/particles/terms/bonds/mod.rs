@@ -181,13 +181,11 @@ impl Bonds {
     }
 
     /// Whether any bond remembers.
-    #[must_use]
     pub(crate) fn have_memory(&self) -> bool {
         self.kinds.iter().any(|kind| kind.bath.is_some_and(|step| step.remembers()))
     }
 
     /// Whether any bond has friction.
-    #[must_use]
     pub(crate) fn have_friction(&self) -> bool {
         self.kinds.iter().any(|kind| kind.bath.is_some())
     }

@@ -1,7 +1,7 @@
 //! Bonds at the start: their lengths, and the variables of their baths.
 
 use super::Bonds;
-use crate::document::{BondPotential, Interaction, Problems};
+use crate::document::{BondPotential, Problems};
 use crate::families::{BathStep, Checked, Model};
 use crate::noise::{self, stream};
 use crate::state::{State, sheared_copy};
@@ -30,9 +30,7 @@ pub(crate) fn check_extents(scene: &Checked, state: &State, problems: &mut Probl
     if (0..bonds.kinds.len()).all(|kind| finite(kind as u32).is_none()) {
         return;
     }
-    let places: Vec<usize> = (0..scene.interactions().len())
-        .filter(|index| matches!(scene.interactions()[*index], Interaction::Bonds(_)))
-        .collect();
+    let places: Vec<usize> = scene.places_of("bonds").collect();
     let mut reported = HashSet::new();
     for bond in bonds.iter() {
         let Some((extent, length)) = finite(bond.kind) else { continue };
@@ -42,14 +40,13 @@ pub(crate) fn check_extents(scene: &Checked, state: &State, problems: &mut Probl
             None => b,
         };
         let distance = model.units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt();
-        if (distance - length).abs() >= extent && reported.insert(bond.kind) {
+        let ([first, second], off) = (bond.ends, (distance - length).abs());
+        if off >= extent && reported.insert(bond.kind) {
             let found = format!(
-                "{extent}, and a distance of {distance:.6} between particles {} and {} at the start",
-                bond.ends[0], bond.ends[1]
+                "{extent}, and a distance of {distance:.6} between particles {first} and {second} at the start"
             );
             let accepted = format!(
-                "more than {:.6}, by which that bond starts off its length {length}; or a start with shorter bonds",
-                (distance - length).abs()
+                "more than {off:.6}, by which that bond starts off its length {length}; or a start with shorter bonds"
             );
             problems.refuse(format!("interactions[{}].potential.extent", places[bond.kind as usize]), found, accepted);
         }

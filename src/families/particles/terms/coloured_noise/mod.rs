@@ -127,7 +127,6 @@ impl ColouredNoise {
     }
 
     /// The stored form of a force after which `jumps` were drawn in all, with a time left in units of half a step.
-    #[must_use]
     pub(crate) fn hold(force: [f64; 3], half_steps: f64, jumps: u32) -> Hold {
         let mut halves = half_steps.floor();
         let mut fraction = (half_steps - halves) as f32;
@@ -145,7 +144,6 @@ impl ColouredNoise {
     }
 
     /// The forces of all particles at step 0.
-    #[must_use]
     pub(crate) fn first_holds(&self, model: &Model, particles: usize) -> Vec<Hold> {
         let first = |id: usize| {
             let jump = self.start(model.units.dimension, Self::uniform_numbers(model, id as u32, 0));

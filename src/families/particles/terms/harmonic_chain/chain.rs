@@ -22,7 +22,6 @@ pub struct SpringChain {
 
 impl SpringChain {
     /// √(κ/m).
-    #[must_use]
     pub(crate) fn frequency(&self) -> f64 {
         (self.stiffness / self.mass).sqrt()
     }

@@ -49,7 +49,6 @@ pub struct Strand {
 
 impl Strand {
     /// Displacements and momenta of the beads among those of all particles, free of where the chain crosses the edges of the box.
-    #[must_use]
     pub(crate) fn motion(&self, positions: &[[u32; 3]], momenta: &[[i32; 3]], units: &Units) -> (Vec<f64>, Vec<f64>) {
         let beads = self.first..self.first + self.chain.beads;
         let mut before = self.ends[0];
@@ -126,7 +125,6 @@ impl ChainTrios {
     }
 
     /// The chains a pulse travels along and those in equilibrium, each in the order of [`Likeness::ALL`].
-    #[must_use]
     pub(crate) fn strands(&self) -> [[Strand; 3]; 2] {
         let [pulse, thermal] =
             [&self.pulse, &self.thermal].map(|trio| [trio.micro(), trio.dissipative(), trio.frictionless()]);

@@ -43,7 +43,6 @@ impl ManyBodyForce {
     }
 
     /// ψ, the energy of a particle where the density around it is ρ̄.
-    #[must_use]
     pub(crate) fn self_energy(&self, density: f64) -> f64 {
         0.25 * self.repulsion * self.cutoff * density * density / self.contact_density()
     }

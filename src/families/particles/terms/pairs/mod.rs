@@ -253,7 +253,6 @@ impl PairForce {
     }
 
     /// The number of soft repulsions that add up between the species that have most; one at least.
-    #[must_use]
     pub(crate) fn repulsion_count(&self) -> usize {
         self.repulsions.len()
     }
@@ -286,7 +285,6 @@ impl PairForce {
     }
 
     /// Range of friction and noise between two species.
-    #[must_use]
     pub(crate) fn friction_cutoff(&self, a: usize, b: usize) -> f64 {
         self.frictions[a * self.species + b].cutoff
     }
@@ -298,32 +296,27 @@ impl PairForce {
     }
 
     /// True if some repulsion has another range than [`Self::cutoff`].
-    #[must_use]
     pub(crate) fn repulsion_cutoffs_differ(&self) -> bool {
         self.repulsions.iter().flatten().any(|own| own.cutoff != self.cutoff)
     }
 
     /// True if some friction has another range than [`Self::cutoff`].
-    #[must_use]
     pub(crate) fn friction_cutoffs_differ(&self) -> bool {
         self.frictions.iter().any(|friction| friction.cutoff != self.cutoff)
     }
 
     /// The exponent of the friction weight that all pairs of species have, if they have one.
-    #[must_use]
     pub(crate) fn common_weight_exponent(&self) -> Option<f64> {
         let first = self.frictions.first().map_or(2.0, |friction| friction.exponent);
         self.frictions.iter().all(|friction| friction.exponent == first).then_some(first)
     }
 
     /// Volume of the sphere (disc, line) within the range of the forces of two species.
-    #[must_use]
     pub(crate) fn sphere(&self, a: usize, b: usize, dimension: usize) -> f64 {
         ball(self.cutoff_between(a, b), dimension)
     }
 
     /// The friction weight ω of two species integrated over the sphere within its cutoff.
-    #[must_use]
     pub(crate) fn weight_volume(&self, a: usize, b: usize, dimension: usize) -> f64 {
         let (cutoff, exponent) = (self.friction_cutoff(a, b), self.weight_exponent(a, b));
         match dimension {
@@ -334,7 +327,6 @@ impl PairForce {
     }
 
     /// r² times a power of the friction weight ω of two species, integrated over that sphere.
-    #[must_use]
     pub(crate) fn weighted_square(&self, a: usize, b: usize, dimension: usize, power: f64) -> f64 {
         let exponent = power * self.weight_exponent(a, b);
         // The integral of x^(d + 1) (1 - x)^n over 0 to 1.
@@ -347,44 +339,37 @@ impl PairForce {
 
     /// The mean force constant per axis, times d, by which repulsions of a species at unit density hold a particle of
     /// another: Σ |a| V(rc)/rc.
-    #[must_use]
     pub(crate) fn stiffness(&self, a: usize, b: usize, dimension: usize) -> f64 {
         self.repulsions(a, b).map(|own| own.strength.abs() * ball(own.cutoff, dimension) / own.cutoff).sum()
     }
 
     /// Friction γ between two species.
-    #[must_use]
     pub(crate) fn friction(&self, a: usize, b: usize) -> f64 {
         self.frictions[a * self.species + b].coefficient
     }
 
     /// Whether the bath of pairs has a memory, and any effect.
-    #[must_use]
     pub(crate) fn remembers(&self) -> bool {
         matches!(self.bath, Bath::Memory { .. }) && self.has_friction()
     }
 
     /// The bath step of a pair of species, coupled to φ(r).
-    #[must_use]
     pub(crate) fn bath_step(&self, a: usize, b: usize, time_step: f64) -> BathStep {
         let step = BathStep::of(&self.bath, self.friction(a, b), time_step);
         if self.frictions[a * self.species + b].uncoupled { step.uncoupled() } else { step }
     }
 
     /// Whether any pair of species has friction, with memory or without.
-    #[must_use]
     pub(crate) fn has_friction(&self) -> bool {
         self.bath.acts(self.largest_friction())
     }
 
     /// Whether any pair of species has a force at all.
-    #[must_use]
     pub(crate) fn acts(&self) -> bool {
         self.is_conservative() || self.has_friction()
     }
 
     /// Whether any pair of species has a force that derives from a potential.
-    #[must_use]
     pub(crate) fn is_conservative(&self) -> bool {
         self.largest_repulsion() > 0.0 || self.many_body.is_some()
     }
@@ -396,13 +381,11 @@ impl PairForce {
     }
 
     /// Σ |a| rc between two species and what densities add, twice the largest energy of two particles in one place.
-    #[must_use]
     pub(crate) fn energy_between(&self, a: usize, b: usize) -> f64 {
         self.repulsions(a, b).map(|own| own.strength.abs() * own.cutoff).sum::<f64>() + self.many_body_energy()
     }
 
     /// The largest of it.
-    #[must_use]
     pub(crate) fn largest_energy(&self) -> f64 {
         self.pairs().map(|[a, b]| self.energy_between(a, b)).fold(self.many_body_energy(), f64::max)
     }
@@ -431,14 +414,12 @@ impl PairForce {
     }
 
     /// The smallest range of any force.
-    #[must_use]
     pub(crate) fn smallest_cutoff(&self) -> f64 {
         let of_repulsions = self.repulsions.iter().flatten().map(|own| own.cutoff);
         of_repulsions.chain(self.frictions.iter().map(|friction| friction.cutoff)).fold(self.cutoff, f64::min)
     }
 
     /// The largest friction.
-    #[must_use]
     pub(crate) fn largest_friction(&self) -> f64 {
         self.frictions.iter().map(|friction| friction.coefficient).fold(0.0, f64::max)
     }
