@@ -20,6 +20,8 @@ pub(super) struct Stage {
     size: Size,
     /// As [`Kernel::takes_long`].
     pub takes_long: bool,
+    /// Constants that were compiled into it.
+    compiled_in: Arc<[Constant]>,
     /// Constants that it loads, if it does.
     loaded: Option<Loaded>,
 }
@@ -91,7 +93,7 @@ fn stage(
     let values: HashMap<Constant, f64> = constants.collect();
     let compiled =
         gpu.compile(kernel.name, kernel.entry, &kernel.choices, values.clone().into_iter(), plan.constants_in)?;
-    let CompiledKernel { pipeline, bindings, loaded } = compiled;
+    let CompiledKernel { pipeline, bindings, constants: compiled_in, loaded } = compiled;
     let loaded = Loaded::new(gpu, kernel, loaded, &values);
     let bound = bindings.iter().map(|binding| {
         let array = kernel.array_of(binding.array);
@@ -121,7 +123,7 @@ fn stage(
         (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),
         _ => Size::Fixed([width, height]),
     };
-    Ok(Stage { pipeline, bindings: group, size, takes_long: kernel.takes_long, loaded })
+    Ok(Stage { pipeline, bindings: group, size, takes_long: kernel.takes_long, compiled_in, loaded })
 }
 
 /// Constants that a kernel loads.
@@ -147,14 +149,13 @@ impl Loaded {
 }
 
 impl Stage {
-    /// True if the kernel of a plan differs from that of another at most in constants that this one loads.
+    /// True if the kernel of a plan differs from that of another at most in constants that are not compiled into this one.
     pub(super) fn suits(&self, kernels: [&Kernel; 2], plans: [&Plan; 2]) -> bool {
         let [one, other] = kernels.map(|kernel| Kernel { constants: Vec::new(), ..kernel.clone() });
         let [mut one_has, mut other_has] = [0, 1].map(|side| {
-            let loaded = self.loaded.iter().flat_map(|loaded| loaded.constants.iter());
-            let loaded: Vec<&Constant> = loaded.collect();
-            let all = kernels[side].constants_in(plans[side]).filter(|(constant, _)| !loaded.contains(&constant));
-            all.map(|(constant, value)| (constant.name(), value.to_bits())).collect::<Vec<_>>()
+            let all = kernels[side].constants_in(plans[side]);
+            let compiled_in = all.filter(|(constant, _)| self.compiled_in.contains(constant));
+            compiled_in.map(|(constant, value)| (constant.name(), value.to_bits())).collect::<Vec<_>>()
         });
         one_has.sort_unstable();
         other_has.sort_unstable();

@@ -28,6 +28,8 @@ pub(crate) struct CompiledKernel {
     pub pipeline: wgpu::ComputePipeline,
     /// The arrays that it binds.
     pub bindings: Arc<[Binding]>,
+    /// Constants that were compiled into it.
+    pub constants: Arc<[Constant]>,
     /// Constants that it loads from a buffer at [`LOADED_CONSTANTS`].
     pub loaded: Arc<[Constant]>,
 }
@@ -96,7 +98,8 @@ impl Gpu {
                     cache: None,
                 })
             })?;
-            Ok(CompiledKernel { pipeline, bindings: bindings.into(), loaded: loaded.into() })
+            let constants = linked.constants.as_slice().into();
+            Ok(CompiledKernel { pipeline, bindings: bindings.into(), constants, loaded: loaded.into() })
         })
     }
 }

@@ -81,6 +81,8 @@ pub struct Simulation {
     /// The energies and the state of the current step, as far as they have been read.
     here: Option<Here>,
     pub(super) changes: Vec<Change>,
+    /// How often an engine was opened.
+    openings: u32,
     /// Why no further step can be taken.
     end: Option<String>,
 }
@@ -246,6 +248,7 @@ impl Simulation {
             sampled: Vec::new(),
             here: None,
             changes: Vec::new(),
+            openings: 1,
             end: None,
         })
     }
@@ -272,6 +275,13 @@ impl Simulation {
     #[must_use]
     pub fn gpu(&self) -> &Gpu {
         &self.place.gpu
+    }
+
+    /// How often an engine was opened: at the start, and again by changes for which the kernels of the last one do not suffice.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn openings(&self) -> u32 {
+        self.openings
     }
 
     /// The ranks that share the simulation, if there are several.
@@ -678,6 +688,7 @@ impl Simulation {
             // From now on numbers change without compiling kernels.
             let options = Options { constants_in: ConstantsIn::Buffer, ..self.options };
             (self.engine, self.options) = self.place.open(&planned, &state, options)?;
+            self.openings += 1;
         }
         (self.scene, self.planned) = (scene, planned);
         self.begin(carried, state);

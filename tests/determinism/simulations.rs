@@ -195,7 +195,9 @@ fn a_changed_number_is_that_of_another_scene() {
         };
         let seen = goes_on_as(&mut simulation, &before);
         // Changed once more, the kernels are those that there are.
+        assert_eq!(simulation.openings(), 2, "{key}");
         simulation.set(key, 1.01 * value).unwrap();
+        assert_eq!(simulation.openings(), 2, "{key} opens an engine again");
         let before = simulation.state().unwrap();
         simulation.advance(8).unwrap();
         goes_on_as(&mut simulation, &before);
@@ -367,6 +369,7 @@ fn announced_numbers_change_no_unit() {
             assert!(simulation.state().unwrap().momenta == before.momenta, "{key} {part}");
         }
         assert_eq!(simulation.scene().announced, announced.announced);
+        assert_eq!(simulation.openings(), 1, "{key} opens an engine again");
         // A run of the scene has the same bits.
         let mut simulation = self::simulation(&announced);
         simulation.advance(20).unwrap();

@@ -99,6 +99,8 @@ fn ranks_change_as_one_does() {
         each([&mut alone, &mut shared]);
         assert_alike(&mut shared, &mut alone, name);
         assert_eq!(shared.changes(), alone.changes(), "{name}");
+        let openings = if shared.scene().announced.is_empty() { 2 } else { 1 };
+        assert_eq!([shared.openings(), alone.openings()], [openings; 2], "{name}");
     }
 }
 
