@@ -42,9 +42,12 @@ def signature(name: str, called: object) -> str:
     return f"{name}({', '.join(parameters)})"
 
 
-def block(shown: str) -> str:
+def headed(name: str, shown: str) -> str:
+    """The heading of a call, with its arguments below where they need more than a line."""
+    if len(shown) <= 100:
+        return f"## `{shown}`\n"
     lines = textwrap.fill(shown, WIDTH, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
-    return f"```text\n{lines}\n```"
+    return f"## {name}\n\n```text\n{lines}\n```\n"
 
 
 def members(held: type) -> Iterator[str]:
@@ -70,16 +73,15 @@ def entry(shown: str, documented: object) -> str:
 
 
 def reference() -> str:
+    public = [getattr(mesoscope, name) for name in sorted(mesoscope.__all__, key=str.lower)]
+    errors = [found for found in public if inspect.isclass(found) and issubclass(found, Exception)]
     parts = [HEAD]
-    public = [name for name in mesoscope.__all__ if not name.startswith("_")]
-    for name in sorted(public, key=lambda name: (inspect.isclass(getattr(mesoscope, name)), name.lower())):
-        found = getattr(mesoscope, name)
-        if inspect.isclass(found):
-            shown = "" if issubclass(found, Exception) else f"{block(signature(name, found))}\n\n"
-            listed = "\n".join(members(found))
-            parts.append(f"## {name}\n\n{shown}{words(found)}\n" + (f"\n{listed}\n" if listed else ""))
-        elif callable(found):
-            parts.append(f"## {name}\n\n{block(signature(name, found))}\n\n{words(found)}\n")
+    for found in sorted((found for found in public if found not in errors), key=inspect.isclass):
+        listed = "\n".join(members(found)) if inspect.isclass(found) else ""
+        name = found.__name__
+        parts.append(f"{headed(name, signature(name, found))}\n{words(found)}\n" + (f"\n{listed}\n" if listed else ""))
+    listed = "\n".join(entry(error.__name__, error) for error in errors)
+    parts.append(f"## Errors\n\n{listed}\n")
     return "\n".join(parts)
 
 

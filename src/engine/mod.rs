@@ -445,23 +445,26 @@ impl<'a> Engine<'a> {
     /// [`EngineError`] if the device failed.
     pub(crate) fn load_numbers(&mut self, plan: &Plan) -> Result<bool, EngineError> {
         let bytes = |plan: &Plan| plan.buffers.iter().map(|buffer| (buffer.array, buffer.bytes)).collect::<Vec<_>>();
+        let texels = |plan: &Plan| {
+            plan.textures.iter().map(|texture| (texture.array, texture.words, texture.size)).collect::<Vec<_>>()
+        };
         let kernels = || self.plan.kernels.iter().zip(&plan.kernels).zip(&self.stages);
         let order = |plan: &Plan| {
             let Plan { prepare, sort, tidy, before_report, report, advance, finish_report, .. } = plan;
             [prepare, sort, tidy, before_report, report, advance, finish_report].map(Vec::clone)
         };
         let is_alike = plan.kernels.len() == self.plan.kernels.len()
-            && (plan.particles, plan.constants_in, &plan.samplers, &plan.textures, &plan.paths, &plan.part)
+            && (plan.particles, plan.constants_in, &plan.samplers, &plan.paths, &plan.part)
                 == (
                     self.plan.particles,
                     self.plan.constants_in,
                     &self.plan.samplers,
-                    &self.plan.textures,
                     &self.plan.paths,
                     &self.plan.part,
                 )
             && order(plan) == order(&self.plan)
             && bytes(plan) == bytes(&self.plan)
+            && texels(plan) == texels(&self.plan)
             && kernels().all(|((own, new), stage)| stage.suits([own, new], [&self.plan, plan]));
         if !is_alike {
             return Ok(false);
@@ -473,6 +476,11 @@ impl<'a> Engine<'a> {
         for (own, new) in self.plan.buffers.iter().zip(&plan.buffers) {
             if let Some(bytes) = new.contents.bytes().filter(|_| own.contents != new.contents) {
                 self.gpu.queue.write_buffer(&self.buffers[&new.array], 0, &bytes);
+            }
+        }
+        for (own, new) in self.plan.textures.iter().zip(&plan.textures) {
+            if let Some(bytes) = new.contents.bytes().filter(|_| own.contents != new.contents) {
+                self.textures[&new.array].write(&self.gpu, &bytemuck::pod_collect_to_vec::<u8, u32>(&bytes));
             }
         }
         self.plan = plan.clone();
