@@ -213,7 +213,9 @@ fn a_changed_number_is_that_of_another_scene() {
         let resumed = Simulation::from_checkpoint(&path, &adapter()).unwrap();
         assert_eq!((resumed.changes(), resumed.scene()), (simulation.changes(), &changed));
     }
-    assert!(openings.iter().all(|(_, openings)| *openings == 2), "an engine opens again: {openings:?}");
+    // A rate of memory needs other kernels.
+    let again: Vec<_> = openings.iter().filter(|(_, openings)| *openings > 2).map(|(key, _)| *key).collect();
+    assert_eq!(again, ["interactions.0.bath.rate"], "{openings:?}");
 }
 
 /// Changes are in the summary of a simulation, and in that of a run that starts from its checkpoint, resumed or not.
