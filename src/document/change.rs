@@ -41,6 +41,11 @@ pub struct Rounding {
 const SECTION: &str = "changes";
 
 impl Change {
+    /// True if a number of the scene was changed, and no array.
+    pub(crate) fn is_of_number(&self) -> bool {
+        !self.value.is_null()
+    }
+
     /// The section of a checkpoint, if anything was changed.
     pub(crate) fn section(changes: &[Self]) -> Option<(String, Vec<u8>)> {
         (!changes.is_empty()).then(|| (SECTION.to_owned(), serde_json::to_vec(changes).unwrap_or_default()))

@@ -25,7 +25,7 @@ pub struct FileStart {
     pub surroundings: Option<Surroundings>,
     /// How the noise begins; none without a file, and where a run of an earlier version continues, whose noise is that of the scene's seed.
     pub origin: Option<Origin>,
-    /// What was changed between the steps of the simulation that left the file.
+    /// Changes between the steps of the simulation that left the file.
     pub changes: Vec<Change>,
     /// Places and velocities; none where a run continues, whose checkpoint has them.
     pub places: Option<FilePlaces>,

@@ -48,7 +48,7 @@ pub struct Summary {
     /// What it has from the file that its particles are from, if they are.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start: Option<StartSummary>,
-    /// What was changed between its steps, of a simulation that is stepped.
+    /// Changes between its steps, of a simulation that is stepped.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<Change>,
     /// Number of particles.
@@ -164,7 +164,7 @@ pub struct StartSummary {
     pub steps_before: u64,
     /// Seed of its noise.
     pub noise_seed: u64,
-    /// What was changed between the steps of the simulation that left the file.
+    /// Changes between the steps of the simulation that left the file.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<Change>,
 }

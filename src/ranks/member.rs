@@ -100,7 +100,7 @@ pub(super) fn execute(
         }),
         Command::Momenta => engine.own_momenta(),
         Command::Next => Ok(vec![portions.next()]),
-        // The first rank has loaded its numbers; the others are told apart in `serve`.
+        // The first rank has loaded its numbers; the others do so in `serve`.
         Command::Renumber { .. } | Command::End => Ok(Vec::new()),
     };
     samples.extend(engine.take_samples());

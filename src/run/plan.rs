@@ -34,8 +34,8 @@ pub fn plan(scene: &Checked, hardware: Hardware, options: Options) -> Plan {
     if follows {
         plan.follow(physics.followers, physics.stride);
     }
-    // From the start, also in runs that change none: kernels with folded constants may round otherwise.
-    plan.constants_in = if scene.announced.is_empty() { options.constants_in } else { ConstantsIn::Buffer };
+    // Runs that change none, too: kernels with folded constants may round otherwise.
+    plan.constants_in = if scene.loads_numbers() { ConstantsIn::Buffer } else { options.constants_in };
     plan.count_storage_buffers();
     if options.suits_serial_memory(hardware) {
         plan.suit_serial_memory(&physics.texture_candidates);

@@ -182,7 +182,7 @@ impl Simulation {
     fn at_start(sight: Sight, place: Place, scene: &Checked) -> Result<Self, RunError> {
         let state = families::initial_state(scene);
         families::check_start(scene, &state)?;
-        Self::from_state(sight, place, scene, state, Carried::default())
+        Self::from_state(sight, place, scene, state, Carried::default(), Vec::new())
     }
 
     /// A simulation that goes on from a checkpoint: of another one, or of a run. Rows of the table of energies begin there.
@@ -214,9 +214,8 @@ impl Simulation {
             return Err(checkpoint::CheckpointError::malformed(path, problem).into());
         }
         let carried = Carried::new(scene.model(), &Sections::new(path, state.step, &sections))?;
-        let mut simulation = Self::from_state(Sight::Frames, place, &scene, state, carried)?;
-        simulation.changes = Change::from_sections(&sections);
-        Ok(simulation)
+        let changes = Change::from_sections(&sections);
+        Self::from_state(Sight::Frames, place, &scene, state, carried, changes)
     }
 
     fn from_state(
@@ -225,9 +224,14 @@ impl Simulation {
         scene: &Checked,
         state: State,
         carried: Carried,
+        changes: Vec<Change>,
     ) -> Result<Self, RunError> {
         let planned = sight.planned(scene);
-        let (engine, options) = place.open(&planned, &state, Options { part: place.part(), ..Options::default() })?;
+        // Kernels of the steps that follow are those that the changes left.
+        let is_changed = changes.iter().any(Change::is_of_number);
+        let constants_in = if is_changed { ConstantsIn::Buffer } else { ConstantsIn::Code };
+        let options = Options { part: place.part(), constants_in, ..Options::default() };
+        let (engine, options) = place.open(&planned, &state, options)?;
         let (particles, operations) = (scene.model().particle_count(), engine.plan().operations_per_particle);
         let pace = match sight {
             Sight::Frames => Pace::for_looking(particles, operations),
@@ -247,7 +251,7 @@ impl Simulation {
             interrupt: Interrupt::default(),
             sampled: Vec::new(),
             here: None,
-            changes: Vec::new(),
+            changes,
             openings: 1,
             end: None,
         })

@@ -10,7 +10,7 @@ const CHANGEABLE: [&str; 5] = ["temperature", "interactions.", "integrator.", "s
 /// The numbers that may change between steps, in words.
 const ACCEPTED: &str = "temperature, numbers of `interactions`, `integrator` and `space.walls`, and space.shear.rate";
 
-/// Whether a number in this place may change between steps.
+/// True if a number in this place may change between steps.
 fn is_changeable(key: &str) -> bool {
     CHANGEABLE.iter().any(|known| key == known.trim_end_matches('.') || known.ends_with('.') && key.starts_with(known))
 }
@@ -33,7 +33,7 @@ pub(crate) fn overridden(scene: &Scene, settings: &[String]) -> Result<Checked, 
     WrittenScene::new(scene.title.as_str(), text).with(settings).check_kept(scene.start().cloned())
 }
 
-/// Whether two scenes differ in numbers only, and their particles not at all.
+/// True if two scenes differ in numbers only, and their particles not at all.
 pub(crate) fn differ_in_numbers(one: &Checked, other: &Checked) -> bool {
     let shape = |scene: &Scene| {
         let mut document = serde_json::to_value(scene).unwrap_or_default();

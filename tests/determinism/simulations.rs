@@ -210,8 +210,11 @@ fn a_changed_number_is_that_of_another_scene() {
         let root = tempfile::tempdir().unwrap();
         let path = root.path().join("b.ckpt");
         simulation.checkpoint(&path).unwrap();
-        let resumed = Simulation::from_checkpoint(&path, &adapter()).unwrap();
+        let mut resumed = Simulation::from_checkpoint(&path, &adapter()).unwrap();
         assert_eq!((resumed.changes(), resumed.scene()), (simulation.changes(), &changed));
+        resumed.advance(6).unwrap();
+        simulation.advance(6).unwrap();
+        assert!(resumed.state().unwrap() == simulation.state().unwrap(), "{key}: a checkpoint goes on otherwise");
     }
     // A rate of memory needs other kernels.
     let again: Vec<_> = openings.iter().filter(|(_, openings)| *openings > 2).map(|(key, _)| *key).collect();

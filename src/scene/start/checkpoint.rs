@@ -54,7 +54,7 @@ impl Run {
         State { step: 0, ..self.state.clone() }
     }
 
-    /// What was changed between its steps, and before it.
+    /// Changes between its steps, and before it.
     pub(crate) fn changes(&self) -> &[Change] {
         &self.changes
     }
