@@ -1,7 +1,7 @@
 //! What can go wrong while a plan runs.
 
 use crate::gpu::GpuError;
-use crate::plan::Failure;
+use crate::plan::{Failure, Options};
 
 /// A failure of a run.
 #[derive(Debug, thiserror::Error)]
@@ -48,4 +48,15 @@ pub enum EngineError {
         /// What does not fit.
         reason: String,
     },
+}
+
+impl EngineError {
+    /// Options with more room where an array turned out too small, or a bond too long for ranks; none after other errors.
+    pub(crate) fn roomier(&self, options: Options, particles: u64) -> Option<Options> {
+        match self {
+            Self::Crowded { .. } if options.has_room_left() => Some(options.with_room(particles)),
+            Self::Overreached { .. } if options.may_lengthen() => Some(options.with_longer_bonds()),
+            _ => None,
+        }
+    }
 }

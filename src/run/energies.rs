@@ -6,7 +6,7 @@ use super::sections::{Sections, bytes, samples};
 use super::settling;
 use crate::families::{Checked, Model};
 use crate::measure::Observables;
-use crate::output::{EnergiesFile, Extent, OutputError, Summary, files, own_file, read_table};
+use crate::output::{EnergiesFile, Extent, OutputError, Summary, own_file, read_table};
 use crate::table::Table;
 use std::path::Path;
 
@@ -101,16 +101,6 @@ impl EnergyRecorder {
 
     /// Adds the means after equilibration to a summary.
     pub(super) fn summarise(&self, summary: &mut Summary) {
-        for (name, mean) in self.rows.means() {
-            summary.add_mean(name, mean.as_ref());
-        }
-        if self.rows.are_before_equilibration() {
-            let text = format!("`{}` has no row after equilibration, so there are no means", files::ENERGIES);
-            summary.warnings.push(text);
-        }
-        if self.is_about_equilibrium {
-            summary.unequilibrated = settling::unequilibrated(&self.rows.table(), self.rows.equilibration);
-            summary.warnings.extend(summary.unequilibrated.as_ref().map(ToString::to_string));
-        }
+        self.rows.summarise(self.is_about_equilibrium, summary);
     }
 }

@@ -1,8 +1,10 @@
 //! The rows of the table of energies, and the means of its columns.
 
+use super::settling;
 use crate::families::{Checked, Column, column};
 use crate::measure::Observables;
 use crate::measure::statistics::{Estimate, estimate};
+use crate::output::{Summary, files};
 use crate::table::Table;
 
 /// All rows of a run so far.
@@ -74,6 +76,21 @@ impl EnergyRows {
                 (*name, mean)
             })
             .collect()
+    }
+
+    /// Adds the means after equilibration to a summary, and warns of those that include the way to it where the scene is about equilibrium.
+    pub(super) fn summarise(&self, is_about_equilibrium: bool, summary: &mut Summary) {
+        for (name, mean) in self.means() {
+            summary.add_mean(name, mean.as_ref());
+        }
+        if self.are_before_equilibration() {
+            let text = format!("`{}` has no row after equilibration, so there are no means", files::ENERGIES);
+            summary.warnings.push(text);
+        }
+        if is_about_equilibrium {
+            summary.unequilibrated = settling::unequilibrated(&self.table(), self.equilibration);
+            summary.warnings.extend(summary.unequilibrated.as_ref().map(ToString::to_string));
+        }
     }
 
     /// Whether no row is after equilibration.

@@ -281,19 +281,15 @@ impl Run {
             });
             match ended {
                 Err(RunError::Engine(error)) => {
-                    let particles = task.scene.model().particle_count();
-                    let (reason, with);
+                    let model = task.scene.model();
                     // Too rare for every run to pay for it in memory or time.
-                    (options, reason, with) = match error {
-                        EngineError::Crowded { .. } if options.has_room_left() => (
-                            options.with_room(particles),
-                            task.scene.model().physics().crowd(task.scene.model()),
-                            "more memory",
-                        ),
-                        EngineError::Overreached { .. } if options.may_lengthen() => {
-                            (options.with_longer_bonds(), "a bond is longer than expected", "wider halos")
-                        }
-                        error => return Err(error.into()),
+                    let Some(roomier) = error.roomier(options, model.particle_count()) else {
+                        return Err(error.into());
+                    };
+                    options = roomier;
+                    let (reason, with) = match error {
+                        EngineError::Overreached { .. } => ("a bond is longer than expected", "wider halos"),
+                        _ => (model.physics().crowd(model), "more memory"),
                     };
                     if begun {
                         start = task.last_checkpoint(start)?;

@@ -11,6 +11,7 @@ use super::pace::{self, Pace};
 use super::pictures::{mesh_depth, most_shown};
 use super::runs::ranks;
 use super::sections::Sections;
+use super::settling;
 use super::tally::Carried;
 use super::team::team;
 use super::views::Views;
@@ -351,7 +352,8 @@ impl Simulation {
 
     /// Begins again from where it was saved, with more room, as a run does; every other error ends it.
     fn make_room(&mut self, error: EngineError) -> Result<(), RunError> {
-        let Some(options) = roomier(&error, self.options, &self.scene) else { return Err(self.ended(error)) };
+        let particles = self.scene.model().particle_count();
+        let Some(options) = error.roomier(self.options, particles) else { return Err(self.ended(error)) };
         (self.engine, self.options) = self.place.open(&self.planned, &self.saved, options)?;
         self.carried = self.counted.clone();
         Ok(())
@@ -650,10 +652,8 @@ impl Simulation {
         summary.start = StartSummary::new(scene);
         summary.changes.clone_from(&self.changes);
         summary.columns.insert(files::ENERGIES.to_owned(), ColumnSummary::of_energies(scene.model()));
-        for (name, mean) in self.rows.means() {
-            summary.add_mean(name, mean.as_ref());
-        }
         summary.warnings = families::warnings(scene).iter().map(ToString::to_string).collect();
+        self.rows.summarise(settling::is_about_equilibrium(scene, scene.model()), &mut summary);
         Ok(summary.save(path.as_ref())?)
     }
 
@@ -771,18 +771,7 @@ impl Place {
                 Err(RunError::Engine(error)) => error,
                 Err(error) => return Err(error),
             };
-            options = roomier(&error, options, scene).ok_or(error)?;
+            options = error.roomier(options, scene.model().particle_count()).ok_or(error)?;
         }
-    }
-}
-
-/// Options with more room where an array turned out too small; none after other errors.
-fn roomier(error: &EngineError, options: Options, scene: &Checked) -> Option<Options> {
-    match error {
-        EngineError::Crowded { .. } if options.has_room_left() => {
-            Some(options.with_room(scene.model().particle_count()))
-        }
-        EngineError::Overreached { .. } if options.may_lengthen() => Some(options.with_longer_bonds()),
-        _ => None,
     }
 }
