@@ -135,14 +135,15 @@ impl Scene {
         })
     }
 
-    /// True if kernels load their numbers from the start: numbers are announced, or were changed in the simulation that it goes on with.
+    /// True if kernels load their numbers from the start: numbers are announced, or were changed in the simulation that
+    /// it goes on with.
     pub(crate) fn loads_numbers(&self) -> bool {
         let changed = self.start().is_some_and(|start| start.changes.iter().any(Change::is_of_number));
         changed || !self.announced.is_empty()
     }
 
-    /// The scene with the numbers that are announced, if there are any: units are chosen for these. A path without a number, which a
-    /// check refuses, leaves none.
+    /// The scene with the numbers that are announced, if there are any: units are chosen for these. A path without a
+    /// number, which a check refuses, leaves none.
     pub(crate) fn as_announced(&self) -> Option<Self> {
         if self.announced.is_empty() {
             return None;

@@ -51,7 +51,8 @@ pub enum EngineError {
 }
 
 impl EngineError {
-    /// Options with more room where an array turned out too small, or a bond too long for ranks; none after other errors.
+    /// Options with more room where an array turned out too small, or a bond too long for ranks; none after other
+    /// errors.
     pub(crate) fn roomier(&self, options: Options, particles: u64) -> Option<Options> {
         match self {
             Self::Crowded { .. } if options.has_room_left() => Some(options.with_room(particles)),

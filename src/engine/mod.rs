@@ -438,8 +438,8 @@ impl<'a> Engine<'a> {
         Ok(std::mem::take(&mut self.collected))
     }
 
-    /// Replaces the plan by another one, which differs in numbers only: in constants that kernels load from buffers, and in tables. False if
-    /// it differs in more, and nothing has changed. The state has to be uploaded again.
+    /// Replaces the plan by another one, which differs in numbers only: in constants that kernels load from buffers,
+    /// and in tables. False if it differs in more, and nothing has changed. The state has to be uploaded again.
     ///
     /// # Errors
     /// [`EngineError`] if the device failed.
@@ -501,7 +501,8 @@ impl<'a> Engine<'a> {
         Ok(Reported { momenta, ..state.clone().into() })
     }
 
-    /// Takes samples of this step by some samplers, due or not: samples at the steps at which they are due do not depend on it.
+    /// Takes samples of this step by some samplers, due or not: samples at the steps at which they are due do not
+    /// depend on it.
     ///
     /// # Errors
     /// As [`Self::reported`].
@@ -603,7 +604,8 @@ impl<'a> Engine<'a> {
         Ok(state.into())
     }
 
-    /// The momenta of [`Stepper::frame`] that one of several ranks knows, two words an axis, and zero for the particles of others.
+    /// The momenta of [`Stepper::frame`] that one of several ranks knows, two words an axis, and zero for the particles
+    /// of others.
     ///
     /// # Errors
     /// As [`Self::reported`], or if the plan is of no part.

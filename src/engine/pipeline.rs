@@ -149,7 +149,8 @@ impl Loaded {
 }
 
 impl Stage {
-    /// True if the kernel of a plan differs from that of another at most in constants that are not compiled into this one.
+    /// True if the kernel of a plan differs from that of another at most in constants that are not compiled into this
+    /// one.
     pub(super) fn suits(&self, kernels: [&Kernel; 2], plans: [&Plan; 2]) -> bool {
         let [one, other] = kernels.map(|kernel| Kernel { constants: Vec::new(), ..kernel.clone() });
         let [mut one_has, mut other_has] = [0, 1].map(|side| {

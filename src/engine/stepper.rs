@@ -40,16 +40,18 @@ pub trait Stepper: Movable {
     /// The particles as a report of this step finds them, whose state is known.
     fn report_of(&mut self, state: &State) -> Result<Reported, EngineError>;
 
-    /// Samples of this step by some samplers, due or not: samples at the steps at which they are due do not depend on it. Samplers of
-    /// gathered particles are not among them.
+    /// Samples of this step by some samplers, due or not: samples at the steps at which they are due do not depend on
+    /// it. Samplers of gathered particles are not among them.
     fn measure(&mut self, samplers: &[usize]) -> Result<Vec<Sample>, EngineError>;
 
-    /// Goes on from a state by another plan, which differs in numbers only: in constants that kernels load from buffers, and in tables.
-    /// Other ranks make their plans of the scene in JSON. False if a plan differs in more: the engine has to be replaced then.
+    /// Goes on from a state by another plan, which differs in numbers only: in constants that kernels load from
+    /// buffers, and in tables. Other ranks make their plans of the scene in JSON. False if a plan differs in more: the
+    /// engine has to be replaced then.
     fn renumber(&mut self, plan: &Plan, scene: &str, state: &State) -> Result<bool, EngineError>;
 
-    /// The particles where the forces of the current step are evaluated, with their momenta there, as the table of energies sees them: what
-    /// a run that starts from them takes for its step 0. Only where the state may be read, and of a scene with a trajectory.
+    /// The particles where the forces of the current step are evaluated, with their momenta there, as the table of
+    /// energies sees them: what a run that starts from them takes for its step 0. Only where the state may be read, and
+    /// of a scene with a trajectory.
     fn frame(&mut self) -> Result<Reported, EngineError> {
         if !self.plan().has_buffer(Array::ReportedMomenta) {
             return self.reported();

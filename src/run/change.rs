@@ -26,10 +26,11 @@ impl Simulation {
     /// Changes a number of the scene: `temperature`, a number of `interactions`, `integrator`, `space.walls`, or `space.shear.rate`, by its
     /// path as in overrides of scenes. Velocities, and the numbers that baths remember, stay as they are.
     ///
-    /// Momenta are whole multiples of a unit that follows from the scene, and from the largest values that `announced` in it lists: up to
-    /// these no unit changes. Where a change needs a larger unit all the same, momenta are rounded to it, so that their sum stays, to half a
-    /// unit: the [`Rounding`] says how much it changed. The first change compiles kernels once more, with their numbers in a buffer; those
-    /// of a scene that announces numbers have them there from the start.
+    /// Momenta are whole multiples of a unit that follows from the scene, and from the largest values that `announced`
+    /// in it lists: up to these no unit changes. Where a change needs a larger unit all the same, momenta are rounded
+    /// to it, so that their sum stays, to half a unit: the [`Rounding`] says how much it changed. The first change
+    /// compiles kernels once more, with their numbers in a buffer; those of a scene that announces numbers have them
+    /// there from the start.
     ///
     /// ```
     /// use mesoscope::gpu::AdapterChoice;

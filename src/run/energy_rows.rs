@@ -78,7 +78,8 @@ impl EnergyRows {
             .collect()
     }
 
-    /// Adds the means after equilibration to a summary, and warns of those that include the way to it where the scene is about equilibrium.
+    /// Adds the means after equilibration to a summary, and warns of those that include the way to it where the scene
+    /// is about equilibrium.
     pub(super) fn summarise(&self, is_about_equilibrium: bool, summary: &mut Summary) {
         for (name, mean) in self.means() {
             summary.add_mean(name, mean.as_ref());

@@ -144,8 +144,8 @@ impl Simulation {
         Self::on_ranks(scene, choice, 1)
     }
 
-    /// The same on several ranks, threads of this process with an adapter each, which divide the box: all numbers are those of one rank, to
-    /// the last bit.
+    /// The same on several ranks, threads of this process with an adapter each, which divide the box: all numbers are
+    /// those of one rank, to the last bit.
     ///
     /// ```
     /// use mesoscope::prelude::*;
@@ -282,7 +282,8 @@ impl Simulation {
         &self.place.gpu
     }
 
-    /// How often an engine was opened: at the start, and again by changes for which the kernels of the last one do not suffice.
+    /// How often an engine was opened: at the start, and again by changes for which the kernels of the last one do not
+    /// suffice.
     #[doc(hidden)]
     #[must_use]
     pub fn openings(&self) -> u32 {
@@ -636,8 +637,9 @@ impl Simulation {
         Ok(checkpoint::save(path.as_ref(), Id::of_run(&scene), &scene, &state, &[], &sections)?)
     }
 
-    /// Writes what `run.json` says of a run: the scene, the adapter, changes between steps, speed, and the means of the table of energies
-    /// since the last change, with their errors. Nothing is said of conservation, which is not watched.
+    /// Writes what `run.json` says of a run: the scene, the adapter, changes between steps, speed, and the means of the
+    /// table of energies since the last change, with their errors. Nothing is said of conservation, which is not
+    /// watched.
     ///
     /// # Errors
     /// [`RunError::Output`] if it cannot be written.

@@ -15,8 +15,8 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
-/// Opens the other ranks of a run, of which this adapter's is the first, and gives all of them their part of a state. Ranks may
-/// compute differently until they are [checked](Team::check_alike).
+/// Opens the other ranks of a run, of which this adapter's is the first, and gives all of them their part of a state.
+/// Ranks may compute differently until they are [checked](Team::check_alike).
 ///
 /// ```
 /// use mesoscope::engine::{Engine, Stepper};

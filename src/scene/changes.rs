@@ -56,7 +56,8 @@ fn blank(document: &mut Value) {
     }
 }
 
-/// Checks the numbers that a scene announces: places of numbers that may change, and a scene without mistakes with all of them.
+/// Checks the numbers that a scene announces: places of numbers that may change, and a scene without mistakes with all
+/// of them.
 pub(super) fn check_announced(scene: &Checked, problems: &mut Problems) {
     for (place, announced) in scene.announced.iter().enumerate() {
         if !is_changeable(&announced.key) {

@@ -98,7 +98,8 @@ fn curves_of_seeds(number: usize, settings: &[Setting], members: &[Curve<'_>]) -
     curves
 }
 
-/// The mean of curves over their values at the same times, with the standard errors from their scatter; none where times differ.
+/// The mean of curves over their values at the same times, with the standard errors from their scatter; none where
+/// times differ.
 fn mean_curve(curves: &[Curve<'_>]) -> Option<(Vec<[f64; 2]>, Vec<f64>)> {
     let first = &curves.first()?.points;
     let is_alike = |Curve { points, .. }: &Curve<'_>| {

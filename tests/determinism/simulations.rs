@@ -343,7 +343,8 @@ fn a_hotter_scene_has_larger_units() {
     simulation.advance(1).unwrap();
 }
 
-/// Units are those of the largest values that a scene announces: up to these no change rounds anything, whatever else is kept in them.
+/// Units are those of the largest values that a scene announces: up to these no change rounds anything, whatever else
+/// is kept in them.
 #[test]
 fn announced_numbers_change_no_unit() {
     let walls = ["space.box=[6,6,6]", "output={}"];

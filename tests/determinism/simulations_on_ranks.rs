@@ -72,7 +72,8 @@ fn ranks_that_are_looked_at_are_one() {
     }
 }
 
-/// Numbers, positions and velocities change on all ranks: the first change opens them again, the second one loads numbers.
+/// Numbers, positions and velocities change on all ranks: the first change opens them again, the second one loads
+/// numbers.
 #[test]
 fn ranks_change_as_one_does() {
     for (name, scene) in scenes() {

@@ -98,8 +98,8 @@ fn check_scene(scene: &Scene, state: &StateFile, problems: &mut Problems) {
     }
 }
 
-/// Particles, masses and velocities of an earlier run on the same mesh, whose scene may differ in all else that acts on them, and what was
-/// changed between its steps.
+/// Particles, masses and velocities of an earlier run on the same mesh, whose scene may differ in all else that acts on
+/// them, and what was changed between its steps.
 fn places_of_run(
     scene: &mut Scene,
     checkpoint: &Path,
