@@ -20,7 +20,10 @@ prepare_metadata_for_build_wheel = maturin.prepare_metadata_for_build_wheel
 
 def _program() -> None:
     root = HERE.parent
-    subprocess.run(["cargo", "build", "--locked", "--profile", PROFILE, "--bin", "mesoscope"], cwd=root, check=True)
+    # With the package of the extension dependencies have the features that they have in it: they are compiled once for both.
+    packages = ["--package", "mesoscope", "--package", "mesoscope-python"]
+    build = ["cargo", "build", "--locked", "--profile", PROFILE, *packages, "--bin", "mesoscope"]
+    subprocess.run(build, cwd=root, check=True)
     found = subprocess.run(
         ["cargo", "metadata", "--locked", "--no-deps", "--format-version", "1"],
         cwd=root, check=True, capture_output=True, text=True,

@@ -101,7 +101,7 @@ const FORCE_MOMENTUM: Unit = Other("force units × momentum units");
 const ACTION: Unit = Other("momentum units × length units");
 
 /// All quantities, those most asked for first.
-pub const QUANTITIES: [Quantity; 30] = [
+pub(crate) const QUANTITIES: [Quantity; 30] = [
     settling("temperature", "kT", Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0).assessed(),
     settling("internal_temperature", "kT_i", Temperature, "mean temperature inside cells")
         .looks("internal", 5)

@@ -2,13 +2,16 @@
 
 use crate::errors;
 use crate::runs::{GLANCE, check_fork, checked, choice};
+use mesoscope::gpu::{AdapterChoice, unseen_card};
 use mesoscope::output::TrajectoryWriter;
 use mesoscope::run::{Frame, RunError};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyReadonlyArray2};
+use pyo3::exceptions::PyRuntimeWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::collections::HashMap;
+use std::ffi::CString;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -26,6 +29,20 @@ pub struct Simulation {
 }
 
 impl Simulation {
+    /// A simulation that was opened, or not; it warns of a graphics card that no driver offers.
+    fn opened(
+        py: Python<'_>,
+        simulation: Result<mesoscope::Simulation, RunError>,
+        choice: &AdapterChoice,
+    ) -> PyResult<Self> {
+        let simulation = simulation.map_err(|error| errors::of_run(py, &error))?;
+        if let Some(warning) = unseen_card(simulation.adapter(), choice) {
+            let warning = CString::new(warning).unwrap_or_default();
+            PyErr::warn(py, &py.get_type::<PyRuntimeWarning>(), &warning, 2)?;
+        }
+        Ok(Self::new(simulation))
+    }
+
     fn new(simulation: mesoscope::Simulation) -> Self {
         let open = Open { simulation, trajectories: HashMap::new() };
         Self { open: Mutex::new(Some(open)), process: std::process::id() }
@@ -117,7 +134,7 @@ impl Simulation {
         let scene = checked(name, text, &settings, None).map_err(|error| errors::of_scene(py, &error))?;
         let choice = choice(adapter);
         let simulation = py.detach(|| mesoscope::Simulation::on_ranks(&scene, &choice, ranks));
-        simulation.map(Self::new).map_err(|error| errors::of_run(py, &error))
+        Self::opened(py, simulation, &choice)
     }
 
     /// A simulation that goes on from a checkpoint.
@@ -127,7 +144,7 @@ impl Simulation {
         check_fork(py)?;
         let choice = choice(adapter);
         let simulation = py.detach(|| mesoscope::Simulation::from_checkpoint_on_ranks(&path, &choice, ranks));
-        simulation.map(Self::new).map_err(|error| errors::of_run(py, &error))
+        Self::opened(py, simulation, &choice)
     }
 
     /// Closes the device, unless another simulation is on it.

@@ -36,7 +36,5 @@ override VISCOSITY: f32; // of Voronoi cells, times the time step
 const MOMENTUM_LIMIT: i32 = 1073741824; // 2^30
 // How far a particle may lie outside its grid cell, as a fraction of the box.
 const STRAY: f32 = 3e-5;
-// Words of hits, one bit a candidate, that an invocation holds at once.
-const WORDS: u32 = 32u;
 // No cell of the mesh.
 const NO_CELL: u32 = 0xffffffffu;

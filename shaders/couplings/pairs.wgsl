@@ -20,6 +20,7 @@ fn visit_pairs_of(slot: u32) {
             let d = separation(me.position, stored_position(neighbour & NEIGHBOUR_MASK));
             mask |= select(0u, 1u << bit, dot(d, d) < CUTOFF * CUTOFF);
         }
+        // Ends: every turn clears a bit.
         while (mask != 0u) {
             let entry = base + firstTrailingBit(mask);
             mask &= mask - 1u;

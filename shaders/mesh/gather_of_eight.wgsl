@@ -157,7 +157,8 @@ fn visit_cell(cell: u32) {
     let bin = opened_bin(cell);
     let eight = opened_eight(bin);
     var first = 0u;
-    loop { // left at its end: see pairs/clusters
+    // Ends: first counts to eight.count. Left at its end: see pairs/clusters.
+    loop {
         if (first < eight.count) {
             let index = place_in_eight(eight, bin, min(first + lane_of_eight, eight.count - 1u));
             var particle = load_water(index);

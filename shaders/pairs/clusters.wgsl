@@ -1,6 +1,9 @@
 // Visits every pair from both ends, eight particles of a row at a time: the lanes of a subgroup of eight load candidates
 // together and pass them on by shuffles. For adapters whose subgroups have eight lanes.
 
+// Words of hits, one bit a candidate, that a lane holds at once.
+const WORDS: u32 = 32u;
+
 // The candidates of a cluster of eight particles, nine (three, one) stretches seen as one: the own row first.
 struct Stretches {
     own: u32,
@@ -86,6 +89,7 @@ fn candidate_of_lane(s: Stretches, candidate: u32) -> Probe {
 fn hits_of_cluster(row: u32, index: u32, lane: u32, s: Stretches, base: u32, end: u32) -> u32 {
     var mask = 0u;
     var part = 0u;
+    // Ends: part counts to 32.
     loop {
         let next = candidate_of_lane(s, base + part + 8u + lane);
         mask |= eight_hits(hits_probe, lane, hits_next) << part;
@@ -131,11 +135,13 @@ fn visit_clusters(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(subgroup
     // Loops are left at their ends: software adapters execute what follows a `break` once more in every loop, without effect.
     var part = group * (rows() * SEGMENTS) / SHARES;
     let last_part = (group + 1u) * (rows() * SEGMENTS) / SHARES;
+    // Ends: part counts to last_part.
     loop {
         let row = part / SEGMENTS;
         let row_first = row_begin(row);
         let row_last = row_end(row);
         var first = row_first + (part - row * SEGMENTS) * 8u;
+        // Ends: first counts to row_last.
         loop {
             if (first < row_last) {
                 let index = min(first + lane, row_last - 1u);
@@ -144,10 +150,12 @@ fn visit_clusters(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(subgroup
                 prepare_cluster_hits(row, me, lane, s);
                 var sums = pass_begin(me);
                 var tile = 0u;
+                // Ends: tile counts to s.total.
                 loop {
                     let tile_end = min(s.total, tile + 32u * WORDS);
                     var filled = 0u; // one bit a word with hits
                     var word = 0u;
+                    // Ends: word counts to the end of the tile.
                     loop {
                         let mask = hits_of_cluster(row, index, lane, s, tile + 32u * word, tile_end);
                         masks[word] = mask;
@@ -157,6 +165,7 @@ fn visit_clusters(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(subgroup
                     }
                     word = lowest_bit(filled);
                     var mask = masks[word];
+                    // Ends: every turn clears a bit of a mask, and after its last one a bit of `filled`.
                     loop {
                         if (filled != 0u) {
                             let other = resolve(s, tile + 32u * word + lowest_bit(mask));

@@ -9,22 +9,33 @@
 // and those of particles without their pairs: relax_particles, pull_tethers, forget_forces; sum_densities and observe_densities
 // before the others, if forces depend on local densities. The plan of particles chooses; no default.
 
+// Words of hits, one bit a candidate, that a lane holds at once: most often those of all its candidates. They lie in workgroup
+// memory, as compilers of graphics cards keep an array that is indexed at run time neither in registers nor near them.
+const HIT_WORDS: u32 = 8u;
+struct LaneHits {
+    words: array<u32, 16>, // masks, then the first candidate of each; see word_place
+}
+var<workgroup> lane_hits: array<LaneHits, WORKGROUP>;
+
+// Where a lane keeps a word: its neighbours keep theirs elsewhere, in other banks of the memory.
+fn word_place(lane: u32, word: u32) -> u32 { return word ^ (lane & 15u); }
+
 // Visits one particle and its pairs.
-fn visit_particle_of_row(row: u32, index: u32) {
+fn visit_particle_of_row(row: u32, index: u32, lane: u32) {
     let me = particle_at(index);
     begin_visit(row, me);
     prepare_row_hits(row, me);
     let columns = columns_of(me);
     var sums = pass_begin(me);
-    var masks: array<u32, WORDS>;
-    var bases: array<u32, WORDS>;
     var word_number = 0u;
     var neighbour = 0u;
     var base = 0u;
     var end = 0u;
+    // Ends: the inner loop goes on until all rows have been searched, or HIT_WORDS more words are filled.
     loop {
         var filled = 0u;
-        while (filled < WORDS) {
+        // Ends: every turn begins a further row, or advances base towards its end.
+        while (filled < HIT_WORDS) {
             if (base >= end) {
                 if (neighbour == neighbour_rows()) { break; }
                 let other_row = neighbour_row(row, neighbour);
@@ -36,22 +47,25 @@ fn visit_particle_of_row(row: u32, index: u32) {
             }
             let mask = hits_of_row(row, index, word_number, base, min(32u, end - base));
             word_number += 1u;
-            masks[filled] = mask;
-            bases[filled] = base;
+            lane_hits[lane].words[word_place(lane, filled)] = mask;
+            lane_hits[lane].words[word_place(lane, HIT_WORDS + filled)] = base;
             filled += select(0u, 1u, mask != 0u);
             base += 32u;
         }
         var word = 0u;
-        var mask = masks[0];
-        var word_base = bases[0];
-        while (word < filled) {
+        var mask = 0u;
+        var word_base = 0u;
+        // Ends: every turn clears a bit of a mask, of which there are `filled`. One loop, so that lanes do not wait for each other
+        // after every word.
+        loop {
+            if (mask == 0u) {
+                if (word == filled) { break; }
+                mask = lane_hits[lane].words[word_place(lane, word)];
+                word_base = lane_hits[lane].words[word_place(lane, HIT_WORDS + word)];
+                word += 1u;
+            }
             pass_pair(&sums, me, word_base + firstTrailingBit(mask));
             mask &= mask - 1u;
-            if (mask == 0u) {
-                word += 1u;
-                mask = masks[word & 31u];
-                word_base = bases[word & 31u];
-            }
         }
         if (base >= end && neighbour == neighbour_rows()) { break; }
     }
@@ -84,7 +98,7 @@ fn visit_rows(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
         let end = row_end(row);
         let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
         for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
-            visit_particle_of_row(row, index);
+            visit_particle_of_row(row, index, lane);
         }
     }
     report_turns(workgroup.x >> 16u);

@@ -51,7 +51,7 @@ fn visit_rows_of_part(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(loca
         let skipped = visited.left_out.y - visited.left_out.x;
         let first = visited.begin + (group - number * SEGMENTS) * WORKGROUP;
         for (var place = first + lane; place < visited.end - skipped; place += WORKGROUP * SEGMENTS) {
-            visit_particle_of_row(row, place + select(0u, skipped, place >= visited.left_out.x));
+            visit_particle_of_row(row, place + select(0u, skipped, place >= visited.left_out.x), lane);
         }
     }
     report_turns(workgroup.x >> 16u);

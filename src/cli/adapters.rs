@@ -1,6 +1,6 @@
 //! `mesoscope adapters`: what this machine can run on, and whether it computes as it should.
 
-use mesoscope::gpu::{AdapterChoice, AdapterDescription, Gpu, GpuError, Requirements, list_adapters};
+use mesoscope::gpu::{AdapterChoice, AdapterDescription, Gpu, GpuError, Requirements, list_adapters, unseen_card};
 use mesoscope::self_test::{self, Finding, Verdict};
 
 use super::table::{aligned, labelled};
@@ -41,8 +41,11 @@ fn list() -> Result<(), Failure> {
     let row = |(number, adapter): (usize, AdapterDescription)| {
         vec![number.to_string(), adapter.name, adapter.kind.name().to_owned(), adapter.backend, adapter.driver]
     };
+    let warning = unseen_card(&adapters[0], &AdapterChoice::Best);
     let rows: Vec<Vec<String>> = std::iter::once(header).chain(adapters.into_iter().enumerate().map(row)).collect();
-    print(&aligned(&rows, ""))
+    print(&aligned(&rows, ""))?;
+    warning.iter().for_each(|warning| super::line(&format!("warning: {warning}")));
+    Ok(())
 }
 
 /// Checks an adapter, and prints every finding as soon as there is one.

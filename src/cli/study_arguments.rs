@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use mesoscope::gpu::AdapterChoice;
+use mesoscope::gpu::{AdapterChoice, list_adapters, unseen_card};
 use mesoscope::output::OutputError;
 use mesoscope::scene::Warning;
 use mesoscope::study::{Kind, LONG, Observer, Record, StudyError, StudyRun};
@@ -147,6 +147,8 @@ impl StudyArguments {
         let executed = if self.how.quiet {
             execute(study, adapter, &mut |_| {})
         } else {
+            let warning = list_adapters().first().and_then(|best| unseen_card(best, adapter));
+            warning.iter().for_each(|warning| line(&format!("warning: {warning}")));
             let mut reporter = Reporter::new(title, R::KIND);
             let executed = execute(study, adapter, &mut |event| reporter.show(&event, &runs));
             reporter.bar.finish_and_clear();

@@ -9,6 +9,7 @@ use super::error::GpuError;
 use super::kept::Kept;
 use super::shader::{Binding, LinkedShader, link_once};
 use crate::shaders::{Choices, Constant, Entry};
+use mesoscope_shader_modules::module_without_loop_counters;
 
 /// The text of a kernel, and the bits of the constants that it uses.
 type Ingredients = (String, Vec<(Constant, u64)>);
@@ -72,7 +73,8 @@ impl Gpu {
         let constants: Vec<(Constant, f64)> = used.collect();
         let bits = constants.iter().map(|(constant, value)| (*constant, value.to_bits())).collect();
         self.compiled.pipelines.get_or_make((text, bits), || {
-            let LinkedShader { mut module, bindings, constants: used, loaded, .. } = linked.specialized(&constants);
+            let LinkedShader { mut module, bindings, constants: used, loaded, counts_loops, .. } =
+                linked.specialized(&constants);
             let constants: Vec<(&str, f64)> = (constants.iter())
                 .filter(|(constant, _)| used.contains(constant))
                 .map(|(constant, value)| (constant.name(), *value))
@@ -81,10 +83,15 @@ impl Gpu {
                 rewriting(&mut module, self.device.features());
             }
             let pipeline = self.scoped(&format!("making kernel `{name}`"), 0, || {
-                let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                let module = wgpu::ShaderModuleDescriptor {
                     label: Some(name),
                     source: wgpu::ShaderSource::Naga(Cow::Owned(module)),
-                });
+                };
+                let module = if counts_loops {
+                    self.device.create_shader_module(module)
+                } else {
+                    module_without_loop_counters(&self.device, module)
+                };
                 self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                     label: Some(name),
                     layout: None,

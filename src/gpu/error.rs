@@ -84,15 +84,17 @@ pub enum GpuError {
 }
 
 fn install_hint() -> String {
-    // Vulkan's loader then looks at nothing else.
+    hidden_drivers().unwrap_or_else(|| driver_hint().to_owned())
+}
+
+/// The variable of the environment, if there is one, by which Vulkan's loader looks at no other drivers, with the remedy.
+pub(super) fn hidden_drivers() -> Option<String> {
     let narrowed =
         ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"].into_iter().find_map(|name| Some((name, std::env::var(name).ok()?)));
-    if let Some((name, value)) = narrowed.filter(|_| cfg!(target_os = "linux")) {
-        return format!(
-            "the variable {name} hides all Vulkan drivers but `{value}`: unset it, or let it name a driver that is there"
-        );
-    }
-    driver_hint().to_owned()
+    let (name, value) = narrowed.filter(|_| cfg!(target_os = "linux"))?;
+    Some(format!(
+        "the variable {name} hides all Vulkan drivers but `{value}`: unset it, or let it name a driver that is there"
+    ))
 }
 
 fn driver_hint() -> &'static str {

@@ -1,5 +1,6 @@
 //! The graphics adapter: choosing one, opening it with the limits a plan needs, and linking shaders.
 
+mod access;
 mod adapter;
 mod compiled;
 mod device;
@@ -9,6 +10,7 @@ mod kept;
 mod loaded;
 mod pruning;
 mod shader;
+mod unseen;
 
 pub use adapter::{AdapterChoice, AdapterDescription, AdapterKind, adapters_by_turns, list_adapters};
 pub(crate) use compiled::CompiledKernel;
@@ -19,3 +21,4 @@ pub use environment::driver_environment;
 pub use error::GpuError;
 pub(crate) use loaded::{BINDING as LOADED_CONSTANTS, bytes as constants_in_bytes};
 pub use shader::{Binding, LinkedShader, Switched, link, link_loading, storage_buffers, validate};
+pub use unseen::unseen_card;

@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
-use super::GpuError;
 use super::compiled::ConstantsIn;
 use super::kept::Kept;
 use super::loaded;
 use super::pruning::{prune, switches};
+use super::{GpuError, access};
 use crate::shaders::{Array, Choices, Constant, Entry, LinkedText, linked_text};
 
 /// A storage buffer or a texture that a kernel uses.
@@ -34,6 +34,9 @@ pub struct LinkedShader {
     pub switches: Vec<Constant>,
     /// Constants that it loads from a buffer.
     pub loaded: Vec<Constant>,
+    /// Whether it has loops that may need counters to end: those of the search for Voronoi cells, whose ends follow from
+    /// geometry. `tests/shaders/loops.rs` knows the ends of all others.
+    pub counts_loops: bool,
     /// Size of each struct and offset of each member: `(struct, member) -> offset`, with member `""` for the size.
     pub layout: BTreeMap<(String, String), u32>,
 }
@@ -71,7 +74,8 @@ impl LinkedShader {
         let constants = constants_of(&module);
         let loads = module.global_variables.iter().any(|(_, variable)| is_of_constants(variable));
         let loaded = if loads { self.loaded.clone() } else { Vec::new() };
-        Self { module, bindings, constants, switches: Vec::new(), loaded, layout: self.layout.clone() }
+        let layout = self.layout.clone();
+        Self { module, bindings, constants, switches: Vec::new(), loaded, counts_loops: self.counts_loops, layout }
     }
 
     /// Bits of the values of its switches, in their order; nothing where a default holds. Equal ones leave the same kernel.
@@ -204,7 +208,7 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
             |part| format!("shaders/{}.wgsl:{}", part.source, part.line + line - part.begins),
         )
     };
-    let module = naga::front::wgsl::parse_str(text).map_err(|error| {
+    let mut module = naga::front::wgsl::parse_str(text).map_err(|error| {
         let line = error.location(text).map_or(1, |location| location.line_number);
         failure(place(line), error.message().to_owned())
     })?;
@@ -229,6 +233,7 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
         bindings.push(Binding { number: binding.binding, array, texture });
     }
     bindings.sort_by_key(|binding| binding.number);
+    access::narrow(&mut module, used);
     let constants = constants_of(&module);
     let switches = switches(&module).iter().filter_map(|name| Constant::named(name)).collect();
     let mut layout = BTreeMap::new();
@@ -240,7 +245,8 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
             }
         }
     }
-    Ok(LinkedShader { module, bindings, constants, switches, loaded: Vec::new(), layout })
+    let counts_loops = linked.parts.iter().any(|part| part.source.starts_with("tessellation/"));
+    Ok(LinkedShader { module, bindings, constants, switches, loaded: Vec::new(), counts_loops, layout })
 }
 
 fn chain(error: &dyn std::error::Error) -> String {

@@ -77,7 +77,7 @@ impl Histogram {
 
 /// Means of powers of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct PowerMeans {
+pub(crate) struct PowerMeans {
     /// Mean.
     pub first: f64,
     /// Mean square.

@@ -4,11 +4,11 @@ use super::statistics::{Estimate, estimate};
 use crate::tessellation::Tessellation;
 
 /// Numbers of neighbours that are counted separately; the last one is that or more.
-pub const MOST_NEIGHBOURS: usize = 32;
+pub(crate) const MOST_NEIGHBOURS: usize = 32;
 
 /// Fractions of the cells of random points that have 0, 1, 2 … neighbours, to a few units of the last digit: from 4 million
 /// points by [`Tessellation`], in accord with Tanemura, Forma 18, 221 (2003).
-pub const RANDOM_POINTS: [f64; 14] =
+pub(crate) const RANDOM_POINTS: [f64; 14] =
     [0.0, 0.0, 0.0, 0.0113, 0.1068, 0.2595, 0.2947, 0.1988, 0.0901, 0.0297, 0.0074, 0.0015, 0.0002, 0.0];
 
 /// Counts of cells by their number of neighbours, sample by sample.
@@ -22,7 +22,7 @@ pub const RANDOM_POINTS: [f64; 14] =
 /// assert_eq!(counts.mean().map(|found| found.value), Some(6.0));
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct NeighbourCounts {
+pub(crate) struct NeighbourCounts {
     samples: Vec<[f64; MOST_NEIGHBOURS + 1]>,
 }
 

@@ -10,7 +10,7 @@
 /// assert_eq!(Components::of(3).len(), 6);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Components {
+pub(crate) struct Components {
     dimension: usize,
 }
 

@@ -31,7 +31,7 @@ pub const TRAJECTORY_GSD: &str = "trajectory.gsd";
 /// The trajectory in Extended XYZ.
 pub const TRAJECTORY_XYZ: &str = "trajectory.xyz";
 /// What the names of pictures and arrays of fields on the mesh begin with.
-pub const FIELDS: [&str; 6] = ["depth", "potential_vorticity", "vorticity", "speed", "velocity_x", "velocity_y"];
+pub(crate) const FIELDS: [&str; 6] = ["depth", "potential_vorticity", "vorticity", "speed", "velocity_x", "velocity_y"];
 
 /// What the names of files of all fields begin with.
 const ALL_FIELDS: &str = "fields";

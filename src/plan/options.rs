@@ -37,8 +37,8 @@ pub struct Options {
     pub traversal: Option<Traversal>,
     /// Workgroups that share a row of cells; chosen from the sizes if `None`.
     pub segments: Option<u32>,
-    /// Lanes of a workgroup, where neither a subgroup nor a prefix sum decides: raised to a power of two of at most 256; 64
-    /// if `None`.
+    /// Lanes of a workgroup, where neither a subgroup nor a prefix sum decides: raised to a power of two of at most 128,
+    /// for which every adapter has workgroup memory; 64 if `None`.
     pub workgroup_size: Option<u32>,
     /// Capacity for copies of particles in the frames of rows; a quarter more than expected if `None`.
     pub copies: Option<u64>,
@@ -109,7 +109,7 @@ impl Options {
     /// Lanes of a workgroup: a power of two, because sums over a workgroup are halved again and again.
     #[must_use]
     pub fn workgroup(&self) -> u64 {
-        u64::from(self.workgroup_size.unwrap_or(64).clamp(1, 256)).next_power_of_two()
+        u64::from(self.workgroup_size.unwrap_or(64).clamp(1, 128)).next_power_of_two()
     }
 }
 

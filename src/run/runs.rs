@@ -12,7 +12,7 @@ use super::team;
 use super::{Event, RunError};
 use crate::engine::{Engine, EngineError, RankReport, Stepper};
 use crate::families::{self, Checked, Instability};
-use crate::gpu::{AdapterChoice, Gpu};
+use crate::gpu::{AdapterChoice, Gpu, unseen_card};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::{RankSummary, RanksSummary};
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
@@ -256,7 +256,8 @@ impl Run {
         keep_alive();
         let (first_step, last_step) = (start.state.step, scene.time.steps);
         let mut pace = Pace::new(scene.model().particle_count(), plan.operations_per_particle);
-        let task = Task { id, scene, directory, interrupt, notices, mixed, draws, earlier };
+        let unseen = unseen_card(gpu.description(), choice);
+        let task = Task { id, scene, directory, interrupt, notices, unseen, mixed, draws, earlier };
         let mut begun = false;
         loop {
             let opened = open(&task, &gpu, plan, (choice, processes), options, &start);
@@ -268,6 +269,9 @@ impl Run {
                         // Only now: an adapter or a rank that is not there should not cost an earlier run its files, nor a signal that is
                         // answered with "nothing was written".
                         task.directory.clear(force)?;
+                    }
+                    if let Some(warning) = &task.unseen {
+                        observer(Event::Warned { warning });
                     }
                     // It is known earlier of ranks that are all on this machine.
                     for warning in processes.iter().flat_map(|_| sharing_anywhere(engine.ranks())) {
@@ -356,6 +360,7 @@ fn attempt(
     run.ranks = ranks(engine);
     observer(Event::Finishing);
     let mut warnings = task.notices.clone();
+    warnings.extend(task.unseen.clone());
     warnings.extend(families::warnings(&task.scene).iter().map(ToString::to_string));
     warnings.extend(run.kept_sums.is_mixed().then(|| warning_of_mixed_ranks(task.scene.model())));
     warnings.extend(run.kept_sums.warning());

@@ -13,6 +13,8 @@ pub(super) struct Task {
     pub interrupt: Interrupt,
     /// What was done to the scene before the run.
     pub notices: Vec<String>,
+    /// A warning of a graphics card that no driver offers.
+    pub unseen: Option<String>,
     /// Whether ranks may compute differently.
     pub mixed: bool,
     /// True if pictures are drawn.

@@ -3,7 +3,7 @@
 /// A word and what stands around it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[allow(clippy::struct_excessive_bools)]
-pub struct Word<'a> {
+pub(crate) struct Word<'a> {
     /// The word.
     pub text: &'a str,
     /// Whether a dot precedes it: a member or a swizzle.

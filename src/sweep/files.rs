@@ -8,7 +8,7 @@ pub const TABLE: &str = "sweep.csv";
 pub const SUMMARY: &str = SWEEP.summary;
 
 /// The table of averages over the seed: a row for every variant but for its seed.
-pub const AVERAGES: &str = "sweep-averages.csv";
+pub(crate) const AVERAGES: &str = "sweep-averages.csv";
 
 /// The plot of means against what is varied; further ones where there are many quantities, from 2.
 ///

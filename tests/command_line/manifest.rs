@@ -47,7 +47,7 @@ fn the_workspace_can_be_packaged() {
         .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let version = env!("CARGO_PKG_VERSION");
-    for name in ["mesoscope", "mesoscope-python"] {
+    for name in ["mesoscope", "mesoscope-python", "mesoscope-shader-modules"] {
         assert!(place.path().join(format!("package/{name}-{version}.crate")).exists(), "{name}");
     }
 }

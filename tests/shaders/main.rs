@@ -8,6 +8,7 @@ mod canonical;
 mod compilers;
 mod elementary;
 mod index;
+mod loops;
 mod random_scenes;
 mod required;
 mod unchanged;

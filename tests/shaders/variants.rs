@@ -1625,7 +1625,7 @@ fn workgroup_memory_stays_within_the_core_limit() {
                             * match module.overrides[*length].name.as_deref() {
                                 Some("BINS") => 4096,
                                 Some("COUNTS") => 1024 + 3,
-                                Some("WORKGROUP") => 256,
+                                Some("WORKGROUP") => 128,
                                 other => panic!("how large {other:?} may be is not known"),
                             }
                     }

@@ -65,7 +65,7 @@ impl Compiled {
                 binding_array: BoundsCheckPolicy::Unchecked,
             },
             zero_initialize_workgroup_memory: spv::ZeroInitializeWorkgroupMemoryMode::None,
-            force_loop_bounding: true,
+            force_loop_bounding: linked.counts_loops,
             emit_int_div_checks: true,
             ..spv::Options::default()
         };

@@ -10,7 +10,7 @@ override SPREAD: f32;       // root of 1 - e^2
 fn bath_of_pair(c: Coefficients, contact: Contact, me: Particle, other: Particle, place: u32) -> f32 {
     let memory = pair_memory(place);
     let missed = clock_step().x - memory.y - 1u;
-    let kept = exp(DECAY * f32(missed)) * select(1.0, -1.0, PERSISTENCE < 0.0 && (missed & 1u) == 1u);
+    let kept = exp(DECAY * f32(missed)) * select(1.0, -1.0, (PERSISTENCE < 0.0) & ((missed & 1u) == 1u));
     let exponent = -2.0 * DECAY * (f32(missed) + 1.0);
     let lost = select(1.0 - exp(-exponent), exponent * (1.0 - exponent * (0.5 - exponent * (1.0 / 6.0))), exponent < 0.01);
     let spread = select(sqrt(lost), SPREAD, missed == 0u);

@@ -13,7 +13,8 @@ fn visit_cell(cell: u32) {
     let bin = opened_bin(cell);
     collect(cell, bin);
     var k = 0u;
-    loop { // left at its end: see pairs/clusters
+    // Ends: k counts to bin.count. Left at its end: see pairs/clusters.
+    loop {
         if (k < bin.count) {
             let particle = load_water(place_in(bin, k));
             total += f32(particle.mass);

@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 use mesoscope::engine::EngineError;
 use mesoscope::families::{self, Checked};
-use mesoscope::gpu::GpuError;
+use mesoscope::gpu::{GpuError, unseen_card};
 use mesoscope::numbers::{bytes, counted, grouped};
 use mesoscope::plan::{Hardware, Options, Part, Plan};
 use mesoscope::printable;
@@ -71,6 +71,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Err(error @ (RunError::Scene(_) | RunError::Gpu(GpuError::NoSuchAdapter { .. }))) => return Err(error.into()),
         opened => opened,
     };
+    warnings
+        .extend(opened.as_ref().ok().and_then(|gpu| unseen_card(gpu.description(), &arguments.ranks.adapter.choice())));
     let hardware = opened.as_ref().map_or(Hardware::default(), Hardware::from);
     let plan_of = |options| run::plan(&scene, hardware, options);
     let plan = plan_of(Options { part: division.map(|division| Part { division, rank: 0 }), ..Options::default() });

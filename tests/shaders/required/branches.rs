@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use naga::{Block, Expression, Function, Handle, Module, Statement};
 
-/// Those that are there for a reason: boxes with fewer than three cells on an axis; a kernel that goes on from a report or not; whether
-/// baths change their sign from step to step; and quarters of a turn, which are a number of the scene and no feature.
-pub const KNOWN: [&str; 6] = ["CELLS_X", "CELLS_Y", "CELLS_Z", "CLOSES", "PERSISTENCE", "QUARTER_TURNS"];
+/// Those that are there for a reason: boxes with fewer than three cells on an axis; a kernel that goes on from a report or not; and
+/// quarters of a turn, which are a number of the scene and no feature.
+pub const KNOWN: [&str; 5] = ["CELLS_X", "CELLS_Y", "CELLS_Z", "CLOSES", "QUARTER_TURNS"];
 
 /// Laws and reports that a scene has or not: one module stands for all of them, and constants of its pipelines say which
 /// it is. What is not chosen is taken out with what it binds.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 /// Molecules of one kind: with as many particles of every species, and as many bonds at each.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct BondedMolecules {
+pub(crate) struct BondedMolecules {
     /// Species and numbers of their particles, by the places of the species.
     pub composition: BTreeMap<usize, u32>,
     /// True if they are chains with two ends, at which walks begin and end.
