@@ -37,8 +37,8 @@ test: cargo adapter ## formatting, lints, all tests, documentation, and the book
 	@sh .ci/spirv.sh
 	cargo fmt --all --check
 	cargo clippy --locked --workspace --all-targets -- -D warnings
-	cargo test --locked --workspace --exclude mesoscope-python --no-fail-fast $(WITH_FEATURES)
-	MESOSCOPE_PLAN=gpu cargo test --locked --workspace --exclude mesoscope-python $(WITH_FEATURES) --test library -- $(ON_GPU_PLANS)
+	cargo test --locked --workspace --no-fail-fast $(WITH_FEATURES)
+	MESOSCOPE_PLAN=gpu cargo test --locked --workspace $(WITH_FEATURES) --test library -- $(ON_GPU_PLANS)
 	# With examples, of which there are none, dependencies have the features that they have for tests: nothing is checked again.
 	RUSTDOCFLAGS='-D warnings' cargo doc --locked --workspace --no-deps --lib --examples
 	@if command -v mdbook >/dev/null; then sh .ci/book.sh; fi
@@ -61,7 +61,7 @@ MPI_TESTS := --include-ignored
 test-mpi: cargo adapter ## the tests of ranks that are processes, with an MPI library
 	@sh .ci/mpi.sh
 	cargo clippy --locked --workspace --features mesoscope/mpi --bins --test mpi -- -D warnings
-	cargo test --locked --workspace --exclude mesoscope-python --features mesoscope/mpi --test mpi -- $(MPI_TESTS)
+	cargo test --locked --workspace --features mesoscope/mpi --test mpi -- $(MPI_TESTS)
 
 bench: cargo adapter ## cost per particle-step and per stage
 	cargo bench --locked

@@ -1,5 +1,6 @@
 //! What `Cargo.toml` says of the compiler is what its dependencies ask for.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 
 use serde_json::Value;
@@ -74,5 +75,36 @@ fn the_package_has_what_it_needs() {
     ];
     for file in scenes.chain(others.map(str::to_owned)) {
         assert!(files.contains(&file.as_str()), "the package lacks {file}");
+    }
+}
+
+/// Dependencies of the Python package have the features that they have for the tests, so that they are compiled once for both.
+#[test]
+fn the_wheel_is_built_with_what_the_tests_are() {
+    let features = |selection: &[&str]| {
+        let output = Command::new(env!("CARGO"))
+            .args(["tree", "--locked", "--offline", "--format", "{p}|{f}", "--prefix", "none", "--no-dedupe"])
+            .args(selection)
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let mut found = BTreeMap::<String, BTreeSet<String>>::new();
+        for line in String::from_utf8(output.stdout).unwrap().lines().map(|line| line.trim_end_matches(" (*)")) {
+            let (package, features) = line.split_once('|').unwrap();
+            // With MPI the library itself is another one.
+            if !package.starts_with("mesoscope v") {
+                found.entry(package.to_owned()).or_default().insert(features.to_owned());
+            }
+        }
+        found
+    };
+    let mut of_tests = vec!["--edges", "normal,build,dev", "--workspace"];
+    if cfg!(feature = "mpi") {
+        of_tests.extend(["--features", "mesoscope/mpi"]);
+    }
+    let tests = features(&of_tests);
+    for (package, found) in features(&["--edges", "normal,build", "--package", "mesoscope-python"]) {
+        assert!(found.is_subset(&tests[&package]), "{package}: {found:?} for the wheel, {:?} for tests", tests[&package]);
     }
 }
