@@ -16,6 +16,9 @@ struct Radix {
     turns: bool,
 }
 
+/// The most lanes of a workgroup whose lanes share butterflies, as the plan has it.
+const LANES: usize = 64;
+
 const RADICES: [Radix; 6] = [
     Radix { name: "two", legs: 2, factors: None, turns: false },
     Radix { name: "four", legs: 4, factors: None, turns: false },
@@ -41,6 +44,9 @@ impl Radix {
         text += &self.gathered_and_scattered();
         if self.turns {
             text += &self.turned();
+        }
+        if let Some(factors) = self.factors {
+            text += &self.shared(factors);
         }
         text += "// Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.\n";
         let weighed = (0..legs).map(|leg| format!("v[{leg}].yx * symbol(butterfly, {leg}u)"));
@@ -142,10 +148,102 @@ impl Radix {
             (0..self.legs).map(|leg| if leg == 0 { "v[0]".to_owned() } else { format!("times(v[{leg}], w{leg})") });
         text + &returned(turned) + "}\n\n"
     }
+
+    /// The same transform by several lanes: each makes one of the first transforms and one of the second ones.
+    fn shared(&self, [first, second]: [usize; 2]) -> String {
+        let stride = second + 1;
+        let shared = first * stride;
+        let mut text = format!(
+            "// The same by {second} lanes: lane j makes the first transform of the legs j, j + {second} and so on, and, of the first {first} lanes, the\n\
+             // second transform of what all have in row j.\n\
+             const FIRST = {first}u;\nconst SECOND = {second}u;\nconst SHARED = {shared}u;\n\
+             // Of all butterflies of a workgroup.\nconst SHARED_LEGS = {}u;\n\
+             alias FirstLegs = array<vec2<f32>, {first}>;\nalias SecondLegs = array<vec2<f32>, {second}>;\n\n",
+            LANES / second * shared
+        );
+        text += &self.turned_by_any_power([first, second]);
+        text += "fn first_gathered(butterfly: Butterfly, column: u32) -> FirstLegs {\n";
+        for pair in 0..first / 2 {
+            let _ = writeln!(text, "    let p{pair} = load_pair(butterfly, column + {}u);", pair * second);
+        }
+        let parts = ["xy", "zw"].into_iter().flat_map(|part| (0..first / 2).map(move |pair| format!("p{pair}.{part}")));
+        text += &returned_as("FirstLegs", parts);
+        text += "}\nfn first_transformed(v: FirstLegs, column: u32, place: u32) {\n";
+        let all: Vec<String> = (0..first).map(|leg| format!("v[{leg}]")).collect();
+        let _ = writeln!(text, "    let s = fourier{first}({});", all.join(", "));
+        for row in 0..first {
+            let turned =
+                if row == 0 { "s[0]".to_owned() } else { format!("turned_by_power(s[{row}], {row}u * column)") };
+            let _ = writeln!(text, "    shared_legs[place + {}u + column] = {turned};", row * stride);
+        }
+        let _ = writeln!(text, "}}\nfn second_transformed(row: u32, place: u32) -> SecondLegs {{");
+        let _ = writeln!(text, "    let begin = place + row * {stride}u;");
+        let all: Vec<String> = (0..second).map(|column| format!("shared_legs[begin + {column}u]")).collect();
+        let _ = writeln!(text, "    let t = fourier{second}({});", all.join(", "));
+        text += &returned_as("SecondLegs", (0..second).map(|leg| format!("t[{leg}]")));
+        text += "}\nfn second_scattered(butterfly: Butterfly, row: u32, v: SecondLegs) {\n";
+        for leg in 0..second / 2 {
+            let (place, other) = (leg * first, leg + second / 2);
+            let _ = writeln!(text, "    store_pair(butterfly, row + {place}u, vec4<f32>(v[{leg}], v[{other}]));");
+        }
+        text += "}\n// Weighs legs, see below, and shares them in their order.\n\
+                 fn second_weighed(butterfly: Butterfly, row: u32, v: SecondLegs, place: u32) {\n";
+        for leg in 0..second {
+            let number = leg * first;
+            let _ = writeln!(
+                text,
+                "    shared_legs[place + row + {number}u] = v[{leg}].yx * symbol(butterfly, row + {number}u);"
+            );
+        }
+        text += "}\nfn first_shared(column: u32, place: u32) -> FirstLegs {\n";
+        text +=
+            &returned_as("FirstLegs", (0..first).map(|row| format!("shared_legs[place + column + {}u]", row * second)));
+        text += "}\n";
+        if self.turns {
+            text += "// Multiplies legs by powers of a root of unity, as turned_legs does.\n\
+                     fn first_turned(v: FirstLegs, column: u32, step: u32) -> FirstLegs {\n";
+            text += &returned_as(
+                "FirstLegs",
+                (0..first).map(|row| format!("turned_leg(v[{row}], column + {}u, step)", row * second)),
+            );
+            text += "}\n";
+        }
+        text + "\n"
+    }
+
+    /// A number multiplied by a power that differs from lane to lane: by the same operations as where it is known.
+    fn turned_by_any_power(&self, [first, second]: [usize; 2]) -> String {
+        let most = (first - 1) * (second - 1);
+        let roots = (0..=most).map(|power| {
+            let named = !power.is_multiple_of(self.legs / 8) && !self.is_opposite(power);
+            let is_used = (1..first).any(|row| (1..second).any(|column| row * column == power));
+            if named && is_used { format!("ROOT{power}") } else { "vec2<f32>(1.0, 0.0)".to_owned() }
+        });
+        let mut text = format!("const SHARED_ROOTS = array<vec2<f32>, {}>(\n", most + 1);
+        for root in roots {
+            let _ = writeln!(text, "    {root},");
+        }
+        text += ");\nfn turned_by_power(number: vec2<f32>, power: u32) -> vec2<f32> {\n";
+        if self.legs == 16 {
+            text += "    if (power == 9u) { return -times(number, ROOT1); }\n";
+        }
+        let eighth = self.legs / 8;
+        let _ = write!(
+            text,
+            "    if (power % {eighth}u != 0u) {{ return times(number, SHARED_ROOTS[power]); }}\n    \
+             let odd = select(number, eighth(number), (power / {eighth}u & 1u) == 1u);\n    \
+             return select(odd, quarter(odd), (power / {eighth}u & 2u) == 2u);\n}}\n\n"
+        );
+        text
+    }
 }
 
 /// A function's last statement: the legs, a line each.
 fn returned(legs: impl Iterator<Item = String>) -> String {
+    returned_as("Legs", legs)
+}
+
+fn returned_as(name: &str, legs: impl Iterator<Item = String>) -> String {
     let lines: Vec<String> = legs.map(|leg| format!("        {leg},")).collect();
-    format!("    return Legs(\n{}\n    );\n", lines.join("\n"))
+    format!("    return {name}(\n{}\n    );\n", lines.join("\n"))
 }

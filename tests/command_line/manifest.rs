@@ -105,6 +105,10 @@ fn the_wheel_is_built_with_what_the_tests_are() {
     }
     let tests = features(&of_tests);
     for (package, found) in features(&["--edges", "normal,build", "--package", "mesoscope-python"]) {
-        assert!(found.is_subset(&tests[&package]), "{package}: {found:?} for the wheel, {:?} for tests", tests[&package]);
+        assert!(
+            found.is_subset(&tests[&package]),
+            "{package}: {found:?} for the wheel, {:?} for tests",
+            tests[&package]
+        );
     }
 }

@@ -333,6 +333,20 @@ fn no_bit_depends_on_the_size_of_a_workgroup() {
     }
 }
 
+/// Several lanes compute a butterfly as one lane does: lines of one pass and of two, with all radices that are shared.
+#[test]
+fn no_bit_depends_on_the_lanes_of_a_butterfly() {
+    for mesh in [[16, 64], [64, 32], [128, 8], [512, 8], [8, 1024]] {
+        let water = water(mesh, 4.0, 2, FIVE_POINT);
+        let masses = random(water.mesh, 3);
+        let by_lanes = |asked| Options { butterflies_by_lanes: Some(asked), ..Options::default() };
+        let [shared, alone] = [true, false].map(|asked| Device::new(&water, by_lanes(asked)).smooth(&masses));
+        assert_eq!(shared, alone, "{mesh:?}");
+        let other = Options { workgroup_size: Some(16), ..by_lanes(true) };
+        assert_eq!(Device::new(&water, other).smooth(&masses), alone, "{mesh:?}");
+    }
+}
+
 /// Errors of the polynomial are those it is allowed, of two applications twice that. A residual that is rounded to 24 bits
 /// of what is smoothed leaves its error in the mean, where 1 - Λ²∇² does not shrink it.
 #[test]

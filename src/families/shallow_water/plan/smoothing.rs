@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use super::{Buffer, Contents, Kernel, Options, Plan};
 use crate::document::{LaplacianSymbol, SmoothingSolver};
 use crate::families::{ShallowWater, chebyshev_iterations};
-use crate::shaders::smoothing::{Lines, Load, Radix, Source, Store, Twist};
+use crate::shaders::smoothing::{Lines, Load, Radix, SharedTwist, Source, Store, Twist};
 use crate::shaders::{Array, Choices, Constant, Entry};
 
 /// Rows on which an invocation of the iteration works, as the shader has it.
@@ -19,6 +19,8 @@ const LARGEST_RADIX: u32 = 5;
 /// The fewest lanes of a workgroup of a transform, and the fewest workgroups as long as there are more lanes.
 const FEWEST_LANES: u64 = 8;
 const FEWEST_WORKGROUPS: u64 = 8;
+/// The most lanes of a workgroup whose lanes share butterflies, as `build/radices.rs` has it.
+const MOST_SHARING: u64 = 64;
 
 /// The part of a plan that smooths the depth.
 #[derive(Debug, Clone, PartialEq)]
@@ -64,14 +66,18 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
         return SmoothingPlan { kernels: vec![kernel], order: vec![0], buffers: Vec::new() };
     }
     match water.smoothing.solver {
-        SmoothingSolver::Fft { .. } => Fourier { water, lengths, workgroup, constants }.plan(),
+        SmoothingSolver::Fft { .. } => {
+            Fourier { water, lengths, workgroup, constants, by_lanes: options.butterflies_by_lanes != Some(false) }
+                .plan()
+        }
         SmoothingSolver::Chebyshev { tolerance } => chebyshev(water, lengths, tolerance, workgroup, &constants),
     }
 }
 
 /// Buffers of a plan that may be held in textures: those of Fourier transforms.
 pub(crate) fn texture_candidates(plan: &Plan) -> Vec<Array> {
-    if plan.kernels.iter().any(|kernel| kernel.entry == Entry::FourierTurn) {
+    let turns = [Entry::FourierTurn, Entry::FourierTurnOfLanes];
+    if plan.kernels.iter().any(|kernel| turns.contains(&kernel.entry)) {
         vec![Array::Waves, Array::WavesNext]
     } else {
         Vec::new()
@@ -169,6 +175,8 @@ struct Fourier<'a> {
     lengths: [f64; 2],
     workgroup: u64,
     constants: [(Constant, f64); 2],
+    /// Whether several lanes share a butterfly of many legs.
+    by_lanes: bool,
 }
 
 /// An axis along which lines are transformed.
@@ -251,9 +259,12 @@ impl Fourier<'_> {
             32 => Radix::ThirtyTwo,
             _ => Radix::SixtyFour,
         };
+        let shared = self.shared(pass.radix);
+        let twists = pass.finished > 1;
         let choices = Choices::new()
             .with(radix)
-            .with_if(pass.finished > 1, Twist::BetweenPasses)
+            .with_if(twists && shared.is_none(), Twist::BetweenPasses)
+            .with_if(twists && shared.is_some(), SharedTwist::BetweenPasses)
             .with(axis)
             .with(pass.load)
             .with(pass.store);
@@ -270,12 +281,28 @@ impl Fourier<'_> {
         let swapped = vec![(Array::Waves, Array::WavesNext), (Array::WavesNext, Array::Waves)];
         // A small mesh has few butterflies, which are to be shared out all the same.
         let butterflies = u64::from(lines) * u64::from(length / pass.radix);
-        let share = (1_u64 << (butterflies / FEWEST_WORKGROUPS).max(1).ilog2()).max(FEWEST_LANES);
-        let workgroup = self.workgroup.min(share);
+        let lanes = butterflies * shared.unwrap_or(1);
+        let share = (1_u64 << (lanes / FEWEST_WORKGROUPS).max(1).ilog2()).max(FEWEST_LANES);
+        let workgroup = self.workgroup.min(share).min(if shared.is_some() { MOST_SHARING } else { u64::MAX });
         constants.push((Constant::Workgroup, workgroup as f64));
-        Kernel::new(pass.name, pass.entry, choices, workgroups(butterflies, workgroup))
+        let entry = match pass.entry {
+            Entry::FourierPass if shared.is_some() => Entry::FourierPassOfLanes,
+            Entry::FourierTurn if shared.is_some() => Entry::FourierTurnOfLanes,
+            entry => entry,
+        };
+        Kernel::new(pass.name, entry, choices, workgroups(lanes, workgroup))
             .with(constants)
             .renamed(if number.is_multiple_of(2) { swapped } else { Vec::new() })
+    }
+
+    /// Lanes that share a butterfly; none where each lane has one, or several.
+    fn shared(&self, radix: u32) -> Option<u64> {
+        match radix {
+            _ if !self.by_lanes || self.workgroup < FEWEST_LANES => None,
+            16 => Some(4),
+            32 | 64 => Some(8),
+            _ => None,
+        }
     }
 
     fn buffers(&self, twisted: bool) -> Vec<Buffer> {

@@ -36,6 +36,8 @@ pub(crate) fn plan(
     hardware: Hardware,
     options: Options,
 ) -> PhysicsPlan {
+    let by_lanes = options.butterflies_by_lanes.unwrap_or(!options.suits_serial_memory(hardware));
+    let options = Options { butterflies_by_lanes: Some(by_lanes), ..options };
     let eights = takes_eights(water, hardware, options);
     // Particles that come from other ranks and go there lie in a buffer, in any order.
     let asked = if options.part.is_some() { Some(Storage::Sorted) } else { options.storage };
