@@ -34,7 +34,6 @@ impl Components {
 
     /// How many there are.
     #[must_use]
-    #[expect(clippy::len_without_is_empty, reason = "there is always one")]
     pub fn len(self) -> usize {
         self.dimension * (self.dimension + 1) / 2
     }
