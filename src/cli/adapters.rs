@@ -44,7 +44,9 @@ fn list() -> Result<(), Failure> {
     let warning = unseen_card(&adapters[0], &AdapterChoice::Best);
     let rows: Vec<Vec<String>> = std::iter::once(header).chain(adapters.into_iter().enumerate().map(row)).collect();
     print(&aligned(&rows, ""))?;
-    warning.iter().for_each(|warning| super::line(&format!("warning: {warning}")));
+    if let Some(warning) = warning {
+        super::line(&format!("warning: {warning}"));
+    }
     Ok(())
 }
 

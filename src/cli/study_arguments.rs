@@ -148,7 +148,9 @@ impl StudyArguments {
             execute(study, adapter, &mut |_| {})
         } else {
             let warning = list_adapters().first().and_then(|best| unseen_card(best, adapter));
-            warning.iter().for_each(|warning| line(&format!("warning: {warning}")));
+            if let Some(warning) = warning {
+                line(&format!("warning: {warning}"));
+            }
             let mut reporter = Reporter::new(title, R::KIND);
             let executed = execute(study, adapter, &mut |event| reporter.show(&event, &runs));
             reporter.bar.finish_and_clear();
