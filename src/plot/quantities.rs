@@ -44,7 +44,7 @@ const FLAT: f64 = 0.2;
 
 /// Energies, temperatures and pressures over time, with their means; a panel none of whose columns exist is left out.
 ///
-/// The columns are `time` and those of [`QUANTITIES`](crate::quantity::QUANTITIES) with a look, of which each has its
+/// The columns are `time` and those of `QUANTITIES` with a look, of which each has its
 /// panel by its unit. Energies that vary by less than a fifth of the distance between the outermost of their curves
 /// would be flat lines: they are drawn as deviations from their means, or without means as changes since the first row.
 ///
