@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!((second.value, second.error), (0.5, Some(0.0)));
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct WindowedAverage {
+pub struct WindowedAverage {
     lags: usize,
     samples: Vec<f64>,
 }

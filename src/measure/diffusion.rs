@@ -38,7 +38,7 @@ const BEND_ERRORS: f64 = 4.0;
 /// # Ok::<(), DiffusionError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct DiffusionWindows {
+pub struct DiffusionWindows {
     /// The mean squared displacement since the window began.
     pub displacement: WindowedAverage,
     /// The mean product of the velocities now and when the window began.
@@ -52,7 +52,7 @@ pub(crate) struct DiffusionWindows {
 /// Why no diffusion coefficient comes out.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub(crate) enum DiffusionError {
+pub enum DiffusionError {
     /// There is no full window, or it has fewer than four lags.
     #[error("there is no window of four samples")]
     Few,

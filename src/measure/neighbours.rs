@@ -22,7 +22,7 @@ pub(crate) const RANDOM_POINTS: [f64; 14] =
 /// assert_eq!(counts.mean().map(|found| found.value), Some(6.0));
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct NeighbourCounts {
+pub struct NeighbourCounts {
     samples: Vec<[f64; MOST_NEIGHBOURS + 1]>,
 }
 

@@ -10,7 +10,7 @@
 /// assert_eq!(Components::of(3).len(), 6);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Components {
+pub struct Components {
     dimension: usize,
 }
 
@@ -34,6 +34,7 @@ impl Components {
 
     /// How many there are.
     #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "there is always one")]
     pub fn len(self) -> usize {
         self.dimension * (self.dimension + 1) / 2
     }

@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 /// assert!((surface.unsmoothed([0.0, 0.0], 0.5, 1) - 1.0 - 0.1 * 1.25).abs() < 1e-9);
 /// ```
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Surface<'a> {
+pub struct Surface<'a> {
     features: &'a [SurfaceFeature],
     lengths: [f64; 2],
 }
