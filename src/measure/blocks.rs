@@ -23,7 +23,7 @@ use super::statistics::{Estimate, estimate};
 /// # Ok::<(), &str>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct BlockSums {
+pub struct BlockSums {
     width: usize,
     most: u64,
     samples: u64,

@@ -13,7 +13,7 @@ const BLOCKS: usize = 20;
 
 /// A curve fitted to a normalised autocorrelation.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct FittedDecay {
+pub struct FittedDecay {
     shape: DecayFit,
     values: Vec<f64>,
     /// Parameters in the order of the formula, by name. Errors come from a jackknife over windows; there are none with
@@ -26,7 +26,7 @@ pub(crate) struct FittedDecay {
 /// Why nothing was fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
-pub(crate) enum FitError {
+pub enum FitError {
     /// No more points than parameters.
     #[error("a fit of {parameters} parameters needs more than {points} points")]
     TooFewPoints {

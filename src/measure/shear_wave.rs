@@ -4,7 +4,7 @@ use super::statistics::{Estimate, jackknife};
 
 /// How fast a shear wave decays.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct WaveDecay {
+pub struct WaveDecay {
     /// The first amplitude.
     pub amplitude: f64,
     /// The rate of the exponential decay.
