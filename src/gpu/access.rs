@@ -1,5 +1,5 @@
-//! What a kernel only loads, declared so: compilers may then keep it in registers, load it through caches that hold no
-//! stores, and reorder its loads.
+//! Arrays that a kernel only loads, declared so: compilers may then keep them in registers, load them through caches that
+//! hold no stores, and reorder loads.
 
 use naga::valid::{FunctionInfo, GlobalUse};
 use naga::{AddressSpace, Handle, Module, StorageAccess, Type, TypeInner};

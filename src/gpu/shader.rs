@@ -34,7 +34,7 @@ pub struct LinkedShader {
     pub switches: Vec<Constant>,
     /// Constants that it loads from a buffer.
     pub loaded: Vec<Constant>,
-    /// Whether it has loops that may need counters to end: those of the search for Voronoi cells, whose ends follow from
+    /// True if it has loops that may need counters to end: those of the search for Voronoi cells, whose ends follow from
     /// geometry. `tests/shaders/loops.rs` knows the ends of all others.
     pub counts_loops: bool,
     /// Size of each struct and offset of each member: `(struct, member) -> offset`, with member `""` for the size.

@@ -46,8 +46,7 @@ pub struct Options {
     pub storage: Option<Storage>,
     /// Whether kernels are adapted to lanes that run one after the other; left to the hardware if `None`.
     pub serial_memory: Option<bool>,
-    /// Whether several lanes share a butterfly of many legs in Fourier transforms, as in plans for GPUs; left to the hardware
-    /// if `None`.
+    /// Several lanes share a butterfly of many legs in Fourier transforms, as in plans for GPUs; left to the hardware if `None`.
     pub butterflies_by_lanes: Option<bool>,
     /// Whether pairs without memory are kept in a list too, for integrators with one traversal a step.
     pub listed: bool,

@@ -175,7 +175,7 @@ struct Fourier<'a> {
     lengths: [f64; 2],
     workgroup: u64,
     constants: [(Constant, f64); 2],
-    /// Whether several lanes share a butterfly of many legs.
+    /// True if several lanes share a butterfly of many legs.
     by_lanes: bool,
 }
 
