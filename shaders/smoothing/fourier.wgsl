@@ -42,7 +42,8 @@ fn quarter(a: vec2<f32>) -> vec2<f32> { return vec2<f32>(a.y, -a.x); }
 // Transforms of four and of eight numbers.
 const ROOT_HALF = 0.70710678118654752440;
 
-// By fused products: a compiler may contract a bare one with the sum that follows, in one lane and not where lanes exchange it.
+// By fused products: a compiler may contract a bare one with the sum that follows it in one lane, and not where lanes exchange
+// what they have.
 fn eighth(a: vec2<f32>) -> vec2<f32> {
     return vec2<f32>(fma(ROOT_HALF, a.x, ROOT_HALF * a.y), fma(ROOT_HALF, a.y, -(ROOT_HALF * a.x)));
 }
