@@ -90,7 +90,7 @@ impl RanksArgument {
             // Whatever else is wrong is said of the whole scene.
             let Ok(division) = self.division(scene, copies) else { return Ok(()) };
             match run::adapter_for_rank(scene, division, &self.adapter.choice()) {
-                Err(error @ RunError::TooLarge { .. }) => {
+                Err(error @ (RunError::TooLarge { .. } | RunError::Memory { .. })) => {
                     Err(SceneError::TooManyParticles { reason: error.to_string() })
                 }
                 _ => Ok(()),

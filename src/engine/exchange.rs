@@ -1,8 +1,9 @@
 //! What passes from rank to rank where several share a run: particles at the end of a step, and integers that all add to within it.
 
 use super::readback::Reading;
+use super::stored::Stored;
 use super::{EngineError, recording::Recording};
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, GpuError};
 use crate::plan::paths::PATH_WORDS;
 use crate::plan::{Domain, FREE_SHARE, Part, ParticleWords, PlannedPart, SharedSum, Stretch};
 use crate::shaders::Array;
@@ -64,19 +65,19 @@ pub(super) struct Exchange<'a> {
     gpu: Gpu,
     pub part: PlannedPart,
     swap: Box<dyn Swap + 'a>,
-    particles: wgpu::Buffer,
-    stored_count: wgpu::Buffer,
-    outgoing: wgpu::Buffer,
-    outgoing_counts: wgpu::Buffer,
+    particles: Stored,
+    stored_count: Stored,
+    outgoing: Stored,
+    outgoing_counts: Stored,
     /// The array that is summed over ranks, if there is one.
-    summed: Option<wgpu::Buffer>,
+    summed: Option<Stored>,
     /// Particles for each peer that are read back before their number is known.
     guesses: Vec<u64>,
     /// The same of exchanges with the other halo.
     other_guesses: Vec<u64>,
     /// Whether ranks are sent what they need for samples that look further.
     is_wide: bool,
-    domains: Option<wgpu::Buffer>,
+    domains: Option<Stored>,
     /// Places of particles in use: the sorted ones and what has arrived.
     pub stored: u64,
     /// Particles that are the rank's own, where it knows of no others.
@@ -93,7 +94,7 @@ impl<'a> Exchange<'a> {
         gpu: &Gpu,
         part: PlannedPart,
         swap: Box<dyn Swap + 'a>,
-        buffers: &HashMap<Array, wgpu::Buffer>,
+        buffers: &HashMap<Array, Stored>,
     ) -> Self {
         let of = |array| buffers[&array].clone();
         let guesses = vec![0; part.peers.len()];
@@ -133,19 +134,20 @@ impl<'a> Exchange<'a> {
             self.receive(step)?;
         }
         match (self.part.sum.clone(), self.summed.clone()) {
-            (Some(sum), Some(buffer)) if kernel == sum.after => self.add_up(recording, &sum, &buffer),
+            (Some(sum), Some(array)) if kernel == sum.after => self.add_up(recording, &sum, &array),
             _ => Ok(()),
         }
     }
 
     /// Whether the next exchanges bring what samples need that look further than forces reach.
-    pub(super) fn widen(&mut self, wide: bool) {
-        let (Some(wider), Some(buffer)) = (&self.part.wider, &self.domains) else { return };
+    pub(super) fn widen(&mut self, wide: bool) -> Result<(), GpuError> {
+        let (Some(wider), Some(buffer)) = (&self.part.wider, &self.domains) else { return Ok(()) };
         if std::mem::replace(&mut self.is_wide, wide) != wide {
             std::mem::swap(&mut self.guesses, &mut self.other_guesses);
             let domains = if wide { &wider.domains } else { &self.part.domains };
-            self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(domains));
+            buffer.write(&self.gpu, 0, bytemuck::cast_slice(domains))?;
         }
+        Ok(())
     }
 
     /// Whether so many places are free that particles should be put in order.
@@ -195,19 +197,19 @@ impl<'a> Exchange<'a> {
     }
 
     /// Begins with particles in storage, of so many words.
-    pub(super) fn begin(&mut self, words: u64) {
+    pub(super) fn begin(&mut self, words: u64) -> Result<(), GpuError> {
         let stored = words / self.part.particle.count as u64;
-        self.store_count(stored);
+        self.store_count(stored)?;
         self.own = stored;
         self.outgoing_read = None;
         self.crowded = None;
         let none = vec![0_u8; 4 * (self.part.peers.len() + 1)];
-        self.gpu.queue.write_buffer(&self.outgoing_counts, 0, &none);
+        self.outgoing_counts.write(&self.gpu, 0, &none)
     }
 
-    fn store_count(&mut self, stored: u64) {
+    fn store_count(&mut self, stored: u64) -> Result<(), GpuError> {
         self.stored = stored;
-        self.gpu.queue.write_buffer(&self.stored_count, 0, bytemuck::bytes_of(&(stored as u32)));
+        self.stored_count.write(&self.gpu, 0, bytemuck::bytes_of(&(stored as u32)))
     }
 
     /// Bytes of the numbers of outgoing and of sorted particles.
@@ -224,13 +226,14 @@ impl<'a> Exchange<'a> {
         let guessed = head + particle * self.guesses.iter().sum::<u64>();
         let submitted = Instant::now();
         let reading = Reading::begin(&self.gpu, recording.take(), guessed, |encoder, staging| {
-            encoder.copy_buffer_to_buffer(counts, 0, staging, 0, head);
+            counts.copy_to(encoder, 0..head, staging, 0);
             let mut at = head;
             for (peer, guess) in self.guesses.iter().enumerate().filter(|(_, guess)| **guess > 0) {
-                encoder.copy_buffer_to_buffer(outgoing, stretch * peer as u64, staging, at, particle * guess);
+                let from = stretch * peer as u64;
+                outgoing.copy_to(encoder, from..from + particle * guess, staging, at);
                 at += particle * guess;
             }
-            encoder.clear_buffer(counts, 0, Some(head - 4));
+            counts.clear(encoder, 0..head - 4);
         })?;
         self.outgoing_read = Some((reading, submitted));
         Ok(())
@@ -274,19 +277,19 @@ impl<'a> Exchange<'a> {
             if fits < count {
                 self.crowded.get_or_insert(step);
             }
-            self.gpu.queue.write_buffer(&self.particles, particle * stored, &parcel[..(particle * fits) as usize]);
+            self.particles.write(&self.gpu, particle * stored, &parcel[..(particle * fits) as usize])?;
             stored += fits;
             self.own += fits;
             // Without a halo a particle is nobody else's.
             self.traffic.copies += if self.part.has_halo() { fits } else { 0 };
         }
-        self.store_count(stored);
+        self.store_count(stored)?;
         self.traffic.exchanging += computed.elapsed();
         Ok(())
     }
 
     /// Runs what is recorded, and adds what the other ranks have to an array that all of them add to.
-    fn add_up(&mut self, recording: &mut Recording, sum: &SharedSum, buffer: &wgpu::Buffer) -> Result<(), EngineError> {
+    fn add_up(&mut self, recording: &mut Recording, sum: &SharedSum, array: &Stored) -> Result<(), EngineError> {
         let lost = |reason: String| EngineError::Ranks { reason };
         let rank = self.part.part.rank as usize;
         let none = Stretch { first: 0, count: 0 };
@@ -296,7 +299,7 @@ impl<'a> Exchange<'a> {
         let read = Reading::begin(&self.gpu, recording.take(), 4 * own.count, |encoder, staging| {
             let mut at = 0;
             for piece in sum.pieces(own).into_iter().filter(|piece| piece.count > 0) {
-                encoder.copy_buffer_to_buffer(buffer, 4 * piece.first, staging, at, 4 * piece.count);
+                array.copy_to(encoder, 4 * piece.first..4 * (piece.first + piece.count), staging, at);
                 at += 4 * piece.count;
             }
         })?;
@@ -325,7 +328,7 @@ impl<'a> Exchange<'a> {
             }
         }
         let sums: Vec<i32> = sums.into_iter().map(|sum| i32::try_from(sum).unwrap_or(i32::MIN)).collect();
-        self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&sums));
+        array.write(&self.gpu, 0, bytemuck::cast_slice(&sums))?;
         self.traffic.exchanging += computed.elapsed();
         Ok(())
     }
@@ -345,7 +348,7 @@ impl<'a> Exchange<'a> {
             let mut at = 0;
             for (peer, rest) in rests.iter().enumerate().filter(|(_, rest)| **rest > 0) {
                 let from = stretch * peer as u64 + particle * self.guesses[peer];
-                encoder.copy_buffer_to_buffer(&self.outgoing, from, staging, at, particle * rest);
+                self.outgoing.copy_to(encoder, from..from + particle * rest, staging, at);
                 at += particle * rest;
             }
         })?;

@@ -8,6 +8,7 @@ mod readback;
 mod recording;
 mod shown;
 mod stepper;
+mod stored;
 mod texels;
 mod timing;
 
@@ -24,7 +25,7 @@ use std::ops::Range;
 
 use crate::gpu::{Gpu, GpuError, compute_pass};
 use crate::plan::paths::PATH_WORDS;
-use crate::plan::{Failure, FailureKind, Hardware, Misfit, PARTICLE_WORDS, Paths, Plan, TIDYING};
+use crate::plan::{self, Failure, FailureKind, Hardware, Layout, Misfit, PARTICLE_WORDS, Paths, Places, Plan, TIDYING};
 use crate::shaders::Array;
 use crate::state::{Reported, State, crossings};
 use exchange::Exchange;
@@ -32,6 +33,7 @@ use pipeline::Stage;
 use readback::Readback;
 use recording::Recording;
 use serde::{Deserialize, Serialize};
+use stored::Stored;
 use texels::Texels;
 
 /// Words of the control buffer, as `shaders/core/control.wgsl` declares them.
@@ -122,7 +124,7 @@ enum Phase {
 pub struct Engine<'a> {
     gpu: Gpu,
     plan: Plan,
-    buffers: HashMap<Array, wgpu::Buffer>,
+    buffers: HashMap<Array, Stored>,
     textures: HashMap<Array, Texels>,
     stages: Vec<Stage>,
     /// Species of the particles, for layouts that leave them on the host.
@@ -138,13 +140,13 @@ pub struct Engine<'a> {
     exchange: Option<Exchange<'a>>,
 }
 
-/// Positions with the number of crossings of the box, by id; a state without these numbers counts as the first.
-fn pack_paths(state: &State) -> Result<Vec<u32>, EngineError> {
+/// Positions with the number of crossings of the box of some particles, by id; a state without these numbers counts as the first.
+fn pack_paths(state: &State, ids: Range<usize>) -> Result<Vec<u32>, EngineError> {
     if state.images.len() != state.len() && (state.step > 0 || !state.images.is_empty()) {
         return Err(EngineError::State { reason: "the times round the box are missing".to_owned() });
     }
-    let images = state.images.iter().copied().chain(std::iter::repeat([0; 3]));
-    Ok(state.positions.iter().zip(images).flat_map(|(position, image)| path(*position, image)).collect())
+    let image = |id: usize| state.images.get(id).copied().unwrap_or_default();
+    Ok(ids.flat_map(|id| path(state.positions[id], image(id))).collect())
 }
 
 /// The words of what is kept of a particle on its path.
@@ -153,12 +155,19 @@ fn path([x, y, z]: [u32; 3], image: [i32; 3]) -> [u32; PATH_WORDS] {
     [x, y, z, 0, across_x, across_y, across_z, 0]
 }
 
+/// Bytes of the same.
+const PATH_BYTES: u64 = 4 * PATH_WORDS as u64;
+
 /// Batches that may wait on the device while the host continues.
 const BATCHES_IN_FLIGHT: usize = 2;
 
 impl From<&Gpu> for Hardware {
     fn from(gpu: &Gpu) -> Self {
-        Self { subgroup_size: gpu.subgroup_size(), serial_memory: gpu.serial_memory() }
+        Self {
+            subgroup_size: gpu.subgroup_size(),
+            serial_memory: gpu.serial_memory(),
+            largest_binding: Some(gpu.largest_binding()),
+        }
     }
 }
 
@@ -194,30 +203,11 @@ impl<'a> Engine<'a> {
     }
 
     fn without_state(gpu: &Gpu, plan: Plan) -> Result<Self, EngineError> {
-        let mut buffers = HashMap::new();
-        for buffer in &plan.buffers {
-            let doing = format!("creating buffer `{}`", buffer.array.name());
-            let made = gpu.scoped(&doing, buffer.bytes, || {
-                let made = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                    label: Some(buffer.array.name()),
-                    size: buffer.bytes,
-                    usage: wgpu::BufferUsages::STORAGE
-                        | wgpu::BufferUsages::COPY_SRC
-                        | wgpu::BufferUsages::COPY_DST
-                        | if buffer.array == Array::Demands {
-                            wgpu::BufferUsages::INDIRECT
-                        } else {
-                            wgpu::BufferUsages::empty()
-                        },
-                    mapped_at_creation: false,
-                });
-                if let Some(bytes) = buffer.contents.bytes() {
-                    gpu.queue.write_buffer(&made, 0, &bytes);
-                }
-                made
-            })?;
-            buffers.insert(buffer.array, made);
-        }
+        let stored = |buffer: &plan::Buffer| {
+            let portions = plan.portions.get(&buffer.array).copied();
+            Ok((buffer.array, Stored::new(gpu, buffer, portions)?))
+        };
+        let buffers = plan.buffers.iter().map(stored).collect::<Result<HashMap<_, _>, GpuError>>()?;
         let textures = plan.textures.iter().map(|planned| Ok((planned.array, Texels::new(gpu, planned)?)));
         let textures = textures.collect::<Result<HashMap<_, _>, GpuError>>()?;
         let stages = pipeline::stages(gpu, &plan, &buffers, &textures)?;
@@ -257,8 +247,7 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError::State`] if the number of particles is not that of the plan.
     pub fn upload(&mut self, state: &State) -> Result<(), EngineError> {
-        let in_order: Vec<usize> = (0..state.len()).collect();
-        self.upload_in_order(state, &in_order)
+        self.upload_stored(state, None)
     }
 
     /// The same with the particles stored in a given order of their ids, which changes no result: a checkpoint need not keep the order
@@ -267,25 +256,51 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError::State`] if the number of particles is not that of the plan or the order is not one of all ids.
     pub fn upload_in_order(&mut self, state: &State, order: &[usize]) -> Result<(), EngineError> {
-        let refuse = |reason: String| Err(EngineError::State { reason });
         let mut sorted_order = order.to_vec();
         sorted_order.sort_unstable();
         if !sorted_order.iter().copied().eq(0..state.len()) {
-            return refuse("the storage order is not an order of all particles".to_owned());
+            let reason = "the storage order is not an order of all particles".to_owned();
+            return Err(EngineError::State { reason });
         }
-        let contents = self.pack(state, order)?;
-        for (array, words) in self.plan.layout.buffers().into_iter().zip(&contents) {
-            match self.textures.get(&array) {
-                Some(texels) => texels.write(&self.gpu, words),
-                None => self.gpu.queue.write_buffer(&self.buffers[&array], 0, bytemuck::cast_slice(words)),
+        self.upload_stored(state, Some(order))
+    }
+
+    fn upload_stored(&mut self, state: &State, order: Option<&[usize]>) -> Result<(), EngineError> {
+        let arrays = self.plan.layout.buffers();
+        let mut written = 0;
+        for stretch in self.stretches(&self.plan.layout, state.len()) {
+            let contents = match order {
+                Some(order) => self.pack(state, &order[stretch.clone()])?,
+                None => self.pack(state, &stretch.clone().collect::<Vec<_>>())?,
+            };
+            let count = if stretch.start == 0 { contents.len() } else { 1 };
+            for (array, words) in arrays.iter().zip(&contents).take(count) {
+                match self.textures.get(array) {
+                    Some(texels) => texels.write(&self.gpu, words),
+                    // Only of the first array is there more than one stretch.
+                    None => self.buffers[array].write(&self.gpu, written, bytemuck::cast_slice(words))?,
+                }
+            }
+            written += contents.first().map_or(0, |words| 4 * words.len() as u64);
+        }
+        // Else every particle comes back with its species.
+        if !self.plan.layout.divides() {
+            self.species.clone_from(&state.species);
+        }
+        if let Some(buffer) = self.buffers.get(&Paths::BUFFER) {
+            for stretch in self.stretches(&self.plan.layout, state.len()) {
+                let offset = PATH_BYTES * stretch.start as u64;
+                buffer.write(&self.gpu, offset, bytemuck::cast_slice(&pack_paths(state, stretch)?))?;
             }
         }
-        self.species.clone_from(&state.species);
-        if let Some(buffer) = self.buffers.get(&Paths::BUFFER) {
-            self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&pack_paths(state)?));
-        }
-        self.begin(state.step);
-        Ok(())
+        self.begin(state.step)
+    }
+
+    /// Ranges of particles that pass to the device or back together.
+    fn stretches(&self, layout: &Layout, count: usize) -> impl Iterator<Item = Range<usize>> + use<> {
+        let length = self.plan.stretch(layout, count as u64) as usize;
+        // A state without particles has one stretch, too.
+        (0..count.max(1)).step_by(length).map(move |first| first..(first + length).min(count))
     }
 
     /// A state as the plan has it in buffers and textures.
@@ -309,7 +324,7 @@ impl<'a> Engine<'a> {
     pub(crate) fn pack_for_parts(&self, state: &State, ids: Range<u64>) -> Result<Vec<Vec<u32>>, EngineError> {
         let mut contents = self.pack_some(state, ids)?;
         if self.plan.paths.are_followed() {
-            contents.push(pack_paths(state)?);
+            contents.push(pack_paths(state, 0..state.len())?);
         }
         Ok(contents)
     }
@@ -335,10 +350,10 @@ impl<'a> Engine<'a> {
         let exchange = self.exchange.as_mut().ok_or_else(no_part)?;
         let bytes: &[u8] = bytemuck::cast_slice(particles);
         let buffer = &self.buffers[&Array::Particles];
-        if bytes.len() as u64 > buffer.size() {
+        if bytes.len() as u64 > buffer.bytes() {
             return Err(EngineError::Crowded { step });
         }
-        self.gpu.queue.write_buffer(buffer, 0, bytes);
+        buffer.write(&self.gpu, 0, bytes)?;
         // Sums over all ranks are with the first; other arrays all ranks have.
         let first = exchange.is_first();
         let arrays = self.plan.layout.buffers().into_iter().skip(1);
@@ -350,15 +365,14 @@ impl<'a> Engine<'a> {
                 Paths::BUFFER => words.chunks_exact_mut(PATH_WORDS).for_each(|path| path[PATH_WORDS / 2..].fill(0)),
                 _ => words.fill(0),
             }
-            self.gpu.queue.write_buffer(&self.buffers[&array], 0, bytemuck::cast_slice(&words));
+            self.buffers[&array].write(&self.gpu, 0, bytemuck::cast_slice(&words))?;
         }
-        exchange.begin(particles.len() as u64);
-        self.begin(step);
-        Ok(())
+        exchange.begin(particles.len() as u64)?;
+        self.begin(step)
     }
 
     /// Begins at a step, with the state in place.
-    fn begin(&mut self, first: u64) {
+    fn begin(&mut self, first: u64) -> Result<(), EngineError> {
         let clock = self.plan.steps_before.wrapping_add(first);
         let step = [clock as u32, (clock >> 32) as u32];
         let control = Control {
@@ -369,10 +383,10 @@ impl<'a> Engine<'a> {
             failure_place: u32::MAX,
             ..Control::default()
         };
-        self.gpu.queue.write_buffer(&self.buffers[&Array::Control], 0, bytemuck::bytes_of(&control));
+        self.buffers[&Array::Control].write(&self.gpu, 0, bytemuck::bytes_of(&control))?;
         let mut encoder = self.gpu.encoder("upload");
         if let Some(counts) = self.buffers.get(&Array::Counts) {
-            encoder.clear_buffer(counts, 0, None);
+            counts.clear(&mut encoder, 0..counts.bytes());
         }
         self.step = first;
         self.first_step = first;
@@ -383,12 +397,13 @@ impl<'a> Engine<'a> {
         drop(pass);
         for sampler in &self.plan.samplers {
             // Rows and windows of the state before are discarded.
-            encoder.clear_buffer(&self.buffers[&sampler.samples], 0, Some(8));
+            self.buffers[&sampler.samples].clear(&mut encoder, 0..8);
         }
         self.gpu.queue.submit([encoder.finish()]);
         self.in_flight.clear();
         self.collected.clear();
         self.phase = Phase::Advanced;
+        Ok(())
     }
 
     /// Advances by `steps`, taking every sample that is due at the start of each step, in submissions of at most `batch`
@@ -410,7 +425,7 @@ impl<'a> Engine<'a> {
             while done < now && self.room_for_samples() {
                 self.record_sample(&mut recording)?;
                 let reported = self.phase == Phase::Sorted { reported: true };
-                self.look_ahead(self.step + 1, false);
+                self.look_ahead(self.step + 1, false)?;
                 let kernels = if reported { &self.plan.finish_report } else { &self.plan.advance };
                 record(kernels, &self.stages, &mut self.exchange, self.step, &mut recording)?;
                 self.phase = Phase::Advanced;
@@ -475,7 +490,7 @@ impl<'a> Engine<'a> {
         }
         for (own, new) in self.plan.buffers.iter().zip(&plan.buffers) {
             if let Some(bytes) = new.contents.bytes().filter(|_| own.contents != new.contents) {
-                self.gpu.queue.write_buffer(&self.buffers[&new.array], 0, &bytes);
+                self.buffers[&new.array].write(&self.gpu, 0, &bytes)?;
             }
         }
         for (own, new) in self.plan.textures.iter().zip(&plan.textures) {
@@ -597,9 +612,8 @@ impl<'a> Engine<'a> {
     pub fn reported(&mut self) -> Result<Reported, EngineError> {
         self.report_now()?;
         let Some((buffer, layout)) = self.plan.reported.clone() else { return Ok(self.download()?.into()) };
-        let words = self.words(buffer)?;
-        let state = layout.unpack(self.step, &[&words], self.plan.particles as usize);
-        let mut state = state.map_err(|reason| EngineError::State { reason })?;
+        self.wait_all()?;
+        let mut state = self.unpack(&layout, &[buffer])?;
         self.complete_images(&mut state)?;
         Ok(state.into())
     }
@@ -636,9 +650,9 @@ impl<'a> Engine<'a> {
         let each = particles.chunks_exact(PARTICLE_WORDS as usize).zip(images);
         let paths: Vec<u32> = each.flat_map(|(words, image)| path([words[0], words[1], words[2]], *image)).collect();
         let write = |array: Array, words: &[u32]| {
-            let buffer = self.buffers.get(&array).filter(|buffer| buffer.size() == 4 * words.len() as u64);
+            let buffer = self.buffers.get(&array).filter(|buffer| buffer.bytes() == 4 * words.len() as u64);
             let problem = || EngineError::State { reason: "the plan gathers other particles".to_owned() };
-            self.gpu.queue.write_buffer(buffer.ok_or_else(problem)?, 0, bytemuck::cast_slice(words));
+            buffer.ok_or_else(problem)?.write(&self.gpu, 0, bytemuck::cast_slice(words))?;
             Ok::<(), EngineError>(())
         };
         write(Array::Reported, particles)?;
@@ -673,32 +687,55 @@ impl<'a> Engine<'a> {
 
     fn read(&self, array: Array) -> Result<Vec<u8>, EngineError> {
         let bytes = match (self.buffers.get(&array), self.textures.get(&array)) {
-            (Some(buffer), _) => readback::read(&self.gpu, buffer.size(), |encoder, staging| {
-                encoder.copy_buffer_to_buffer(buffer, 0, staging, 0, buffer.size());
-            }),
-            (None, Some(texels)) => readback::read(&self.gpu, texels.bytes(), |encoder, staging| {
-                texels.copy_to(encoder, staging);
-            }),
+            (Some(buffer), _) => self.read_range(buffer, 0..buffer.bytes())?,
+            (None, Some(texels)) => {
+                readback::read(&self.gpu, texels.bytes(), |encoder, staging| texels.copy_to(encoder, staging))?
+            }
             (None, None) => {
                 let reason = format!("the plan has no buffer and no texture `{}`", array.name());
                 return Err(EngineError::State { reason });
             }
         };
-        Ok(bytes?)
+        Ok(bytes)
+    }
+
+    fn read_range(&self, buffer: &Stored, range: Range<u64>) -> Result<Vec<u8>, GpuError> {
+        readback::read(&self.gpu, range.end - range.start, |encoder, staging| {
+            buffer.copy_to(encoder, range, staging, 0);
+        })
     }
 
     fn download(&mut self) -> Result<State, EngineError> {
         self.wait_all()?;
-        let arrays = self.plan.layout.buffers();
-        let bytes = arrays.into_iter().map(|array| self.read(array)).collect::<Result<Vec<_>, _>>()?;
-        let words: Vec<&[u32]> = bytes.iter().map(|bytes| bytemuck::cast_slice(bytes)).collect();
-        let count = self.plan.particles as usize;
-        let state = self.plan.layout.unpack(self.step, &words, count);
-        let mut state = state.map_err(|reason| EngineError::State { reason })?;
+        let mut state = self.unpack(&self.plan.layout, &self.plan.layout.buffers())?;
         if state.species.is_empty() {
             state.species.clone_from(&self.species);
         }
         self.complete_images(&mut state)?;
+        Ok(state)
+    }
+
+    /// The state in some arrays, of which all that is submitted has run.
+    fn unpack(&self, layout: &Layout, arrays: &[Array]) -> Result<State, EngineError> {
+        let wrong = |reason| EngineError::State { reason };
+        let count = self.plan.particles as usize;
+        let (&first, others) = arrays.split_first().ok_or_else(|| wrong("the plan has no state".to_owned()))?;
+        let others = others.iter().map(|array| self.read(*array)).collect::<Result<Vec<_>, _>>()?;
+        let mut contents: Vec<&[u32]> = vec![&[]];
+        contents.extend(others.iter().map(|bytes| bytemuck::cast_slice::<u8, u32>(bytes)));
+        let Some(buffer) = self.buffers.get(&first).filter(|_| layout.divides()) else {
+            let bytes = self.read(first)?;
+            contents[0] = bytemuck::cast_slice(&bytes);
+            return layout.unpack(self.step, &contents, count).map_err(wrong);
+        };
+        let mut state = layout.begin(self.step, &contents, count).map_err(wrong)?;
+        let mut places = Places::of(count);
+        let particle = 4 * u64::from(PARTICLE_WORDS);
+        for stretch in self.stretches(layout, count).filter(|stretch| !stretch.is_empty()) {
+            let range = particle * stretch.start as u64..particle * stretch.end as u64;
+            let bytes = self.read_range(buffer, range)?;
+            layout.place(bytemuck::cast_slice(&bytes), &mut places, &mut state).map_err(wrong)?;
+        }
         Ok(state)
     }
 
@@ -707,14 +744,19 @@ impl<'a> Engine<'a> {
         if !self.plan.paths.are_followed() {
             return Ok(());
         }
-        let words = self.words(Paths::BUFFER)?;
-        let paths = words.chunks_exact(PATH_WORDS).zip(&state.positions);
-        state.images = paths
-            .map(|(path, position)| {
+        self.wait_all()?;
+        let buffer = &self.buffers[&Paths::BUFFER];
+        state.images.reserve_exact(state.len());
+        for stretch in self.stretches(&self.plan.layout, state.len()).filter(|stretch| !stretch.is_empty()) {
+            let range = PATH_BYTES * stretch.start as u64..PATH_BYTES * stretch.end as u64;
+            let bytes = self.read_range(buffer, range)?;
+            let words: &[u32] = bytemuck::cast_slice(&bytes);
+            let paths = words.chunks_exact(PATH_WORDS).zip(&state.positions[stretch]);
+            state.images.extend(paths.map(|(path, position)| {
                 let since = crossings([path[0], path[1], path[2]], *position);
-                std::array::from_fn(|axis| path[4 + axis].cast_signed() + since[axis])
-            })
-            .collect();
+                std::array::from_fn::<_, 3, _>(|axis| path[4 + axis].cast_signed() + since[axis])
+            }));
+        }
         Ok(())
     }
 
@@ -755,7 +797,7 @@ impl<'a> Engine<'a> {
 
     fn record_report(&mut self, recording: &mut Recording) -> Result<(), EngineError> {
         if self.phase == (Phase::Sorted { reported: false }) {
-            self.look_ahead(self.step, true);
+            self.look_ahead(self.step, true)?;
             if self.exchange.is_some()
                 && let Some(momenta) = self.buffers.get(&Array::ReportedMomenta)
             {
@@ -770,14 +812,14 @@ impl<'a> Engine<'a> {
 
     /// Lets the exchange that is recorded next bring what samples of a step need that look further than forces reach: the one within the
     /// report, where they are taken after it, or the one before the step.
-    fn look_ahead(&mut self, step: u64, in_report: bool) {
-        let Some(exchange) = &mut self.exchange else { return };
+    fn look_ahead(&mut self, step: u64, in_report: bool) -> Result<(), EngineError> {
+        let Some(exchange) = &mut self.exchange else { return Ok(()) };
         let due = |sampler: &usize| {
             let sampler = self.plan.samplers.get(*sampler);
             sampler.is_some_and(|sampler| sampler.needs_report == in_report && sampler.due(step))
         };
         let wider = self.plan.part.as_ref().and_then(|part| part.wider.as_ref());
-        exchange.widen(wider.is_some_and(|wider| wider.samplers.iter().any(due)));
+        Ok(exchange.widen(wider.is_some_and(|wider| wider.samplers.iter().any(due)))?)
     }
 
     fn room_for_samples(&self) -> bool {

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
+use super::stored::Stored;
 use super::texels::Texels;
 use crate::gpu::{CompiledKernel, Gpu, GpuError, LOADED_CONSTANTS, compute_pass, constants_in_bytes};
 use crate::plan::{Kernel, Plan, folded};
@@ -60,7 +61,7 @@ pub(super) fn run_without_workgroups(gpu: &Gpu, stages: &[Stage]) -> Result<(), 
 pub(super) fn stages(
     gpu: &Gpu,
     plan: &Plan,
-    buffers: &HashMap<Array, wgpu::Buffer>,
+    buffers: &HashMap<Array, Stored>,
     textures: &HashMap<Array, Texels>,
 ) -> Result<Vec<Stage>, GpuError> {
     let threads = thread::available_parallelism().map_or(1, NonZero::get).min(plan.kernels.len());
@@ -83,7 +84,7 @@ fn stage(
     gpu: &Gpu,
     plan: &Plan,
     kernel: &Kernel,
-    buffers: &HashMap<Array, wgpu::Buffer>,
+    buffers: &HashMap<Array, Stored>,
     textures: &HashMap<Array, Texels>,
 ) -> Result<Stage, GpuError> {
     let [width, height] = folded(kernel.workgroups);
@@ -91,13 +92,19 @@ fn stage(
     let fold = (height > 1).then_some((Constant::Fold, f64::from(width)));
     let constants = kernel.constants_in(plan).chain(fold);
     let values: HashMap<Constant, f64> = constants.collect();
-    let compiled =
-        gpu.compile(kernel.name, kernel.entry, &kernel.choices, values.clone().into_iter(), plan.constants_in)?;
+    let compiled = gpu.compile(
+        kernel.name,
+        kernel.entry,
+        &kernel.choices,
+        values.clone().into_iter(),
+        plan.constants_in,
+        |variable| plan.portions.get(&kernel.array_of(variable)).copied(),
+    )?;
     let CompiledKernel { pipeline, bindings, constants: compiled_in, loaded } = compiled;
     let loaded = Loaded::new(gpu, kernel, loaded, &values);
     let bound = bindings.iter().map(|binding| {
         let array = kernel.array_of(binding.array);
-        let buffer = buffers.get(&array).map(wgpu::Buffer::as_entire_binding);
+        let buffer = buffers.get(&array).map(|stored| stored.portion(binding.portion).as_entire_binding());
         let resource = buffer.or_else(|| textures.get(&array).map(Texels::binding));
         let resource = resource.ok_or_else(|| GpuError::Refused {
             doing: format!("binding the buffers of kernel `{}`", kernel.name),
@@ -120,7 +127,7 @@ fn stage(
         })
     })?;
     let size = match (kernel.demand, buffers.get(&Array::Demands)) {
-        (Some(place), Some(buffer)) => Size::Demanded(buffer.clone(), 12 * u64::from(place)),
+        (Some(place), Some(stored)) => Size::Demanded(stored.portion(0).clone(), 12 * u64::from(place)),
         _ => Size::Fixed([width, height]),
     };
     Ok(Stage { pipeline, bindings: group, size, takes_long: kernel.takes_long, compiled_in, loaded })

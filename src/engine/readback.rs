@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::mpsc;
 use std::time::Duration;
 
+use super::stored::Stored;
 use super::{Control, Sample};
 use crate::gpu::{Gpu, GpuError};
 use crate::plan::Plan;
@@ -29,7 +30,7 @@ impl Readback {
         gpu: &Gpu,
         encoder: wgpu::CommandEncoder,
         plan: &Plan,
-        buffers: &HashMap<Array, wgpu::Buffer>,
+        buffers: &HashMap<Array, Stored>,
         rows: &[u64],
     ) -> Result<Self, GpuError> {
         let control_bytes = size_of::<Control>() as u64;
@@ -40,11 +41,11 @@ impl Readback {
             bytes += rows * row_bytes(plan, sampler);
         }
         let reading = Reading::begin(gpu, encoder, bytes, |encoder, staging| {
-            encoder.copy_buffer_to_buffer(&buffers[&Array::Control], 0, staging, 0, control_bytes);
+            buffers[&Array::Control].copy_to(encoder, 0..control_bytes, staging, 0);
             for &(sampler, rows, offset) in &stretches {
                 let samples = &buffers[&plan.samplers[sampler].samples];
-                encoder.copy_buffer_to_buffer(samples, 8, staging, offset, rows * row_bytes(plan, sampler));
-                encoder.clear_buffer(samples, 0, Some(4));
+                samples.copy_to(encoder, 8..8 + rows * row_bytes(plan, sampler), staging, offset);
+                samples.clear(encoder, 0..4);
             }
         })?;
         Ok(Self { reading, stretches })

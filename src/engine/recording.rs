@@ -1,6 +1,7 @@
 //! Recording and submission of commands.
 
 use super::pipeline::Stage;
+use super::stored::Stored;
 use crate::gpu::{Gpu, compute_pass};
 
 /// Kernels of a batch, recorded and not yet submitted.
@@ -33,10 +34,10 @@ impl Recording {
         }
     }
 
-    /// Records that a buffer is filled with zeros.
-    pub(super) fn clear(&mut self, buffer: &wgpu::Buffer) {
+    /// Records that an array is filled with zeros.
+    pub(super) fn clear(&mut self, array: &Stored) {
         self.pass = None;
-        self.encoder.clear_buffer(buffer, 0, None);
+        array.clear(&mut self.encoder, 0..array.bytes());
     }
 
     /// Submits the kernels that have not been submitted, if there are any.

@@ -160,12 +160,11 @@ impl Stepper for Engine<'_> {
         let window = planned.window.filter(|window| taken < window.samples);
         let window = window.ok_or_else(|| refuse("the sampler has no window of so many samples"))?;
         let buffer = &self.buffers[&window.buffer];
-        if buffer.size() != 4 * words.len() as u64 {
+        if buffer.bytes() != 4 * words.len() as u64 {
             return Err(refuse("the window has another number of particles"));
         }
-        self.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(words));
+        buffer.write(&self.gpu, 0, bytemuck::cast_slice(words))?;
         // The second word counts the samples since the upload; the place in the window follows from it.
-        self.gpu.queue.write_buffer(&self.buffers[&planned.samples], 4, bytemuck::bytes_of(&(taken as u32)));
-        Ok(())
+        Ok(self.buffers[&planned.samples].write(&self.gpu, 4, bytemuck::bytes_of(&(taken as u32)))?)
     }
 }

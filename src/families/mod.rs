@@ -207,7 +207,7 @@ pub(crate) trait Physics {
     }
 
     /// Completes a state at step 0 whose particles are placed and move; `thermal` are those of thermal velocities.
-    fn complete_start(&self, state: &mut State, scene: &Checked, thermal: &[usize]);
+    fn complete_start(&self, state: &mut State, scene: &Checked, thermal: &[Range<usize>]);
 
     /// Whether some starts are refused.
     fn may_refuse_starts(&self) -> bool {

@@ -30,7 +30,7 @@ use std::ops::Range;
 pub fn initial_state(scene: &Checked) -> State {
     let model = scene.model();
     let mut state = State::default();
-    let mut thermal = Vec::new();
+    let mut thermal: Vec<Range<usize>> = Vec::new();
     if let Some(state) = scene.start().and_then(|start| start.places.as_ref()?.state.clone()) {
         return count_turns(state, scene);
     }
@@ -46,7 +46,7 @@ pub fn initial_state(scene: &Checked) -> State {
         }
         let moves = |id: &usize| !model.species[state.species[*id] as usize].fixed;
         if velocities == StateVelocities::Thermal {
-            thermal.extend((0..state.len()).filter(moves));
+            thermal = ranges((0..state.len()).filter(moves));
         }
         return complete(state, scene, &thermal);
     }
@@ -59,7 +59,7 @@ pub fn initial_state(scene: &Checked) -> State {
         lattice += usize::from(group.placement.is_lattice());
         let draws = scene.start_velocities().is_none_or(|velocities| velocities == StateVelocities::Thermal);
         if draws && group.velocities == Velocities::Thermal && !group.is_held() {
-            thermal.extend(first..first + count);
+            thermal.push(first..first + count);
         }
     }
     if let Some(places) = of_run {
@@ -104,7 +104,7 @@ pub fn start_in_words(scene: &Checked) -> Option<String> {
 }
 
 /// Completes a state whose particles have places and momenta; `thermal` are those whose momenta were drawn.
-fn complete(mut state: State, scene: &Checked, thermal: &[usize]) -> State {
+fn complete(mut state: State, scene: &Checked, thermal: &[Range<usize>]) -> State {
     scene.model().physics().complete_start(&mut state, scene, thermal);
     count_turns(state, scene)
 }
@@ -312,19 +312,37 @@ pub(super) fn set_in_motion(state: &mut State, group: &ParticleGroup, ids: Range
     }
 }
 
-/// Takes the common centre-of-mass velocity from the listed particles, to the last bit of their net momentum.
-pub(crate) fn bring_to_rest(state: &mut State, particles: &[usize], dimension: usize, mass: impl Fn(usize) -> f64) {
-    let total_mass: f64 = particles.iter().map(|&particle| mass(particle)).sum();
+/// Numbers in ascending order, as ranges.
+pub(crate) fn ranges(numbers: impl Iterator<Item = usize>) -> Vec<Range<usize>> {
+    let mut ranges: Vec<Range<usize>> = Vec::new();
+    for number in numbers {
+        match ranges.last_mut() {
+            Some(last) if last.end == number => last.end += 1,
+            _ => ranges.push(number..number + 1),
+        }
+    }
+    ranges
+}
+
+/// Takes the common centre-of-mass velocity from the particles of some ranges, to the last bit of their net momentum.
+pub(crate) fn bring_to_rest(
+    state: &mut State,
+    particles: &[Range<usize>],
+    dimension: usize,
+    mass: impl Fn(usize) -> f64,
+) {
+    let particles = || particles.iter().cloned().flatten();
+    let total_mass: f64 = particles().map(&mass).sum();
     for axis in 0..dimension {
-        let net: i64 = particles.iter().map(|&particle| i64::from(state.momenta[particle][axis])).sum();
+        let net: i64 = particles().map(|particle| i64::from(state.momenta[particle][axis])).sum();
         let mut left = net;
-        for &particle in particles {
+        for particle in particles() {
             let share = (net as f64 * (mass(particle) / total_mass)).round_ties_even() as i64;
             state.momenta[particle][axis] = (i64::from(state.momenta[particle][axis]) - share) as i32;
             left -= share;
         }
         // What rounding the shares has left over is at most half a unit per particle.
-        for &particle in particles.iter().take(left.unsigned_abs() as usize) {
+        for particle in particles().take(left.unsigned_abs() as usize) {
             state.momenta[particle][axis] -= left.signum() as i32;
         }
     }

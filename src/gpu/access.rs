@@ -23,7 +23,7 @@ pub(super) fn narrow(module: &mut Module, used: &FunctionInfo) {
 }
 
 /// The type with plain integers in place of atomic ones; none of a structure with atomic members.
-fn plain(module: &mut Module, ty: Handle<Type>) -> Option<Handle<Type>> {
+pub(super) fn plain(module: &mut Module, ty: Handle<Type>) -> Option<Handle<Type>> {
     let Type { name, inner } = module.types[ty].clone();
     let inner = match inner {
         TypeInner::Atomic(scalar) => TypeInner::Scalar(scalar),

@@ -7,12 +7,13 @@ use std::sync::Arc;
 use super::device::Gpu;
 use super::error::GpuError;
 use super::kept::Kept;
+use super::portions::{Portions, Undivided};
 use super::shader::{Binding, LinkedShader, link_once};
-use crate::shaders::{Choices, Constant, Entry};
+use crate::shaders::{Array, Choices, Constant, Entry};
 use mesoscope_shader_modules::module_without_loop_counters;
 
-/// The text of a kernel, and the bits of the constants that it uses.
-type Ingredients = (String, Vec<(Constant, u64)>);
+/// The text of a kernel, the bits of the constants that it uses, and which of its arrays are in portions.
+type Ingredients = (String, Vec<(Constant, u64)>, Vec<(Array, Portions)>);
 
 /// Changes a linked module before a pipeline is made from it, given the features of the device.
 pub type Rewriting = Arc<dyn Fn(&mut naga::Module, wgpu::Features) + Send + Sync>;
@@ -67,14 +68,20 @@ impl Gpu {
         choices: &Choices,
         constants: impl Iterator<Item = (Constant, f64)>,
         place: ConstantsIn,
+        portions_of: impl Fn(Array) -> Option<Portions>,
     ) -> Result<CompiledKernel, GpuError> {
         let (text, linked) = link_once(name, entry, choices, place)?;
         let used = constants.filter(|(constant, _)| linked.constants.contains(constant));
         let constants: Vec<(Constant, f64)> = used.collect();
         let bits = constants.iter().map(|(constant, value)| (*constant, value.to_bits())).collect();
-        self.compiled.pipelines.get_or_make((text, bits), || {
-            let LinkedShader { mut module, bindings, constants: used, loaded, counts_loops, .. } =
-                linked.specialized(&constants);
+        let arrays = linked.bindings.iter().map(|binding| binding.array);
+        let portions = arrays.filter_map(|array| Some((array, portions_of(array)?))).collect();
+        self.compiled.pipelines.get_or_make((text, bits, portions), || {
+            let divided = linked.specialized(&constants).divided(&portions_of).map_err(|Undivided(array)| {
+                let doing = format!("making kernel `{name}`");
+                GpuError::Refused { doing, reason: format!("it needs the whole of `{}` at once", array.name()) }
+            })?;
+            let LinkedShader { mut module, bindings, constants: used, loaded, counts_loops, .. } = divided;
             let constants: Vec<(&str, f64)> = (constants.iter())
                 .filter(|(constant, _)| used.contains(constant))
                 .map(|(constant, value)| (constant.name(), *value))

@@ -34,6 +34,9 @@ impl Shortage {
     }
 }
 
+/// What an adapter has too few of if a kernel binds too many arrays or portions of them.
+pub(crate) const STORAGE_BUFFERS: &str = "storage buffers in a kernel";
+
 /// Lanes of the largest workgroup, and the bytes that it shares: every adapter with compute shaders allows these.
 const LANES: u32 = 256;
 const SHARED_BYTES: u32 = 16_384;
@@ -48,7 +51,7 @@ fn limits(offered: &wgpu::Limits, requirements: Requirements) -> Result<wgpu::Li
     let buffers = requirements.storage_buffers;
     enough("bytes in a storage buffer", offered.max_storage_buffer_binding_size, bytes)?;
     enough("bytes in a buffer", offered.max_buffer_size, bytes)?;
-    enough("storage buffers in a kernel", offered.max_storage_buffers_per_shader_stage.into(), buffers.into())?;
+    enough(STORAGE_BUFFERS, offered.max_storage_buffers_per_shader_stage.into(), buffers.into())?;
     enough("lanes in a workgroup", offered.max_compute_invocations_per_workgroup.into(), LANES.into())?;
     enough("bytes shared by a workgroup", offered.max_compute_workgroup_storage_size.into(), SHARED_BYTES.into())?;
     limits.max_storage_buffer_binding_size = limits.max_storage_buffer_binding_size.max(bytes);
@@ -276,6 +279,13 @@ impl Gpu {
     #[must_use]
     pub fn serial_memory(&self) -> bool {
         self.serial_memory
+    }
+
+    /// Bytes of the largest array that a kernel can bind, if the device is opened for it.
+    #[must_use]
+    pub fn largest_binding(&self) -> u64 {
+        let offered = self.adapter.limits();
+        offered.max_storage_buffer_binding_size.min(offered.max_buffer_size)
     }
 
     /// Waits until a submission has run.

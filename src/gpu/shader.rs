@@ -6,6 +6,7 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use super::compiled::ConstantsIn;
 use super::kept::Kept;
 use super::loaded;
+use super::portions::{Portions, Undivided, divide};
 use super::pruning::{prune, switches};
 use super::{GpuError, access};
 use crate::shaders::{Array, Choices, Constant, Entry, LinkedText, linked_text};
@@ -19,10 +20,12 @@ pub struct Binding {
     pub array: Array,
     /// Whether it is a texture.
     pub texture: bool,
+    /// The portion of the array, from 0: others than the first only where it is too large for one binding.
+    pub portion: u32,
 }
 
 /// A kernel parsed and validated.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct LinkedShader {
     /// The parsed module.
     pub module: naga::Module,
@@ -78,6 +81,20 @@ impl LinkedShader {
         Self { module, bindings, constants, switches: Vec::new(), loaded, counts_loops: self.counts_loops, layout }
     }
 
+    /// The same with arrays in portions.
+    ///
+    /// # Errors
+    /// [`Undivided`] if the kernel uses one of them otherwise than by its elements.
+    pub(crate) fn divided(mut self, portions_of: impl Fn(Array) -> Option<Portions>) -> Result<Self, Undivided> {
+        divide(&mut self.module, &mut self.bindings, portions_of)?;
+        Ok(self)
+    }
+
+    /// The number of buffers that it binds.
+    pub(crate) fn storage_buffers(&self) -> usize {
+        self.bindings.iter().filter(|binding| !binding.texture).count()
+    }
+
     /// Bits of the values of its switches, in their order; nothing where a default holds. Equal ones leave the same kernel.
     #[must_use]
     pub fn switched(&self, constants: &[(Constant, f64)]) -> Switched {
@@ -111,7 +128,7 @@ pub fn link(name: &str, entry: Entry, choices: &Choices) -> Result<LinkedShader,
 ///
 /// # Errors
 /// As [`link`].
-pub(super) fn link_once(
+pub(crate) fn link_once(
     name: &str,
     entry: Entry,
     choices: &Choices,
@@ -168,8 +185,7 @@ pub fn storage_buffers(entry: Entry, choices: &Choices, constants: &[(Constant, 
         }
     }
     let Ok((_, shader)) = link_once(entry.name(), entry, choices, ConstantsIn::Code) else { return 0 };
-    let bindings = shader.specialized(constants).bindings;
-    let count = bindings.iter().filter(|binding| !binding.texture).count();
+    let count = shader.specialized(constants).storage_buffers();
     let key = (kernel.clone(), shader.switched(constants));
     COUNTS.lock().unwrap_or_else(PoisonError::into_inner).insert(key, count);
     SWITCHES.lock().unwrap_or_else(PoisonError::into_inner).insert(kernel, shader.switches.clone());
@@ -230,7 +246,7 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
         let name = variable.name.as_deref().unwrap_or_default();
         let array = Array::named(name).ok_or_else(|| failure(place(1), format!("there is no array `{name}`")))?;
         let texture = matches!(module.types[variable.ty].inner, naga::TypeInner::Image { .. });
-        bindings.push(Binding { number: binding.binding, array, texture });
+        bindings.push(Binding { number: binding.binding, array, texture, portion: 0 });
     }
     bindings.sort_by_key(|binding| binding.number);
     access::narrow(&mut module, used);

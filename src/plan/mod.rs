@@ -38,9 +38,10 @@ pub use sums::{ReportRow, Sums};
 pub use table::{Table, Words};
 pub use texture::Texture;
 
-use crate::gpu::{ConstantsIn, storage_buffers};
+use crate::gpu::{ConstantsIn, Portions, Undivided, link_once, storage_buffers};
 use crate::shaders::{Array, Constant, declared_buffers};
 use crate::state::Units;
+use std::collections::BTreeMap;
 
 /// Words of a particle that passes from rank to rank: `shaders/space/particle`.
 pub(crate) const PARTICLE_WORDS: u32 = 8;
@@ -112,6 +113,8 @@ pub struct Plan {
     pub constants: Vec<(Constant, f64)>,
     /// All buffers.
     pub buffers: Vec<Buffer>,
+    /// Arrays that are larger than kernels may bind, which lie in several buffers.
+    pub portions: BTreeMap<Array, Portions>,
     /// All textures: arrays that are loaded lane by lane where that is expensive.
     pub textures: Vec<Texture>,
     /// Kernels that run once after an upload. Where steps end with the beginning of the next one, they also begin the first step.
@@ -143,6 +146,8 @@ pub struct Plan {
     pub operations_per_particle: f64,
     /// Where the constants of kernels are.
     pub constants_in: ConstantsIn,
+    /// Particles of a state that pass to the device or back at once; a sixteenth, or a million if that is more, if `None`.
+    pub particles_at_once: Option<u64>,
     /// What it has of a run that several ranks share, if it is the plan of one of them.
     pub part: Option<PlannedPart>,
 }
@@ -165,6 +170,7 @@ impl Plan {
             kernels: Vec::new(),
             constants: Vec::new(),
             buffers: Vec::new(),
+            portions: BTreeMap::new(),
             textures: Vec::new(),
             prepare: Vec::new(),
             sort: Vec::new(),
@@ -179,6 +185,7 @@ impl Plan {
             reported: None,
             operations_per_particle: 0.0,
             constants_in: ConstantsIn::Code,
+            particles_at_once: None,
             part: None,
         }
     }
@@ -193,6 +200,33 @@ impl Plan {
             most.max(storage_buffers(kernel.entry, &kernel.choices, &constants) as u32)
         });
         self.storage_buffers = most;
+    }
+
+    /// Divides arrays that are larger than kernels may bind into portions, but for those that a kernel needs as a whole.
+    pub(crate) fn divide(&mut self, largest_binding: Option<u64>) {
+        let Some(binding) = largest_binding else { return };
+        let portions = |buffer: &Buffer| Some((buffer.array, Portions::new(buffer.bytes, binding)?));
+        self.portions = self.buffers.iter().filter_map(portions).collect();
+        if self.portions.is_empty() {
+            return;
+        }
+        for kernel in &self.kernels {
+            let Ok((_, linked)) = link_once(kernel.name, kernel.entry, &kernel.choices, self.constants_in) else {
+                continue;
+            };
+            let constants: Vec<_> = kernel.constants_in(self).collect();
+            let linked = linked.specialized(&constants);
+            loop {
+                let portions_of = |variable| self.portions.get(&kernel.array_of(variable)).copied();
+                match linked.clone().divided(portions_of) {
+                    Ok(divided) => {
+                        self.storage_buffers = self.storage_buffers.max(divided.storage_buffers() as u32);
+                        break;
+                    }
+                    Err(Undivided(variable)) => self.portions.remove(&kernel.array_of(variable)),
+                };
+            }
+        }
     }
 
     /// Adds a kernel and returns its index.
@@ -253,6 +287,38 @@ impl Plan {
         self.buffers.iter().map(|buffer| buffer.bytes).chain(textures).sum()
     }
 
+    /// Bytes of a state: what a checkpoint keeps, and the memory of the machine holds.
+    #[must_use]
+    pub fn state_bytes(&self) -> u64 {
+        /// Position, momentum and species.
+        const PARTICLE: u64 = 28;
+        let arrays = self.layout.arrays(self.particles as usize).into_iter();
+        let arrays = arrays.map(|(array, length)| (4 * array.width() as u64).saturating_mul(length.expected() as u64));
+        arrays.fold(PARTICLE.saturating_mul(self.particles), u64::saturating_add)
+    }
+
+    /// Bytes of the memory of the machine that a run takes at least: a state, and as much of it as passes to the device or back at
+    /// once.
+    #[must_use]
+    pub fn host_bytes(&self) -> u64 {
+        let images = if self.paths.are_followed() { 12 * self.particles } else { 0 };
+        let stretch = self.stretch(&self.layout, self.particles);
+        let buffers = self.layout.buffers();
+        let bytes = self.buffers.iter().filter(|buffer| buffers.contains(&buffer.array)).map(|buffer| buffer.bytes);
+        let passing = bytes.sum::<u64>() as f64 * (stretch as f64 / self.particles.max(1) as f64);
+        self.state_bytes().saturating_add(images).saturating_add(passing as u64)
+    }
+
+    /// Particles that pass to the device or back together: few enough that what they take on the way is little beside a state.
+    pub(crate) fn stretch(&self, layout: &Layout, particles: u64) -> u64 {
+        let all = particles.max(1);
+        let in_buffer = layout.buffers().first().is_some_and(|array| self.has_buffer(*array));
+        match self.particles_at_once {
+            _ if !layout.divides() || !in_buffer => all,
+            at_once => at_once.unwrap_or(all.div_ceil(16).max(1 << 20)).clamp(1, all),
+        }
+    }
+
     /// The same plan without reports, samples and analyses: the steps alone, to measure their speed.
     ///
     /// ```
@@ -294,10 +360,15 @@ impl Plan {
         self
     }
 
-    /// The largest buffer in bytes.
+    /// The largest buffer in bytes: an array, or a portion of one that is larger than kernels may bind.
     #[must_use]
     pub fn largest_buffer(&self) -> u64 {
-        self.buffers.iter().map(|buffer| buffer.bytes).max().unwrap_or(0)
+        self.buffers.iter().map(|buffer| self.bytes_at_once(buffer)).max().unwrap_or(0)
+    }
+
+    /// Bytes of an array that a kernel binds at once.
+    pub(crate) fn bytes_at_once(&self, buffer: &Buffer) -> u64 {
+        self.portions.get(&buffer.array).map_or(buffer.bytes, |portions| portions.bytes)
     }
 }
 

@@ -11,6 +11,8 @@ pub struct Hardware {
     /// Whether lanes load and store one after the other, as on software adapters: every access to a buffer is expensive, and one of
     /// eight bytes costs no more than one of four; texels of a texture are loaded whole.
     pub serial_memory: bool,
+    /// Bytes that a kernel can bind of one array; a larger one lies in portions. As many as an array has if `None`.
+    pub largest_binding: Option<u64>,
 }
 
 impl Hardware {
@@ -20,7 +22,7 @@ impl Hardware {
     /// ```
     /// use mesoscope::plan::Hardware;
     ///
-    /// let processor = Hardware { subgroup_size: Some(8), serial_memory: true };
+    /// let processor = Hardware { subgroup_size: Some(8), serial_memory: true, ..Hardware::default() };
     /// assert!(processor.takes_eights());
     /// assert!(!Hardware { serial_memory: false, ..processor }.takes_eights());
     /// ```
@@ -58,8 +60,8 @@ pub struct Options {
     pub pairs_in_dispatch: Option<u64>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
     pub many_level_scan: bool,
-    /// Particles of a message between ranks that passes on a state; a million if `None`.
-    pub particles_in_message: Option<u64>,
+    /// Particles of a state that pass to a device and back, or from rank to rank, at once; about a million if `None`.
+    pub particles_at_once: Option<u64>,
     /// Where the constants of kernels are.
     pub constants_in: ConstantsIn,
     /// The part of one of several ranks; all of the box if `None`.

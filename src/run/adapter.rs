@@ -1,33 +1,62 @@
 //! The adapter of a run, and the plan for it.
 
 use super::RunError;
+use super::division::hindrances;
 use super::plan::plan;
 use crate::document::number_of_copies;
 use crate::families::Checked;
-use crate::gpu::{AdapterChoice, Gpu, GpuError, Requirements};
+use crate::gpu::{AdapterChoice, AdapterKind, Gpu, GpuError, Requirements, STORAGE_BUFFERS};
+use crate::host_memory;
 use crate::plan::{self, Division, Hardware, Options, Part, Plan};
 
 /// Opens an adapter that allows the buffers of a scene, for which it makes the plan.
 pub(super) fn open_adapter(scene: &Checked, choice: &AdapterChoice, options: Options) -> Result<(Gpu, Plan), RunError> {
-    let open = |hardware| {
+    let open = |hardware: Hardware| -> Result<(Gpu, Plan), RunError> {
         let plan = plan(scene, hardware, options);
         plan::check_precision(scene, &plan)?;
         let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
         let opened = Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() });
-        let gpu = opened.map_err(|error| match plan.buffers.iter().max_by_key(|buffer| buffer.bytes) {
-            Some(largest) if matches!(error, GpuError::TooSmall { .. }) => {
-                let copies = scene.state.as_ref().map_or(1, |state| number_of_copies(state.copies()));
-                RunError::TooLarge { source: error, buffer: largest.array, copies }
-            }
-            _ => error.into(),
-        })?;
-        let plan = if Hardware::from(&gpu) == hardware { plan } else { plan_for(scene, &gpu, options) };
+        let gpu = opened.map_err(|error| too_large(scene, &plan, error))?;
+        // No binding was too large.
+        let same = hardware == Hardware { largest_binding: hardware.largest_binding, ..Hardware::from(&gpu) };
+        let plan = if same { plan } else { plan_for(scene, &gpu, options) };
+        check_memory(&plan, &gpu)?;
         Ok((gpu, plan))
     };
     match open(Hardware::default()) {
-        // What the plan for any adapter needs this one may not: some get by with smaller buffers.
-        Err(RunError::TooLarge { .. }) => open(Hardware::from(&Gpu::open(choice, Requirements::default())?)),
+        // What the plan for any adapter needs this one may not: some get by with smaller buffers, or with arrays in portions.
+        Err(error) if error.exceeds_adapter() => open(Hardware::from(&Gpu::open(choice, Requirements::default())?)),
         opened => opened,
+    }
+}
+
+/// The error of an adapter that refuses a plan, with the array that is to blame and what would fit.
+fn too_large(scene: &Checked, plan: &Plan, source: GpuError) -> RunError {
+    let GpuError::TooSmall { allowed, needed, quantity, .. } = source else { return source.into() };
+    let largest = plan.buffers.iter().max_by_key(|buffer| match quantity {
+        STORAGE_BUFFERS => buffer.bytes,
+        _ => plan.bytes_at_once(buffer),
+    });
+    match largest {
+        // The buffers of a kernel are too many because its arrays are, or the portions of these.
+        Some(largest) if quantity != STORAGE_BUFFERS || !plan.portions.is_empty() => RunError::TooLarge {
+            buffer: largest.array,
+            fits: (plan.particles as f64 * (allowed as f64 / needed.max(1) as f64)) as u64,
+            copies: scene.state.as_ref().map_or(1, |state| number_of_copies(state.copies())),
+            ranks: hindrances(scene).is_empty().then(|| needed.div_ceil(allowed.max(1))),
+            source,
+        },
+        _ => source.into(),
+    }
+}
+
+/// Refuses a plan whose particles do not fit into the memory of this machine, where that is known: they pass through it.
+fn check_memory(plan: &Plan, gpu: &Gpu) -> Result<(), RunError> {
+    let is_software = gpu.description().kind == AdapterKind::Software;
+    let needed = plan.host_bytes().saturating_add(if is_software { plan.bytes() } else { 0 });
+    match host_memory::free().filter(|free| needed > *free) {
+        Some(free) => Err(RunError::Memory { particles: plan.particles, needed, free, is_software }),
+        None => Ok(()),
     }
 }
 

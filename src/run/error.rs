@@ -3,6 +3,7 @@
 use crate::engine::EngineError;
 use crate::families::Instability;
 use crate::gpu::GpuError;
+use crate::numbers::{bytes, counted};
 use crate::output::OutputError;
 use crate::output::checkpoint::CheckpointError;
 use crate::plot::PlotError;
@@ -103,21 +104,40 @@ pub enum RunError {
     },
     /// The adapter does not allow a buffer that the scene needs.
     #[error(
-        "{source}, for `{}` ({}): {} less; `mesoscope check --kernels` lists all buffers",
+        "{source}, for `{}` ({}): {}; `mesoscope check --kernels` lists all buffers",
         .buffer.name(),
         .buffer.purpose(),
-        match .copies {
-            1 => "a smaller system needs".to_owned(),
-            copies => format!("fewer than the {copies} copies of `state.replicate` need"),
-        }
+        what_fits(*.fits, *.copies, *.ranks)
     )]
     TooLarge {
         /// What the adapter allows.
         source: GpuError,
         /// The largest buffer.
         buffer: Array,
+        /// Particles that would fit, about.
+        fits: u64,
         /// Copies of the box of a file that the scene is made of.
         copies: u64,
+        /// Ranks, each with an adapter as large, that could share the scene, if it can be shared.
+        ranks: Option<u64>,
+    },
+    /// The memory of this machine is too small for the particles on their way to the adapter and back.
+    #[error(
+        "{} take {} of the memory of this machine{}, and {} are free: fewer particles, or a machine with more memory",
+        counted(*.particles, "particle"),
+        bytes(*.needed),
+        if *.is_software { ", in which a software adapter computes," } else { "" },
+        bytes(*.free)
+    )]
+    Memory {
+        /// Particles of the scene.
+        particles: u64,
+        /// Bytes that they take at least.
+        needed: u64,
+        /// Bytes that are free.
+        free: u64,
+        /// Whether the adapter has no memory of its own.
+        is_software: bool,
     },
     /// The engine refuses the state, or a buffer overflowed.
     #[error(transparent)]
@@ -155,6 +175,16 @@ pub enum RunError {
         /// The reason.
         source: PlotError,
     },
+}
+
+fn what_fits(particles: u64, copies: u64, ranks: Option<u64>) -> String {
+    let fewer = match copies {
+        1 => format!("about {} fit", counted(particles, "particle")),
+        copies => format!("fewer than the {copies} copies of `state.replicate` fit"),
+    };
+    let shared =
+        ranks.map(|ranks| format!(", or all of them on {ranks} ranks that have an adapter each (`--ranks {ranks}`)"));
+    fewer + &shared.unwrap_or_default()
 }
 
 fn directory_of(file: &Path) -> &Path {

@@ -40,5 +40,7 @@ pub fn plan(scene: &Checked, hardware: Hardware, options: Options) -> Plan {
     if options.suits_serial_memory(hardware) {
         plan.suit_serial_memory(&physics.texture_candidates);
     }
+    plan.particles_at_once = options.particles_at_once;
+    plan.divide(hardware.largest_binding);
     plan
 }

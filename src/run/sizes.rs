@@ -111,13 +111,9 @@ impl Sizes {
 /// Bytes of a checkpoint: the state, open windows, and the scene.
 fn checkpoint(plan: &Plan) -> u64 {
     const SCENE: u64 = 4096;
-    /// Position, momentum and species.
-    const PARTICLE: u64 = 28;
-    let arrays = plan.arrays(plan.particles as usize).into_iter();
-    let arrays = arrays.map(|(array, length)| (4 * array.width() as u64).saturating_mul(length.expected() as u64));
     let windows = plan.samplers.iter().filter_map(|sampler| sampler.window);
     let windows = windows.map(|window| {
         plan.buffers.iter().find(|buffer| buffer.array == window.buffer).map_or(0, |buffer| buffer.bytes)
     });
-    arrays.chain(windows).fold(PARTICLE.saturating_mul(plan.particles).saturating_add(SCENE), u64::saturating_add)
+    windows.fold(plan.state_bytes().saturating_add(SCENE), u64::saturating_add)
 }

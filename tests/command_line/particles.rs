@@ -491,7 +491,7 @@ fn check_prints_the_plan() {
     let short = succeeds(&["check", &place.scene()]);
     // Lines for a beginner: time, what is written, and how far off it is, as measured and by theory.
     let starts: Vec<&str> = short.lines().map(|line| line.split_whitespace().next().unwrap_or_default()).collect();
-    assert_eq!(starts, ["small", "time", "files", "accuracy", "expected", "-v"], "{short}");
+    assert_eq!(starts, ["small", "time", "files", "memory", "accuracy", "expected", "-v"], "{short}");
     for part in ["steps of 375 particles", "for pictures, within a factor of", " in the memory of an adapter"] {
         assert!(short.contains(part), "`{part}` is not in: {short}");
     }

@@ -9,6 +9,7 @@ mod molecules;
 mod pair_coefficients;
 mod particles;
 mod paths;
+mod portions;
 pub mod ranks;
 mod ranks_bonds;
 mod ranks_of_water;

@@ -88,7 +88,7 @@ pub fn team(scene: &Checked, division: Division, options: Options, state: &State
 
 fn divided(scene: &Checked, parts: [u32; 3], batch: u64, options: Options) -> Bytes {
     let (_, state) = start(scene);
-    let options = Options { particles_in_message: (batch == 1).then_some(100), ..options };
+    let options = Options { particles_at_once: (batch == 1).then_some(100), ..options };
     let mut team = team(scene, Division { parts }, options, &state);
     team.advance(STEPS, batch).unwrap();
     assert!(team.traffic().iter().all(|traffic| traffic.exchanges >= STEPS && traffic.copies > 0));
@@ -326,9 +326,7 @@ fn ranks_know_more_at_the_steps_at_which_distances_are_counted() {
 /// A picture of a sample shows the same particles on any number of ranks, in whatever messages they pass.
 #[test]
 fn any_number_of_ranks_shows_the_same_sample() {
-    for (integrator, parts, particles_in_message) in
-        [(GROOT_WARREN, [1, 1, 2], None), (SPLITTING, [1, 1, 3], Some(100))]
-    {
+    for (integrator, parts, particles_at_once) in [(GROOT_WARREN, [1, 1, 2], None), (SPLITTING, [1, 1, 3], Some(100))] {
         let scene = scene(&[integrator, "space.box=[5,5,16]", MIXTURE, MIXTURE_FORCE]);
         let (_, state) = start(&scene);
         let mut alone = crate::support::engine(&scene, &state, Options::default());
@@ -337,7 +335,7 @@ fn any_number_of_ranks_shows_the_same_sample() {
         let species = |kind: u32| shown.state.species.iter().filter(|species| **species == kind).count();
         // 300 of 1 200, one in three of the second kind, within five standard deviations.
         assert!(shown.state.len().abs_diff(300) < 75 && species(1).abs_diff(100) < 45, "{}", shown.state.len());
-        let options = Options { particles_in_message, ..Options::default() };
+        let options = Options { particles_at_once, ..Options::default() };
         let mut team = team(&scene, Division { parts }, options, &state);
         team.advance(STEPS, 8).unwrap();
         assert!(team.shown(300).unwrap() == shown, "{integrator} in {parts:?}");

@@ -88,7 +88,7 @@ fn cases() -> Vec<(Checked, Vec<[u32; 3]>)> {
 fn divided(scene: &Checked, parts: [u32; 3], batch: u64) -> (Bytes, u32) {
     let (_, state) = start(scene);
     // States pass in several messages.
-    let mut options = Options { particles_in_message: Some(100), ..Options::default() };
+    let mut options = Options { particles_at_once: Some(100), ..Options::default() };
     loop {
         let attempt = || -> Result<Bytes, EngineError> {
             let mut team = team(scene, Division { parts }, options, &state);

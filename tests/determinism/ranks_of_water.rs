@@ -93,7 +93,7 @@ fn any_number_of_ranks_gives_the_bytes_of_one() {
         for (number, count) in counts.into_iter().enumerate() {
             let batch = [7, 1, STEPS][number % 3];
             let options = if number % 2 == 0 { in_eights() } else { Options::default() };
-            let options = Options { particles_in_message: (number != 1).then_some(700), ..options };
+            let options = Options { particles_at_once: (number != 1).then_some(700), ..options };
             assert!(same(&alone, &divided(&scene, count, options, batch)), "{changes:?} on {count} ranks");
         }
     }

@@ -36,7 +36,7 @@ fn answer(text: &str) -> Answer {
         }
     };
     assert!(mesoscope::families::warnings(&scene).iter().all(|warning| !warning.message.is_empty()));
-    let hardware = Hardware { subgroup_size: Some(8), serial_memory: true };
+    let hardware = Hardware { subgroup_size: Some(8), serial_memory: true, ..Hardware::default() };
     for hardware in [Hardware::default(), hardware] {
         let plan = run::plan(&scene, hardware, Options::default());
         assert!(plan.bytes() >= plan.largest_buffer());

@@ -200,8 +200,11 @@ fn complaints(accepted: usize, seed: u64) -> BTreeMap<String, String> {
     let mut complaints = BTreeMap::new();
     while found < accepted {
         let text = random_scene(&mut draws).to_string();
-        let hardware =
-            Hardware { subgroup_size: draws.one_of(&[None, Some(8), Some(32)]), serial_memory: draws.one_in(2) };
+        let hardware = Hardware {
+            subgroup_size: draws.one_of(&[None, Some(8), Some(32)]),
+            serial_memory: draws.one_in(2),
+            ..Hardware::default()
+        };
         let traversal = draws.one_of(&[None, None, Some(Traversal::Rows), Some(Traversal::Clusters)]);
         let options = Options { traversal, listed: draws.one_in(6), ..Options::default() };
         let Ok(scene) = scene::parse("test", &text, &[]) else { continue };

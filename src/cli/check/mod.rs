@@ -92,7 +92,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let one = if division.is_some() { " of one rank" } else { "" };
     let mut rows = vec![
         ("time", format!("{time}{one}, on {adapter}")),
-        ("files", format!("about {}, and {} in the memory of an adapter", bytes(sizes.total()), bytes(plan.bytes()))),
+        ("files", format!("about {}", bytes(sizes.total()))),
+        ("memory", memory(&plan)),
         ("accuracy", predictions::accuracy(&arguments.scene.as_argument(), &scene)),
     ];
     let estimates = scene.model().estimates();
@@ -130,6 +131,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Some(Ok(ExpectedTime { unstable: Some(unstable), .. })) => Err(RunError::UnstableTrial(unstable).into()),
         _ => Ok(()),
     }
+}
+
+/// The memory that a run takes, in words.
+fn memory(plan: &Plan) -> String {
+    let each = match (plan.particles, &plan.part) {
+        (0, _) => String::new(),
+        (_, Some(_)) => ", for a rank".to_owned(),
+        (count, None) => format!(", {:.1} bytes a particle", plan.bytes() as f64 / count as f64),
+    };
+    let [device, host] = [plan.bytes(), plan.host_bytes()].map(bytes);
+    format!("{device} in the memory of an adapter{each}; at least {host} in that of this machine")
 }
 
 /// The trial of the first steps, if there was one.
@@ -184,17 +196,11 @@ fn overview(scene: &Checked, plan: &Plan, trial: Tried<'_>) -> Vec<(&'static str
         }
         _ => scene.system.integrator_name().to_owned(),
     };
-    let memory = match (plan.particles, &plan.part) {
-        (0, _) => bytes(plan.bytes()),
-        (_, Some(_)) => format!("{} of a rank", bytes(plan.bytes())),
-        (count, None) => format!("{}, {:.1} bytes a particle", bytes(plan.bytes()), plan.bytes() as f64 / count as f64),
-    };
     let particles = scene.model().particles_in_words();
     let cells =
         plan.cells[..lengths.len()].iter().map(|count| grouped((*count).into())).collect::<Vec<_>>().join(" × ");
     let dimensions = counted(lengths.len() as u64, "dimension");
-    let mut rows =
-        vec![("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × "))), ("memory", memory)];
+    let mut rows = vec![("particles", format!("{particles} in {dimensions}, box {}", lengths.join(" × ")))];
     rows.extend(basis(trial).map(|basis| ("estimate", basis)));
     let (step, steps) = (scene.time.step, grouped(scene.time.steps));
     rows.push(("integrator", format!("{integrator}, time step {step}, {steps} steps")));

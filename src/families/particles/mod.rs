@@ -34,6 +34,7 @@ use crate::shaders::Sum;
 use crate::state::State;
 use model::topology::chain_groups;
 use reference::Reference;
+use std::ops::Range;
 use std::sync::LazyLock;
 use terms::Term;
 
@@ -290,7 +291,7 @@ impl Physics for Particles {
         warnings::warnings(self, scene)
     }
 
-    fn complete_start(&self, state: &mut State, scene: &Checked, thermal: &[usize]) {
+    fn complete_start(&self, state: &mut State, scene: &Checked, thermal: &[Range<usize>]) {
         start::complete(self, state, scene, thermal);
     }
 

@@ -6,16 +6,19 @@ use super::terms;
 use crate::families::start::bring_to_rest;
 use crate::families::{Checked, Particles};
 use crate::state::{State, WallImpulse};
+use std::mem;
+use std::ops::Range;
 
 /// Gives particles at their places what they start with.
-pub(super) fn complete(particles: &Particles, state: &mut State, scene: &Checked, thermal: &[usize]) {
+pub(super) fn complete(particles: &Particles, state: &mut State, scene: &Checked, thermal: &[Range<usize>]) {
     let model = scene.model();
     for term in terms::acting(scene) {
         term.add_particles(scene, state, model);
     }
     if model.exchanges_momentum() {
-        let masses: Vec<f64> = state.species.iter().map(|species| model.species[*species as usize].mass).collect();
-        bring_to_rest(state, thermal, model.units.dimension, |id| masses[id]);
+        let species = mem::take(&mut state.species);
+        bring_to_rest(state, thermal, model.units.dimension, |id| model.species[species[id] as usize].mass);
+        state.species = species;
     }
     if particles.tethers.is_none() {
         state.tethers = Vec::new();
@@ -25,7 +28,7 @@ pub(super) fn complete(particles: &Particles, state: &mut State, scene: &Checked
     }
     state.walls = vec![WallImpulse::default(); walls::count(model)];
     if let Some(shear) = &particles.shear {
-        for &id in thermal {
+        for id in thermal.iter().cloned().flatten() {
             let flow = shear.flow(state.species[id] as usize, state.positions[id][shear.gradient], model);
             state.momenta[id][0] += flow.round_ties_even() as i32;
         }

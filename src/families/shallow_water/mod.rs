@@ -147,7 +147,7 @@ impl Physics for ShallowWater {
         start::set_in_motion(self, state, group, ids, model);
     }
 
-    fn complete_start(&self, state: &mut State, scene: &Checked, thermal: &[usize]) {
+    fn complete_start(&self, state: &mut State, scene: &Checked, thermal: &[Range<usize>]) {
         start::complete(self, state, scene, thermal);
     }
 

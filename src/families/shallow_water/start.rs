@@ -35,7 +35,7 @@ pub(super) fn set_in_motion(
 }
 
 /// Completes the state, once all particles are there.
-pub(super) fn complete(water: &ShallowWater, state: &mut State, scene: &Checked, thermal: &[usize]) {
+pub(super) fn complete(water: &ShallowWater, state: &mut State, scene: &Checked, thermal: &[Range<usize>]) {
     let model = scene.model();
     match scene.fields_of_start() {
         Some(fields) => carried::carry(water, state, fields, model),
@@ -82,9 +82,12 @@ pub(super) fn set_mean_depth(masses: &mut [u32], water: &ShallowWater) {
 
 /// Maxwell's distribution of velocities for particles of different masses. The mesh takes momentum anyway, so that the
 /// centre of mass need not be at rest.
-fn draw_thermal_velocities(state: &mut State, thermal: &[usize], model: &Model, water: &ShallowWater) {
+fn draw_thermal_velocities(state: &mut State, thermal: &[Range<usize>], model: &Model, water: &ShallowWater) {
     let key = noise::step_key(model.seed, stream::VELOCITY, 0);
-    for &particle in thermal.iter().filter(|&&particle| state.masses[particle] > 0) {
+    for particle in thermal.iter().cloned().flatten() {
+        if state.masses[particle] == 0 {
+            continue;
+        }
         let width = (model.temperature / (f64::from(state.masses[particle]) * water.mass_unit)).sqrt();
         for axis in 0..2 {
             let words = noise::words(Generator::Threefry2x32, key, [particle as u32, axis as u32]);

@@ -86,7 +86,7 @@ impl Physics for Voronoi {
         state.momenta.resize(ids.end, [0; 3]);
     }
 
-    fn complete_start(&self, state: &mut State, scene: &Checked, _: &[usize]) {
+    fn complete_start(&self, state: &mut State, scene: &Checked, _: &[Range<usize>]) {
         start::fill(state, scene, self);
     }
 

@@ -26,7 +26,7 @@ pub(crate) fn fill(state: &mut State, scene: &Checked, cells: &Voronoi) {
         let ids = first..first + group.resolved_count(&scene.space) as usize;
         first = ids.end;
         if matches!(group.velocities, Velocities::Thermal | Velocities::ShearWave { .. }) {
-            moving.extend(ids.clone());
+            moving.push(ids.clone());
         }
         for id in ids.clone() {
             let mass = mass(&state.masses, id);

@@ -99,6 +99,10 @@ impl StateLayout for CoupledLayout {
         Ok(contents)
     }
 
+    fn divides(&self) -> bool {
+        self.list.is_none()
+    }
+
     fn unpack(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
         let mut state = self.particles.unpack(step, contents, count)?;
         // A list of pairs without memory may be rebuilt at any time.

@@ -99,6 +99,10 @@ impl StateLayout for ParticleLayout {
         Ok(contents)
     }
 
+    fn divides(&self) -> bool {
+        true
+    }
+
     fn unpack(&self, step: u64, contents: &[&[u32]], count: usize) -> Result<State, String> {
         let mut state = self.begin(step, contents, count)?;
         let particles = content(contents, 0);

@@ -19,7 +19,7 @@ impl Builder<'_> {
         let Some(part) = self.options.part else { return };
         let particle = ParticleWords { count: WATER as usize / 4, axes: 2, number: 5 };
         let mut planned = part.plan_of_rows(self.water.rows(), particle, self.water.carriers, self.options.list_growth);
-        planned.portion = self.options.particles_in_message.unwrap_or(planned.portion);
+        planned.portion = self.options.particles_at_once.unwrap_or(planned.portion);
         self.slots = planned.slots;
         let everywhere = (self.tracers() > 0).then_some(Array::Tracers);
         self.plan.part = Some(PlannedPart { whole: WHOLE.to_vec(), everywhere, ..planned });

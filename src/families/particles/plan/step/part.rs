@@ -48,7 +48,7 @@ impl Builder<'_> {
         let mut planned = part.plan(&self.model.units, halo, reach, self.particles, self.options.list_growth);
         // No step changes where tethers end.
         planned.whole.extend(self.model.particles().tethers.is_some().then_some(Array::Tethers));
-        planned.portion = self.options.particles_in_message.unwrap_or(planned.portion);
+        planned.portion = self.options.particles_at_once.unwrap_or(planned.portion);
         self.slots = planned.slots;
         // Samples of split steps are taken at their report, and nothing goes on during the exchange there.
         let sampled = if self.splits() { 0.0 } else { halo.sampled };

@@ -1,0 +1,366 @@
+//! Arrays that are larger than a kernel may bind, in portions: every portion is a binding of its own, and each access chooses
+//! among them. What a kernel computes stays the same.
+
+use std::collections::BTreeMap;
+use std::mem;
+
+use naga::front::Typifier;
+use naga::proc::ResolveContext;
+use naga::{
+    ArraySize, AtomicFunction, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, Literal,
+    LocalVariable, MathFunction, Module, Range, ResourceBinding, ScalarKind, Span, Statement, SwitchCase, SwitchValue,
+    Type, TypeInner,
+};
+
+use super::access::plain;
+use super::shader::Binding;
+use crate::shaders::Array;
+
+/// An array in portions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Portions {
+    /// Number of portions, at least two.
+    pub count: u32,
+    /// Bytes of each but the last, which may be shorter.
+    pub bytes: u64,
+}
+
+impl Portions {
+    /// Portions of an array of this size that are as large as a binding may be; none if one is enough.
+    ///
+    /// ```
+    /// use mesoscope::gpu::Portions;
+    ///
+    /// let largest = (1 << 31) - 1;
+    /// assert_eq!(Portions::new(largest, largest), None);
+    /// // Five hundred million particles of 32 bytes.
+    /// assert_eq!(Portions::new(16_000_000_000, largest).map(|portions| portions.count), Some(8));
+    /// ```
+    #[must_use]
+    pub fn new(array: u64, binding: u64) -> Option<Self> {
+        // Divisible by every size of an element, and by what copies between buffers have to begin at.
+        const UNIT: u64 = 256 * 3 * 3 * 5 * 7;
+        let bytes = (binding - binding % UNIT).max(UNIT);
+        let count = u32::try_from(array.div_ceil(bytes)).ok()?;
+        (array > binding).then_some(Self { count, bytes })
+    }
+}
+
+/// An array that cannot be divided, as a kernel uses it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Undivided(pub Array);
+
+/// Elements in a portion, if kernels number the elements of an array of this type and size, and portions hold whole elements.
+fn elements_in_portion(module: &Module, variable: Handle<GlobalVariable>, portions: Portions) -> Option<u32> {
+    let TypeInner::Array { size: ArraySize::Dynamic, stride, .. } =
+        module.types[module.global_variables[variable].ty].inner
+    else {
+        return None;
+    };
+    let elements = portions.bytes / u64::from(stride);
+    let all = elements * u64::from(portions.count);
+    let whole = portions.bytes.is_multiple_of(stride.into());
+    if whole && all <= 1 << 32 { u32::try_from(elements).ok() } else { None }
+}
+
+/// Divides arrays of a module, whose bindings are those given; adds the bindings of further portions to them.
+///
+/// # Errors
+/// [`Undivided`] if an array has no elements of one type, more than can be numbered, or is used otherwise than by single elements.
+pub(super) fn divide(
+    module: &mut Module,
+    bindings: &mut Vec<Binding>,
+    portions_of: impl Fn(Array) -> Option<Portions>,
+) -> Result<(), Undivided> {
+    let numbers = module.global_variables.iter().filter_map(|(_, variable)| Some(variable.binding?.binding));
+    let mut next = numbers.max().unwrap_or(0) + 1;
+    let mut divided = BTreeMap::new();
+    for binding in bindings.clone() {
+        let Some(portions) = portions_of(binding.array).filter(|_| !binding.texture) else { continue };
+        let is_bound =
+            |variable: &GlobalVariable| variable.binding.is_some_and(|bound| bound.binding == binding.number);
+        let undivided = Undivided(binding.array);
+        let found = module.global_variables.iter().find(|(_, variable)| is_bound(variable));
+        let (first, variable) = found.map(|(handle, variable)| (handle, variable.clone())).ok_or(undivided)?;
+        let each = elements_in_portion(module, first, portions).ok_or(undivided)?;
+        let TypeInner::Array { base, .. } = module.types[variable.ty].inner else { return Err(undivided) };
+        let element = plain(module, base).ok_or(undivided)?;
+        let mut variables = vec![first];
+        for portion in 1..portions.count {
+            let bound = variable.binding.map(|bound| ResourceBinding { binding: next, ..bound });
+            let name = format!("{}_portion_{portion}", binding.array.name());
+            let further = GlobalVariable { name: Some(name), binding: bound, ..variable.clone() };
+            variables.push(module.global_variables.append(further, Span::UNDEFINED));
+            bindings.push(Binding { number: next, portion, ..binding.clone() });
+            next += 1;
+        }
+        divided.insert(first, Divided { array: binding.array, variables, each, element });
+    }
+    if divided.is_empty() {
+        return Ok(());
+    }
+    for handle in module.functions.iter().map(|(handle, _)| handle).collect::<Vec<_>>() {
+        module.functions[handle] = rewritten(module, &module.functions[handle], &divided)?;
+    }
+    for entry in 0..module.entry_points.len() {
+        module.entry_points[entry].function = rewritten(module, &module.entry_points[entry].function, &divided)?;
+    }
+    Ok(())
+}
+
+/// An array that is divided.
+struct Divided {
+    array: Array,
+    /// A variable for each portion.
+    variables: Vec<Handle<GlobalVariable>>,
+    /// Elements of a portion.
+    each: u32,
+    /// The type of an element when it is loaded.
+    element: Handle<Type>,
+}
+
+/// Where an element is.
+#[derive(Clone, Copy)]
+enum Index {
+    Constant(u32),
+    Unsigned(Handle<Expression>),
+    Signed(Handle<Expression>),
+}
+
+/// An element that a function accesses.
+struct Element<'a> {
+    array: &'a Divided,
+    index: Index,
+}
+
+/// A function that accesses single elements of arrays, where these are divided.
+fn rewritten(
+    module: &Module,
+    function: &Function,
+    divided: &BTreeMap<Handle<GlobalVariable>, Divided>,
+) -> Result<Function, Undivided> {
+    let array_of = |expression: Handle<Expression>| match function.expressions[expression] {
+        Expression::GlobalVariable(variable) => divided.get(&variable),
+        _ => None,
+    };
+    let mut elements = BTreeMap::new();
+    for (handle, expression) in function.expressions.iter() {
+        let (Expression::AccessIndex { base, .. } | Expression::Access { base, .. } | Expression::ArrayLength(base)) =
+            *expression
+        else {
+            continue;
+        };
+        let Some(array) = array_of(base) else { continue };
+        let index = match *expression {
+            Expression::AccessIndex { index, .. } => Some(Index::Constant(index)),
+            Expression::Access { index, .. } => kind_of(module, function, index).and_then(|kind| match kind {
+                ScalarKind::Uint => Some(Index::Unsigned(index)),
+                ScalarKind::Sint => Some(Index::Signed(index)),
+                _ => None,
+            }),
+            _ => None,
+        };
+        elements.insert(handle, Element { array, index: index.ok_or(Undivided(array.array))? });
+    }
+    // An element that is accessed becomes a variable of the function: what is loaded of it is first copied there from its portion.
+    let mut function = function.clone();
+    for (handle, element) in &elements {
+        let variable = LocalVariable { name: None, ty: element.array.element, init: None };
+        let variable = function.local_variables.append(variable, Span::UNDEFINED);
+        function.expressions[*handle] = Expression::LocalVariable(variable);
+    }
+    let body = mem::take(&mut function.body);
+    function.body = Rewriting { function: &mut function, elements: &elements }.block(body)?;
+    Ok(function)
+}
+
+fn kind_of(module: &Module, function: &Function, index: Handle<Expression>) -> Option<ScalarKind> {
+    let context = ResolveContext::with_locals(module, &function.local_variables, &function.arguments);
+    let mut types = Typifier::new();
+    types.grow(index, &function.expressions, &context).ok()?;
+    types.get(index, &module.types).scalar_kind()
+}
+
+/// The way from an array in portions to a part of an element.
+struct Way<'a> {
+    element: &'a Element<'a>,
+    /// From the element to its part, the last first.
+    steps: Vec<Step>,
+}
+
+enum Step {
+    Access(Handle<Expression>),
+    AccessIndex(u32),
+}
+
+/// A function whose accesses to arrays in portions are rewritten.
+struct Rewriting<'a> {
+    function: &'a mut Function,
+    elements: &'a BTreeMap<Handle<Expression>, Element<'a>>,
+}
+
+impl<'a> Rewriting<'a> {
+    fn block(&mut self, block: Block) -> Result<Block, Undivided> {
+        let mut written = Block::with_capacity(block.len());
+        for (statement, span) in block.span_into_iter() {
+            match statement {
+                Statement::Emit(range) => self.emit(range, &mut written),
+                Statement::Store { pointer, value } if let Some(way) = self.way(pointer) => {
+                    self.in_portion(&way, &mut written, |_, pointer, block| {
+                        block.push(Statement::Store { pointer, value }, span);
+                    });
+                }
+                Statement::Atomic { pointer, fun, value, result } if let Some(way) = self.way(pointer) => {
+                    if matches!(fun, AtomicFunction::Exchange { compare: Some(_) }) {
+                        return Err(Undivided(way.element.array.array));
+                    }
+                    let kept = result.map(|result| self.function.expressions[result].clone());
+                    self.in_portion(&way, &mut written, |this, there, block| {
+                        let result = kept.clone().map(|result| this.add(result));
+                        block.push(Statement::Atomic { pointer: there, fun, value, result }, span);
+                        if let Some(value) = result {
+                            block.push(Statement::Store { pointer, value }, span);
+                        }
+                    });
+                    if let Some(result) = result {
+                        self.function.expressions[result] = Expression::Load { pointer };
+                        written.push(Statement::Emit(Range::new_from_bounds(result, result)), span);
+                    }
+                }
+                Statement::Call { ref arguments, .. }
+                    if let Some(way) = arguments.iter().find_map(|value| self.way(*value)) =>
+                {
+                    return Err(Undivided(way.element.array.array));
+                }
+                Statement::Block(block) => written.push(Statement::Block(self.block(block)?), span),
+                Statement::If { condition, accept, reject } => {
+                    let (accept, reject) = (self.block(accept)?, self.block(reject)?);
+                    written.push(Statement::If { condition, accept, reject }, span);
+                }
+                Statement::Switch { selector, mut cases } => {
+                    for case in &mut cases {
+                        case.body = self.block(mem::take(&mut case.body))?;
+                    }
+                    written.push(Statement::Switch { selector, cases }, span);
+                }
+                Statement::Loop { body, continuing, break_if } => {
+                    let (body, continuing) = (self.block(body)?, self.block(continuing)?);
+                    written.push(Statement::Loop { body, continuing, break_if }, span);
+                }
+                other => written.push(other, span),
+            }
+        }
+        Ok(written)
+    }
+
+    /// Evaluates expressions in their order; before a load from an array in portions it is copied to where it is loaded from.
+    fn emit(&mut self, range: Range<Expression>, block: &mut Block) {
+        let mut begun: Option<(Handle<Expression>, Handle<Expression>)> = None;
+        let evaluate = |begun: Option<(_, _)>, block: &mut Block| {
+            if let Some((first, last)) = begun {
+                block.push(Statement::Emit(Range::new_from_bounds(first, last)), Span::UNDEFINED);
+            }
+        };
+        for expression in range {
+            if self.elements.contains_key(&expression) {
+                evaluate(begun.take(), block);
+                continue;
+            }
+            if let Expression::Load { pointer } = self.function.expressions[expression]
+                && let Some(way) = self.way(pointer)
+            {
+                evaluate(begun.take(), block);
+                self.in_portion(&way, block, |this, there, block| {
+                    let value = this.add(Expression::Load { pointer: there });
+                    block.push(Statement::Emit(Range::new_from_bounds(value, value)), Span::UNDEFINED);
+                    block.push(Statement::Store { pointer, value }, Span::UNDEFINED);
+                });
+            }
+            begun = Some((begun.map_or(expression, |(first, _)| first), expression));
+        }
+        evaluate(begun, block);
+    }
+
+    /// The way to what a pointer points to, if that is an element of an array in portions or a part of one.
+    fn way(&self, pointer: Handle<Expression>) -> Option<Way<'a>> {
+        let (mut here, mut steps) = (pointer, Vec::new());
+        loop {
+            if let Some(element) = self.elements.get(&here) {
+                return Some(Way { element, steps });
+            }
+            let (base, step) = match self.function.expressions[here] {
+                Expression::Access { base, index } => (base, Step::Access(index)),
+                Expression::AccessIndex { base, index } => (base, Step::AccessIndex(index)),
+                _ => return None,
+            };
+            steps.push(step);
+            here = base;
+        }
+    }
+
+    fn add(&mut self, expression: Expression) -> Handle<Expression> {
+        self.function.expressions.append(expression, Span::UNDEFINED)
+    }
+
+    /// Acts on the place in a portion to which a way leads.
+    fn in_portion(
+        &mut self,
+        way: &Way<'_>,
+        block: &mut Block,
+        act: impl Fn(&mut Self, Handle<Expression>, &mut Block),
+    ) {
+        let Divided { variables, each, .. } = way.element.array;
+        let last = variables.len() - 1;
+        let index = match way.element.index {
+            Index::Constant(index) => {
+                let portion = (index / each).min(last as u32);
+                let within = self.add(Expression::Literal(Literal::U32(index - portion * each)));
+                let place = self.place(variables[portion as usize], within, &way.steps, block);
+                return act(self, place, block);
+            }
+            Index::Unsigned(index) => index,
+            Index::Signed(expr) => {
+                let index = self.add(Expression::As { expr, kind: ScalarKind::Uint, convert: None });
+                block.push(Statement::Emit(Range::new_from_bounds(index, index)), Span::UNDEFINED);
+                index
+            }
+        };
+        let [each, highest] = [*each, last as u32].map(|number| self.add(Expression::Literal(Literal::U32(number))));
+        let binary = |op, left, right| Expression::Binary { op, left, right };
+        let quotient = self.add(binary(BinaryOperator::Divide, index, each));
+        let (fun, arg1) = (MathFunction::Min, Some(highest));
+        let portion = self.add(Expression::Math { fun, arg: quotient, arg1, arg2: None, arg3: None });
+        let before = self.add(binary(BinaryOperator::Multiply, portion, each));
+        let within = self.add(binary(BinaryOperator::Subtract, index, before));
+        block.push(Statement::Emit(Range::new_from_bounds(quotient, within)), Span::UNDEFINED);
+        let mut cases = Vec::with_capacity(variables.len());
+        for (number, variable) in variables.iter().enumerate() {
+            let mut body = Block::new();
+            let place = self.place(*variable, within, &way.steps, &mut body);
+            act(self, place, &mut body);
+            let value = if number == last { SwitchValue::Default } else { SwitchValue::U32(number as u32) };
+            cases.push(SwitchCase { value, body, fall_through: false });
+        }
+        block.push(Statement::Switch { selector: portion, cases }, Span::UNDEFINED);
+    }
+
+    /// A pointer to an element of a portion, or to the part of it to which steps lead.
+    fn place(
+        &mut self,
+        variable: Handle<GlobalVariable>,
+        within: Handle<Expression>,
+        steps: &[Step],
+        block: &mut Block,
+    ) -> Handle<Expression> {
+        let base = self.add(Expression::GlobalVariable(variable));
+        let first = self.add(Expression::Access { base, index: within });
+        let place = steps.iter().rev().fold(first, |base, step| {
+            self.add(match *step {
+                Step::Access(index) => Expression::Access { base, index },
+                Step::AccessIndex(index) => Expression::AccessIndex { base, index },
+            })
+        });
+        block.push(Statement::Emit(Range::new_from_bounds(first, place)), Span::UNDEFINED);
+        place
+    }
+}
