@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::device::Gpu;
 use super::error::GpuError;
 use super::kept::Kept;
-use super::portions::{Portions, Undivided};
+use super::portions::Portions;
 use super::shader::{Binding, LinkedShader, link_once};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use mesoscope_shader_modules::module_without_loop_counters;
@@ -77,9 +77,9 @@ impl Gpu {
         let arrays = linked.bindings.iter().map(|binding| binding.array);
         let portions = arrays.filter_map(|array| Some((array, portions_of(array)?))).collect();
         self.compiled.pipelines.get_or_make((text, bits, portions), || {
-            let divided = linked.specialized(&constants).divided(&portions_of).map_err(|Undivided(array)| {
+            let divided = linked.specialized(&constants).divided(&portions_of).map_err(|undivided| {
                 let doing = format!("making kernel `{name}`");
-                GpuError::Refused { doing, reason: format!("it needs the whole of `{}` at once", array.name()) }
+                GpuError::Refused { doing, reason: undivided.to_string() }
             })?;
             let LinkedShader { mut module, bindings, constants: used, loaded, counts_loops, .. } = divided;
             let constants: Vec<(&str, f64)> = (constants.iter())

@@ -46,21 +46,35 @@ impl Portions {
     }
 }
 
-/// An array that cannot be divided, as a kernel uses it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Undivided(pub Array);
+/// An array that cannot be divided: a kernel uses it otherwise than by its elements, or it has more than can be numbered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("a kernel needs the whole of `{}` at once", .array.name())]
+pub struct Undivided {
+    /// The array.
+    pub array: Array,
+    /// Bytes of it that could be divided: none, or as many as elements can be numbered.
+    pub most: u64,
+}
 
-/// Elements in a portion, if kernels number the elements of an array of this type and size, and portions hold whole elements.
-fn elements_in_portion(module: &Module, variable: Handle<GlobalVariable>, portions: Portions) -> Option<u32> {
-    let TypeInner::Array { size: ArraySize::Dynamic, stride, .. } =
-        module.types[module.global_variables[variable].ty].inner
-    else {
-        return None;
+impl Undivided {
+    const fn whole(array: Array) -> Self {
+        Self { array, most: 0 }
+    }
+}
+
+/// Elements in a portion of an array, if it is one of elements of which portions hold whole ones.
+fn elements_in_portion(module: &Module, ty: Handle<Type>, array: Array, portions: Portions) -> Result<u32, Undivided> {
+    let TypeInner::Array { size: ArraySize::Dynamic, stride, .. } = module.types[ty].inner else {
+        return Err(Undivided::whole(array));
     };
     let elements = portions.bytes / u64::from(stride);
-    let all = elements * u64::from(portions.count);
-    let whole = portions.bytes.is_multiple_of(stride.into());
-    if whole && all <= 1 << 32 { u32::try_from(elements).ok() } else { None }
+    if !portions.bytes.is_multiple_of(stride.into()) {
+        return Err(Undivided::whole(array));
+    }
+    // They are numbered by 32-bit words.
+    let too_many = Undivided { array, most: u64::from(stride) << 32 };
+    let numbered = elements * u64::from(portions.count) <= 1 << 32;
+    u32::try_from(elements).ok().filter(|_| numbered).ok_or(too_many)
 }
 
 /// Divides arrays of a module, whose bindings are those given; adds the bindings of further portions to them.
@@ -79,10 +93,10 @@ pub(super) fn divide(
         let Some(portions) = portions_of(binding.array).filter(|_| !binding.texture) else { continue };
         let is_bound =
             |variable: &GlobalVariable| variable.binding.is_some_and(|bound| bound.binding == binding.number);
-        let undivided = Undivided(binding.array);
+        let undivided = Undivided::whole(binding.array);
         let found = module.global_variables.iter().find(|(_, variable)| is_bound(variable));
         let (first, variable) = found.map(|(handle, variable)| (handle, variable.clone())).ok_or(undivided)?;
-        let each = elements_in_portion(module, first, portions).ok_or(undivided)?;
+        let each = elements_in_portion(module, variable.ty, binding.array, portions)?;
         let TypeInner::Array { base, .. } = module.types[variable.ty].inner else { return Err(undivided) };
         let element = plain(module, base).ok_or(undivided)?;
         let mut variables = vec![first];
@@ -160,7 +174,7 @@ fn rewritten(
             }),
             _ => None,
         };
-        elements.insert(handle, Element { array, index: index.ok_or(Undivided(array.array))? });
+        elements.insert(handle, Element { array, index: index.ok_or(Undivided::whole(array.array))? });
     }
     // An element that is accessed becomes a variable of the function: what is loaded of it is first copied there from its portion.
     let mut function = function.clone();
@@ -212,7 +226,7 @@ impl<'a> Rewriting<'a> {
                 }
                 Statement::Atomic { pointer, fun, value, result } if let Some(way) = self.way(pointer) => {
                     if matches!(fun, AtomicFunction::Exchange { compare: Some(_) }) {
-                        return Err(Undivided(way.element.array.array));
+                        return Err(Undivided::whole(way.element.array.array));
                     }
                     let kept = result.map(|result| self.function.expressions[result].clone());
                     self.in_portion(&way, &mut written, |this, there, block| {
@@ -230,7 +244,7 @@ impl<'a> Rewriting<'a> {
                 Statement::Call { ref arguments, .. }
                     if let Some(way) = arguments.iter().find_map(|value| self.way(*value)) =>
                 {
-                    return Err(Undivided(way.element.array.array));
+                    return Err(Undivided::whole(way.element.array.array));
                 }
                 Statement::Block(block) => written.push(Statement::Block(self.block(block)?), span),
                 Statement::If { condition, accept, reject } => {

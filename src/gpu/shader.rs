@@ -81,11 +81,23 @@ impl LinkedShader {
         Self { module, bindings, constants, switches: Vec::new(), loaded, counts_loops: self.counts_loops, layout }
     }
 
-    /// The same with arrays in portions.
+    /// The same with arrays in portions, each of which it binds.
+    ///
+    /// ```
+    /// use mesoscope::gpu::{Portions, link};
+    /// use mesoscope::shaders::{Array, Choices, Entry, water, mesh};
+    ///
+    /// let choices = Choices::new().with(mesh::Spline::Linear).with(water::Particles::InPlace);
+    /// let whole = link("bin", Entry::BinWater, &choices)?;
+    /// let three = |array| (array == Array::Particles).then(|| Portions::new(3 << 20, 1 << 20)).flatten();
+    /// let divided = whole.clone().divided(three)?;
+    /// assert!(divided.bindings.len() > whole.bindings.len());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
     /// [`Undivided`] if the kernel uses one of them otherwise than by its elements.
-    pub(crate) fn divided(mut self, portions_of: impl Fn(Array) -> Option<Portions>) -> Result<Self, Undivided> {
+    pub fn divided(mut self, portions_of: impl Fn(Array) -> Option<Portions>) -> Result<Self, Undivided> {
         divide(&mut self.module, &mut self.bindings, portions_of)?;
         Ok(self)
     }

@@ -115,6 +115,8 @@ pub struct Plan {
     pub buffers: Vec<Buffer>,
     /// Arrays that are larger than kernels may bind, which lie in several buffers.
     pub portions: BTreeMap<Array, Portions>,
+    /// Arrays that are larger than kernels may bind and cannot lie in several buffers, with the bytes of them that could.
+    pub undivided: BTreeMap<Array, u64>,
     /// All textures: arrays that are loaded lane by lane where that is expensive.
     pub textures: Vec<Texture>,
     /// Kernels that run once after an upload. Where steps end with the beginning of the next one, they also begin the first step.
@@ -146,7 +148,7 @@ pub struct Plan {
     pub operations_per_particle: f64,
     /// Where the constants of kernels are.
     pub constants_in: ConstantsIn,
-    /// Particles of a state that pass to the device or back at once; a sixteenth, or a million if that is more, if `None`.
+    /// Particles of a state that pass to the device or back at once; a sixteenth, or 65 536 if that is more, if `None`.
     pub particles_at_once: Option<u64>,
     /// What it has of a run that several ranks share, if it is the plan of one of them.
     pub part: Option<PlannedPart>,
@@ -171,6 +173,7 @@ impl Plan {
             constants: Vec::new(),
             buffers: Vec::new(),
             portions: BTreeMap::new(),
+            undivided: BTreeMap::new(),
             textures: Vec::new(),
             prepare: Vec::new(),
             sort: Vec::new(),
@@ -223,8 +226,12 @@ impl Plan {
                         self.storage_buffers = self.storage_buffers.max(divided.storage_buffers() as u32);
                         break;
                     }
-                    Err(Undivided(variable)) => self.portions.remove(&kernel.array_of(variable)),
-                };
+                    Err(Undivided { array, most }) => {
+                        let array = kernel.array_of(array);
+                        self.portions.remove(&array);
+                        self.undivided.insert(array, most);
+                    }
+                }
             }
         }
     }
@@ -315,7 +322,7 @@ impl Plan {
         let in_buffer = layout.buffers().first().is_some_and(|array| self.has_buffer(*array));
         match self.particles_at_once {
             _ if !layout.divides() || !in_buffer => all,
-            at_once => at_once.unwrap_or(all.div_ceil(16).max(1 << 20)).clamp(1, all),
+            at_once => at_once.unwrap_or(all.div_ceil(16).max(1 << 16)).clamp(1, all),
         }
     }
 

@@ -60,7 +60,7 @@ pub struct Options {
     pub pairs_in_dispatch: Option<u64>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
     pub many_level_scan: bool,
-    /// Particles of a state that pass to a device and back, or from rank to rank, at once; about a million if `None`.
+    /// Particles of a state that pass to a device and back, or from rank to rank, at once; chosen from their number if `None`.
     pub particles_at_once: Option<u64>,
     /// Where the constants of kernels are.
     pub constants_in: ConstantsIn,

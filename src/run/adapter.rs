@@ -37,13 +37,15 @@ fn too_large(scene: &Checked, plan: &Plan, source: GpuError) -> RunError {
         STORAGE_BUFFERS => buffer.bytes,
         _ => plan.bytes_at_once(buffer),
     });
+    let most = largest.and_then(|largest| plan.undivided.get(&largest.array)).copied().unwrap_or(0);
+    let (allowed, needed) = (allowed.max(most).max(1), needed.max(1));
     match largest {
         // The buffers of a kernel are too many because its arrays are, or the portions of these.
         Some(largest) if quantity != STORAGE_BUFFERS || !plan.portions.is_empty() => RunError::TooLarge {
             buffer: largest.array,
-            fits: (plan.particles as f64 * (allowed as f64 / needed.max(1) as f64)) as u64,
+            fits: (plan.particles as f64 * (allowed as f64 / needed as f64)) as u64,
             copies: scene.state.as_ref().map_or(1, |state| number_of_copies(state.copies())),
-            ranks: hindrances(scene).is_empty().then(|| needed.div_ceil(allowed.max(1))),
+            ranks: hindrances(scene).is_empty().then(|| needed.div_ceil(allowed)),
             source,
         },
         _ => source.into(),

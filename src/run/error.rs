@@ -3,7 +3,7 @@
 use crate::engine::EngineError;
 use crate::families::Instability;
 use crate::gpu::GpuError;
-use crate::numbers::{bytes, counted};
+use crate::numbers::{bytes, grouped};
 use crate::output::OutputError;
 use crate::output::checkpoint::CheckpointError;
 use crate::plot::PlotError;
@@ -124,7 +124,7 @@ pub enum RunError {
     /// The memory of this machine is too small for the particles on their way to the adapter and back.
     #[error(
         "{} take {} of the memory of this machine{}, and {} are free: fewer particles, or a machine with more memory",
-        counted(*.particles, "particle"),
+        grouped_particles(*.particles),
         bytes(*.needed),
         if *.is_software { ", in which a software adapter computes," } else { "" },
         bytes(*.free)
@@ -177,9 +177,13 @@ pub enum RunError {
     },
 }
 
+fn grouped_particles(count: u64) -> String {
+    format!("{} {}", grouped(count), if count == 1 { "particle" } else { "particles" })
+}
+
 fn what_fits(particles: u64, copies: u64, ranks: Option<u64>) -> String {
     let fewer = match copies {
-        1 => format!("about {} fit", counted(particles, "particle")),
+        1 => format!("about {} fit", grouped_particles(particles)),
         copies => format!("fewer than the {copies} copies of `state.replicate` fit"),
     };
     let shared =

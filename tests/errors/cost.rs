@@ -5,6 +5,10 @@ use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use mesoscope::engine::Engine;
+use mesoscope::gpu::{AdapterChoice, Gpu, Requirements};
+use mesoscope::plan::{Hardware, Options};
+use mesoscope::{families, run, scene};
 use peak_alloc::PeakAlloc;
 
 #[global_allocator]
@@ -20,6 +24,32 @@ pub const PATIENCE: Duration = Duration::from_secs(20);
 pub struct Cost {
     pub time: Duration,
     pub memory: usize,
+}
+
+/// Particles pass to the adapter and back in stretches: a state takes hardly more memory than itself, as `check` says.
+#[test]
+fn a_state_takes_as_much_memory_as_expected() {
+    let peak = |edge: u32| {
+        let set = [format!("space.box=[{edge},50,40]"), r#"output={"energies":{"every":2}}"#.to_owned()];
+        let scene = scene::load("dpd-fluid", &set).unwrap();
+        let plan = run::plan(&scene, Hardware::default(), Options::default());
+        let requirements =
+            Requirements { portable: true, largest_buffer: plan.largest_buffer(), ..Requirements::default() };
+        let gpu = Gpu::open(&AdapterChoice::Best, requirements).unwrap();
+        let expected = plan.host_bytes();
+        let (state, cost) = measured(|| {
+            let start = families::initial_state(&scene);
+            let mut engine = Engine::new(&gpu, plan, &start).unwrap();
+            drop(start);
+            engine.advance(1, 1).unwrap();
+            engine.state().unwrap()
+        });
+        assert_eq!(state.unwrap().len() as u64, scene.model().particle_count());
+        [cost.memory as f64, expected as f64]
+    };
+    let [small, large] = [30, 90].map(peak);
+    let [found, expected] = [large[0] - small[0], large[1] - small[1]];
+    assert!(found > expected / 2.0 && found < 1.15 * expected, "{found} bytes more, where {expected} are expected");
 }
 
 /// Does some work, and says what it gave, or how it panicked, and what it cost.

@@ -50,6 +50,7 @@ impl Compiled {
     fn new(kernel: &Kernel, plan: &Plan) -> Self {
         let constants: Vec<_> = kernel.constants_in(plan).collect();
         let linked = link(kernel.name, kernel.entry, &kernel.choices).unwrap().specialized(&constants);
+        let linked = linked.divided(|variable| plan.portions.get(&kernel.array_of(variable)).copied()).unwrap();
         let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&linked.module).unwrap();
         let used = constants.into_iter().filter(|(constant, _)| linked.constants.contains(constant));
         let constants = used.map(|(constant, value)| (constant.name().to_owned(), value)).collect();
@@ -81,13 +82,35 @@ impl Compiled {
     }
 }
 
-/// The shipped scenes as a graphics card runs them.
-fn plans() -> Vec<(&'static str, Plan)> {
-    let plan = |name| {
-        let scene = scene::load(name, &[]).unwrap();
-        mesoscope::run::plan(&scene, Hardware::default(), Options::default())
+/// The most that wgpu lets a kernel bind of one array, on cards of every maker.
+const LARGEST_BINDING: u64 = (1 << 31) - 4;
+
+/// The shipped scenes as a graphics card runs them, and the standard fluid with as many particles as a large card has memory for.
+fn plans() -> Vec<(String, Plan)> {
+    let plan = |name: &str, edge: Option<u32>| {
+        let set = edge.map(|edge| format!("space.box=[{edge},{edge},{edge}]"));
+        let scene = scene::load(name, set.as_slice()).unwrap();
+        let hardware = Hardware { largest_binding: Some(LARGEST_BINDING), ..Hardware::default() };
+        mesoscope::run::plan(&scene, hardware, Options::default())
     };
-    scene::builtin().iter().map(|scene| (scene.name, plan(scene.name))).collect()
+    let large = [551, 694].map(|edge| {
+        let plan = plan("dpd-fluid", Some(edge));
+        (format!("dpd-fluid, {} million particles", plan.particles / 1_000_000), plan)
+    });
+    scene::builtin().iter().map(|scene| (scene.name.to_owned(), plan(scene.name, None))).chain(large).collect()
+}
+
+/// A thousand million particles need some seventy bytes each and several bindings an array, which every graphics card has.
+#[test]
+fn a_thousand_million_particles_are_planned() {
+    let plans = plans();
+    for (name, plan) in plans.iter().rev().take(2) {
+        assert!(plan.particles > 500_000_000, "{name}");
+        assert!(plan.largest_buffer() <= LARGEST_BINDING, "{name} binds {} bytes at once", plan.largest_buffer());
+        // An 80 GiB card holds them.
+        assert!(plan.bytes() < 80 << 30, "{name} takes {} bytes", plan.bytes());
+        assert!(plan.storage_buffers < 64, "{name} binds {} buffers", plan.storage_buffers);
+    }
 }
 
 /// The manifest of Mesa's driver of AMD cards, where it is installed.
@@ -138,7 +161,7 @@ fn run<'a>(driver: &Path, files: impl Iterator<Item = &'a PathBuf>) -> Result<St
 
 /// A shipped scene: its plan and, of each kernel, the place among all that are compiled.
 struct Row {
-    scene: &'static str,
+    scene: String,
     plan: Plan,
     places: Vec<usize>,
 }

@@ -67,7 +67,7 @@ impl StateLayout for ParticleLayout {
         if self.predicted && state.step > 0 && state.predicted.len() != state.len() {
             return Err("predicted momenta are".into());
         }
-        let mut words: Vec<u32> = Vec::with_capacity(WORDS * state.len());
+        let mut words: Vec<u32> = Vec::with_capacity(WORDS * order.len());
         for &id in order {
             words.extend(state.positions[id]);
             words.push(id as u32);
