@@ -17,7 +17,7 @@ $(shell mkdir -p -m 700 "$(XDG_RUNTIME_DIR)")
 endif
 
 .DEFAULT_GOAL := help
-.PHONY: help run test test-python validate test-mpi bench book adapter cargo
+.PHONY: help run test test-python validate test-mpi bench gpu-report book adapter cargo
 
 help: ## this list
 	@echo 'make TARGET [SCENE=dpd-fluid] [OUT=directory] [ARGUMENTS="--set time.step=0.02"]'
@@ -65,6 +65,9 @@ test-mpi: cargo adapter ## the tests of ranks that are processes, with an MPI li
 
 bench: cargo adapter ## cost per particle-step and per stage
 	cargo bench --locked
+
+gpu-report: cargo ## a report on this machine's graphics card in gpu-report.md, to paste; some twenty minutes
+	cargo bench --locked --bench gpu_report -- --out $(CURDIR)/gpu-report.md $(ARGUMENTS)
 
 book: ## the documentation as a book in target/book, with mdBook
 	sh .ci/book.sh

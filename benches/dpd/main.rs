@@ -13,9 +13,6 @@ mod fluid;
 mod lammps;
 mod melt;
 
-use std::process::{Command, Stdio};
-use std::time::Instant;
-
 use clap::Parser;
 use mesoscope::gpu::Gpu;
 use mesoscope::plan::{Hardware, Options};
@@ -82,7 +79,7 @@ fn main() -> Result<(), Failure> {
         melt::compare(&gpu, fluid, peer.is_ok(), turns)?;
         alternatives::compare(&gpu, fluid, &INTEGRATORS, turns)?;
     }
-    start_up(&gpu)?;
+    println!("\n### Start-up\n\n{}", common::start_up::in_words(&gpu)?);
     report.end();
     Ok(())
 }
@@ -236,35 +233,5 @@ fn by_batch(gpu: &Gpu, fluids: &[Fluid], turns: Turns) -> Result<(), Failure> {
     for (rates, batch) in rates.iter().zip(BATCHES) {
         println!("| {batch} | {} |", spread(rates, 2));
     }
-    Ok(())
-}
-
-/// The whole process of a small run: pipelines, 100 steps, tables and pictures.
-fn start_up(gpu: &Gpu) -> Result<(), Failure> {
-    let directory = tempfile::tempdir()?;
-    let mut times = Vec::new();
-    for _ in 0..6 {
-        let begun = Instant::now();
-        let status = Command::new(env!("CARGO_BIN_EXE_mesoscope"))
-            .args(["run", "dpd-fluid", "--set", "space.box=[5,5,5]", "--set", "output.radial_distribution=null"])
-            .args(["--steps", "100", "--set", "time.equilibration=0", "--quiet", "--force"])
-            .args(["--adapter", &gpu.description().name])
-            .arg("--out")
-            .arg(directory.path().join("run"))
-            .stdout(Stdio::null())
-            .status()?;
-        if !status.success() {
-            return Err(format!("`mesoscope run` failed: {status}").into());
-        }
-        times.push(begun.elapsed().as_secs_f64());
-    }
-    // The first one filled the caches of the driver.
-    let warm = &times[1..];
-    println!("\n### Start-up\n");
-    println!(
-        "A run of 375 particles and 100 steps, with its table and both pictures, whole process: {} s warm ({:.2} s at first).",
-        spread(warm, 2),
-        times[0]
-    );
     Ok(())
 }

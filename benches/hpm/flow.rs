@@ -67,7 +67,7 @@ impl FromStr for Size {
 }
 
 /// The scene on a mesh of a size, with the smoothing and the time step that belong to its spacing, and more changes.
-fn scene(size: Size, energies_every: u64, changes: &[&str]) -> Result<Checked, Failure> {
+pub fn scene(size: Size, energies_every: u64, changes: &[&str]) -> Result<Checked, Failure> {
     let mesh = size.mesh;
     let base = scene::load("shallow-water", &[])?;
     let length = SMOOTHING * base.space.lengths[0] / f64::from(mesh);

@@ -242,7 +242,7 @@ fn deviation(start: &State, found: &State, expected: &State) -> (f64, Quantity) 
 ///
 /// # Errors
 /// Why there are no such steps, in words.
-pub(crate) fn distances_from_reference(gpu: &Gpu, scene: &Checked, steps: u64) -> Result<[f64; 2], String> {
+pub fn distances_from_reference(gpu: &Gpu, scene: &Checked, steps: u64) -> Result<[f64; 2], String> {
     let start = families::initial_state(scene);
     let words = |error: EngineError| error.to_string();
     let plan = plan(scene, Hardware::from(gpu), Options::default());

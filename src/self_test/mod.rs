@@ -10,7 +10,7 @@ mod speed;
 
 use crate::gpu::{Gpu, GpuError};
 
-pub(crate) use families::distances_from_reference;
+pub use families::distances_from_reference;
 pub use functions::{Function, FunctionError, errors_of_functions};
 
 /// How a check ended.
