@@ -101,6 +101,7 @@ fn line(event: &Event<'_>) -> Option<String> {
         Event::Started { adapter, first_step, last_step } => {
             json!({"event": "started", "adapter": adapter.name, "step": first_step, "last_step": last_step})
         }
+        Event::Compiling { kernels } => json!({"event": "compiling", "kernels": kernels}),
         Event::Warned { warning } => json!({"event": "warning", "text": warning}),
         Event::Advanced(progress) => json!({
             "event": "progress",

@@ -48,7 +48,7 @@ def test_a_run_has_means_tables_and_pictures(small):
     groups = [{"species": name, "count": 96} for name in "AB"]
     seen = []
     run = ms.run("dpd-fluid", small | {"particles": groups, "output": output}, out="run", steps=200, progress=seen.append)
-    assert seen[0]["event"] == "started" and any(event["event"] == "progress" for event in seen)
+    assert [event["event"] for event in seen[:2]] == ["compiling", "started"] and any(event["event"] == "progress" for event in seen)
     temperature = run.mean("temperature")
     assert temperature.value == pytest.approx(1, abs=0.2) and temperature.error > 0 and temperature.unit
     assert "±" in str(temperature)

@@ -54,6 +54,7 @@ impl EventLines {
                     &json!({"event": "started", "adapter": adapter, "first_step": first_step, "last_step": last_step}),
                 );
             }
+            Event::Compiling { kernels } => write(&json!({"event": "compiling", "kernels": kernels})),
             Event::Warned { warning } => Self::warn(warning),
             Event::Advanced(progress) => {
                 let is_last = progress.step == progress.last_step;

@@ -155,7 +155,11 @@ fn run_code(error: &RunError) -> u8 {
         RunError::Unshared { .. }
         | RunError::Undividable { .. }
         | RunError::Plot { source: PlotError::Size { .. } | PlotError::Input(_) | PlotError::TypeTooLarge, .. } => 2,
-        RunError::TooLarge { .. } | RunError::Memory { .. } | RunError::Plot { .. } | RunError::Engine(_) => 3,
+        RunError::TooLarge { .. }
+        | RunError::Memory { .. }
+        | RunError::AdapterLost { .. }
+        | RunError::Plot { .. }
+        | RunError::Engine(_) => 3,
         _ => 5,
     }
 }

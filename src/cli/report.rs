@@ -14,7 +14,7 @@ use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Event, Outcome, Progress, Run};
 
 use super::event_lines::{EventLines, Form, WritingArguments};
-use super::progress::{bar, say};
+use super::progress::{Patience, bar, say};
 use super::table::{aligned, labelled};
 use super::{Failure, RanksArgument, line, print};
 
@@ -102,6 +102,9 @@ pub fn stem(scene: &str) -> &str {
     std::path::Path::new(scene).file_stem().and_then(|stem| stem.to_str()).unwrap_or("run")
 }
 
+/// Silence that needs no word.
+const PATIENCE: Duration = Duration::from_secs(1);
+
 /// A short run needs no lines of progress.
 const BETWEEN_LINES: Duration = Duration::from_secs(1);
 
@@ -117,6 +120,8 @@ struct Reporter {
     reported: u64,
     reported_at: Instant,
     first_step: u64,
+    /// What is said while a driver compiles for long.
+    compiling: Option<Patience>,
     /// Warnings that came on the way.
     told: Vec<String>,
 }
@@ -136,12 +141,22 @@ impl Reporter {
             reported: 0,
             reported_at: Instant::now(),
             first_step: 0,
+            compiling: None,
             told: Vec::new(),
         }
     }
 
     fn show(&mut self, event: Event<'_>) {
+        // Whatever comes next, kernels are compiled.
+        self.compiling = None;
         match event {
+            Event::Compiling { kernels } => {
+                let words =
+                    format!("compiling {}, which drivers keep for later runs", counted(kernels as u64, "kernel"));
+                self.compiling = Some(Patience::new(PATIENCE, move |elapsed| {
+                    line(&format!("{words}: {} so far", duration(elapsed.as_secs())))
+                }));
+            }
             Event::Started { adapter, first_step, last_step } => {
                 let begin = if first_step > 0 { format!(", from step {}", grouped(first_step)) } else { String::new() };
                 let (headline, composition) = (&self.headline, &self.composition);

@@ -102,6 +102,19 @@ pub enum RunError {
         /// Its step.
         checkpoint_step: u64,
     },
+    /// The adapter was lost on the way, when there was a checkpoint already.
+    #[error(
+        "{source}\nthe last good checkpoint, of step {checkpoint_step}, is kept in `{}`; `mesoscope resume` continues from it",
+        crate::printable::path(checkpoint)
+    )]
+    AdapterLost {
+        /// What became of the adapter.
+        source: GpuError,
+        /// The file of the last good checkpoint.
+        checkpoint: PathBuf,
+        /// Its step.
+        checkpoint_step: u64,
+    },
     /// The adapter does not allow a buffer that the scene needs.
     #[error(
         "{source}, for `{}` ({}): {}; `mesoscope check --kernels` lists all buffers",

@@ -90,6 +90,11 @@ use std::time::Duration;
 #[derive(Debug, Clone, Copy)]
 #[non_exhaustive]
 pub enum Event<'a> {
+    /// The driver compiles kernels, which takes some drivers minutes when they see them for the first time.
+    Compiling {
+        /// Their number.
+        kernels: usize,
+    },
     /// The adapter is open, and files are written from now on.
     Started {
         /// The adapter.

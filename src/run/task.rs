@@ -3,6 +3,7 @@
 use super::RunError;
 use super::interrupt::Interrupt;
 use crate::families::Checked;
+use crate::gpu::GpuError;
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
 
 /// What stays the same if a run has to go back.
@@ -39,7 +40,7 @@ impl Task {
         Ok(())
     }
 
-    /// Adds to a failure to write what is left to continue from.
+    /// Adds to a failure to write, or of an adapter that is lost, what is left to continue from.
     pub(super) fn stopped(&self, error: RunError, checkpoint_step: u64) -> RunError {
         let checkpoint = self.directory.file(files::CHECKPOINT);
         match error {
@@ -47,7 +48,42 @@ impl Task {
             RunError::Output(source) if checkpoint.exists() && !matches!(source, OutputError::Lost { .. }) => {
                 RunError::Stopped { source, checkpoint, checkpoint_step }
             }
+            RunError::Gpu(source @ GpuError::Lost { .. }) if checkpoint.exists() => {
+                RunError::AdapterLost { source, checkpoint, checkpoint_step }
+            }
             error => error,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    use crate::scene;
+
+    #[test]
+    fn what_is_left_to_go_on_from_is_said() {
+        let directory = tempfile::tempdir().unwrap();
+        let scene = scene::load("dpd-fluid", &[]).unwrap();
+        let task = Task {
+            id: Id::of_run(&scene),
+            scene,
+            directory: RunDirectory::make(directory.path().to_path_buf()).unwrap(),
+            interrupt: Interrupt::default(),
+            notices: Vec::new(),
+            unseen: None,
+            mixed: false,
+            draws: false,
+            earlier: None,
+        };
+        let lost = || GpuError::Lost { adapter: "card".to_owned(), reason: "reset".to_owned() }.into();
+        assert!(matches!(task.stopped(lost(), 20), RunError::Gpu(GpuError::Lost { .. })));
+        std::fs::write(directory.path().join(files::CHECKPOINT), "").unwrap();
+        let said = task.stopped(lost(), 20).to_string();
+        for part in ["adapter `card` stopped answering: reset", "checkpoint, of step 20,", "`mesoscope resume`"] {
+            assert!(said.contains(part), "{said}");
         }
     }
 }
