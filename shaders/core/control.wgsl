@@ -33,6 +33,7 @@ const FAILURE_MASS: u32 = 128u;    // a Voronoi cell lost all of its mass, or ha
 const FAILURE_ENERGY: u32 = 256u;  // the internal energy of a Voronoi cell became negative
 const FAILURE_LOOPS: u32 = 512u;   // the adapter left a loop before its end
 const FAILURE_REACH: u32 = 1024u;  // a bond reaches beyond the halo of a rank
+const FAILURE_ITERATIONS: u32 = 2048u; // a solver needs more iterations than were recorded
 
 // A failure in a later step than the first is its consequence and is not reported.
 fn no_failure_before() -> bool { return atomicLoad(&control.failure_elapsed) >= control.elapsed; }

@@ -88,18 +88,17 @@ fn hits_of_row(row: u32, index: u32, word: u32, base: u32, count: u32) -> u32 {
     return mask;
 }
 
-// Visits every pair from both ends, for any subgroup size. One invocation a particle at a time; SEGMENTS workgroups share a row
-// of cells. Reads the sorted particles, `cells` and what the prefilter reads; the pass decides what is written.
+// Visits every pair from both ends, for any subgroup size. One invocation a sorted particle at a time, in chunks that end where
+// they are full and not where a row ends: SHARES workgroups have a chunk each in turns. Reads the sorted particles, `cells` and what the
+// prefilter reads; the pass decides what is written.
 @compute @workgroup_size(WORKGROUP)
 fn visit_rows(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
-    let row = group / SEGMENTS;
-    if (row < rows()) {
-        let end = row_end(row);
-        let first = row_begin(row) + (group - row * SEGMENTS) * WORKGROUP;
-        for (var index = first + lane; index < end; index += WORKGROUP * SEGMENTS) {
-            visit_particle_of_row(row, index, lane);
-        }
+    let end = select(0u, cell_at(rows() * row_width()), group < SHARES);
+    for (var index = group * WORKGROUP + lane; index < end; index += WORKGROUP * SHARES) {
+        let row = row_of(fraction_of(position_at(index)));
+        // What a frame holds is visited where it is copied from.
+        if (index >= row_begin(row) && index < row_end(row)) { visit_particle_of_row(row, index, lane); }
     }
     report_turns(workgroup.x >> 16u);
     pass_finish(group, lane);

@@ -3,14 +3,15 @@
 //
 // The equations of Crank and Nicolson's friction: for the mean W of the velocities U before and after it,
 // (2M + dt G) W = 2MU + J with the friction G and the random impulses J. For few cells one workgroup makes all iterations
-// (`friction_solve`); else every iteration is three kernels (src/families/voronoi/plan/friction.rs).
+// (`friction_solve`); else every iteration is two kernels, three for very many cells (src/families/voronoi/plan/friction.rs).
 override CELL_GROUPS: u32; // workgroups that sum the right-hand side
+override FIRST_SUM: u32;   // the sums that `friction_step` adds up: those of all workgroups, or their total
+override SUMS: u32;
 override TOLERANCE: f32;
 override ITERATIONS: u32;
 
-// The state of the iterations.
-struct Solver {
-    key: vec2<u32>,   // of the step's random words
+// How far the iterations have come.
+struct Progress {
     iterations: u32,
     running: u32,     // 1 as long as the residual is too large
     step_length: f32, // along the direction of search
@@ -18,7 +19,13 @@ struct Solver {
     square: f32,      // of the residual, in the norm of the preconditioner
     scale: f32,       // the same of the right-hand side
     residual: f32,    // relative to that
-    sums: array<vec4<f32>>, // of each workgroup: squares of residual, its image, and the right-hand side
+}
+
+struct Solver {
+    key: vec2<u32>,   // of the step's random words
+    now: Progress,
+    next: Progress,   // after the step along the direction of search, where iterations are kernels
+    sums: array<vec4<f32>>, // of each workgroup: squares of residual, its image, and the right-hand side; then their total
 }
 
 // `preconditioners` holds the inverse of a cell's own block of the equations, and 2M; `images` the image of each search, where
@@ -42,8 +49,8 @@ fn sum_of_lanes(lane: u32, value: vec4<f32>) -> vec4<f32> {
     return solver_lane_sums[0];
 }
 
-// Whether an iteration is needed, for all lanes alike: what lies in storage may look different to each.
-var<workgroup> solver_runs: u32;
+// What all lanes of a workgroup go by, alike: what lies in storage may look different to each.
+var<workgroup> solver_progress: Progress;
 
 // The inverse of a cell's own 2 by 2 block of the equations, xx, xy, yy, times a vector.
 fn preconditioned(inverse: vec3<f32>, v: Vector) -> Vector {
@@ -61,11 +68,12 @@ fn products_of(slot: u32, mine: Search, image: Vector) -> vec4<f32> {
     return vec4<f32>(dot(estimates[slot].zw, mine.residual), dot(image, mine.residual), 0.0, 0.0);
 }
 // A step along the direction of search, from the last one with its image, which is returned.
-fn step_along(slot: u32, image: Vector, last: vec4<f32>) -> vec4<f32> {
+fn step_along(slot: u32, progress: Progress, image: Vector, last: vec4<f32>) -> vec4<f32> {
     let search = searches[slot];
     // What an earlier step has left need not be a number.
-    let direction = vec4<f32>(search.residual, image) + select(vec4<f32>(0.0), solver.turn * last, solver.turn != 0.0);
-    let length = vec4<f32>(vec2<f32>(solver.step_length), vec2<f32>(-solver.step_length));
+    let turned = select(vec4<f32>(0.0), progress.turn * last, progress.turn != 0.0);
+    let direction = vec4<f32>(search.residual, image) + turned;
+    let length = vec4<f32>(vec2<f32>(progress.step_length), vec2<f32>(-progress.step_length));
     let estimate = estimates[slot] + length * direction;
     estimates[slot] = estimate;
     searches[slot] = Search(preconditioned(preconditioners[slot].xyz, estimate.zw), search.place);
@@ -73,23 +81,26 @@ fn step_along(slot: u32, image: Vector, last: vec4<f32>) -> vec4<f32> {
 }
 
 // Whether another iteration is needed, and how far it goes.
-fn judge(sums: vec4<f32>) {
-    let first = solver.iterations == 0u;
-    if (first) { solver.scale = sums.z; }
+fn judged(before: Progress, sums: vec4<f32>) -> Progress {
+    var progress = before;
+    let first = before.iterations == 0u;
+    if (first) { progress.scale = sums.z; }
     let square = sums.x;
-    let turn = select(square / solver.square, 0.0, first);
-    let curvature = sums.y - select(turn * square / solver.step_length, 0.0, first);
-    solver.residual = select(0.0, sqrt(square / solver.scale), square > 0.0);
+    let turn = select(square / before.square, 0.0, first);
+    let curvature = sums.y - select(turn * square / before.step_length, 0.0, first);
+    progress.residual = select(0.0, sqrt(square / progress.scale), square > 0.0);
     // What is not a number ends the iterations too.
     let numbers = is_number(square) && is_number(curvature);
-    if (numbers && solver.iterations < ITERATIONS && square > TOLERANCE * TOLERANCE * solver.scale && curvature > 0.0) {
-        solver.square = square;
-        solver.turn = turn;
-        solver.step_length = square / curvature;
-        solver.iterations += 1u;
+    let is_needed = square > TOLERANCE * TOLERANCE * progress.scale;
+    if (numbers && before.iterations < ITERATIONS && is_needed && curvature > 0.0) {
+        progress.square = square;
+        progress.turn = turn;
+        progress.step_length = square / curvature;
+        progress.iterations += 1u;
     } else {
-        solver.running = 0u;
+        progress.running = 0u;
     }
+    return progress;
 }
 
 // Sets up the equations of a cell (voronoi/visit/equations); returns the square of the right-hand side.
@@ -111,18 +122,13 @@ fn set_up(slot: u32) -> f32 {
     return dot(right, preconditioned(inverse, right));
 }
 
-// Slot voronoi/friction_iterations: makes the kernels of the iterations run.
-// Default: off, iterations are those of a loop. The plan chooses `demanded` where they are kernels.
-fn demand_iterations() {}
-
 // Begins to solve for the velocities after friction. One invocation; writes `solver`.
 @compute @workgroup_size(1)
 fn friction_begin() {
     solver.key = clock_key();
-    solver.iterations = 0u;
-    solver.running = 1u;
-    solver.residual = 0.0;
-    demand_iterations();
+    let progress = Progress(0u, 1u, 0.0, 0.0, 0.0, 0.0, 0.0);
+    solver.now = progress;
+    solver.next = progress;
 }
 
 // Sets up the equations; the velocities before friction are the first guess. One invocation a cell; reads particles and faces,
@@ -153,23 +159,28 @@ fn friction_solve(@builtin(local_invocation_index) lane: u32) {
         }
         let sums = sum_of_lanes(lane, products);
         if (lane == 0u) {
-            judge(sums);
-            solver_runs = solver.running;
+            solver_progress = judged(solver.now, sums);
+            solver.now = solver_progress;
         }
         storageBarrier();
-        if (workgroupUniformLoad(&solver_runs) == 0u) { break; }
+        let progress = workgroupUniformLoad(&solver_progress);
+        if (progress.running == 0u) { break; }
         for (var slot = lane; slot < PARTICLES; slot += LANES) {
-            directions[slot] = step_along(slot, directions[PARTICLES + slot].xy, directions[slot]);
+            directions[slot] = step_along(slot, progress, directions[PARTICLES + slot].xy, directions[slot]);
         }
         storageBarrier();
     }
 }
 
 // The first part of an iteration: images of the preconditioned residuals, and the sums that it needs. One invocation a cell;
-// reads `searches` and faces, writes `images` and `solver.sums`.
+// reads `searches` and faces, writes `images` and `solver`.
 @compute @workgroup_size(LANES)
 fn friction_image(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    if (lane == 0u) { solver_progress = solver.next; }
+    let progress = workgroupUniformLoad(&solver_progress);
     let group = linear_workgroup(workgroup);
+    if (lane == 0u && group == 0u) { solver.now = progress; }
+    if (progress.running == 0u) { return; }
     let slot = group * LANES + lane;
     var products = vec4<f32>(0.0);
     if (slot < PARTICLES) {
@@ -183,27 +194,47 @@ fn friction_image(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     if (lane == 0u && group * LANES < max(PARTICLES, 1u)) { solver.sums[group] = vec4<f32>(sum.xy, solver.sums[group].zw); }
 }
 
-// The second part: adds up the sums, and leaves the kernels of the next iteration without workgroups if none is needed. One
-// workgroup; updates `solver` and `demands`.
-@compute @workgroup_size(LANES)
-fn friction_judge(@builtin(local_invocation_index) lane: u32) {
-    if (lane == 0u) { solver_runs = solver.running; }
-    if (workgroupUniformLoad(&solver_runs) == 0u) { return; }
+// The sum of some sums of workgroups.
+fn sum_of_groups(lane: u32, first: u32, count: u32) -> vec4<f32> {
     var own = vec4<f32>(0.0);
-    for (var group = lane; group < CELL_GROUPS; group += LANES) { own += solver.sums[group]; }
-    let sums = sum_of_lanes(lane, own);
-    if (lane == 0u) {
-        judge(sums);
-        if (solver.running == 0u) {
-            for (var axis = 0u; axis < 3u; axis++) { demands[3u + axis] = 0u; }
-        }
-    }
+    for (var group = lane; group < count; group += LANES) { own += solver.sums[first + group]; }
+    return sum_of_lanes(lane, own);
 }
 
-// The last part: a step along the direction of search. One invocation a cell; updates `estimates`, `searches` and `directions`.
+// The second part where cells are so many that not every workgroup should add up all sums. One workgroup; updates `solver`.
+@compute @workgroup_size(LANES)
+fn friction_total(@builtin(local_invocation_index) lane: u32) {
+    let sums = sum_of_groups(lane, 0u, CELL_GROUPS);
+    if (lane == 0u) { solver.sums[CELL_GROUPS] = sums; }
+}
+
+// The last part: a step along the direction of search, if one is needed, which every workgroup finds for itself. One invocation a
+// cell; updates `estimates`, `searches`, `directions` and `solver`.
 @compute @workgroup_size(LANES)
 fn friction_step(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let slot = linear_workgroup(workgroup) * LANES + lane;
-    if (slot >= PARTICLES) { return; }
-    directions[slot] = step_along(slot, images[slot], directions[slot]);
+    if (lane == 0u) { solver_progress = solver.now; }
+    let before = workgroupUniformLoad(&solver_progress);
+    if (before.running == 0u) { return; }
+    let sums = sum_of_groups(lane, FIRST_SUM, SUMS);
+    if (lane == 0u) { solver_progress = judged(before, sums); }
+    let progress = workgroupUniformLoad(&solver_progress);
+    let group = linear_workgroup(workgroup);
+    if (lane == 0u && group == 0u) { solver.next = progress; }
+    let slot = group * LANES + lane;
+    if (progress.running == 0u || slot >= PARTICLES) { return; }
+    directions[slot] = step_along(slot, progress, images[slot], directions[slot]);
+}
+
+// The end of all iterations that were recorded: the residual that is left, and the failure if more iterations are allowed and
+// needed. One workgroup; updates `solver`.
+@compute @workgroup_size(LANES)
+fn friction_end(@builtin(local_invocation_index) lane: u32) {
+    if (lane == 0u) { solver_progress = solver.now; }
+    if (workgroupUniformLoad(&solver_progress).running == 0u) { return; }
+    let sums = sum_of_groups(lane, 0u, CELL_GROUPS);
+    if (lane == 0u) {
+        let progress = judged(solver.now, sums);
+        raise(select(0u, FAILURE_ITERATIONS, progress.running != 0u));
+        solver.now = progress;
+    }
 }

@@ -25,6 +25,12 @@ pub enum EngineError {
         /// The first step at which it was seen.
         step: u64,
     },
+    /// A solver needs more iterations than were recorded.
+    #[error("at step {step} a solver needs more iterations than were recorded")]
+    Unsolved {
+        /// The first step at which it was seen.
+        step: u64,
+    },
     /// The adapter left a loop before its end, as software adapters do after some 65 000 iterations.
     #[error(
         "the adapter {adapter} gave up at step {step}: too many particles crowd in one place or form one chain; use another \
@@ -51,12 +57,13 @@ pub enum EngineError {
 }
 
 impl EngineError {
-    /// Options with more room where an array turned out too small, or a bond too long for ranks; none after other
-    /// errors.
+    /// Options with more room where an array turned out too small, a bond too long for ranks, or iterations too few; none after
+    /// other errors.
     pub(crate) fn roomier(&self, options: Options, particles: u64) -> Option<Options> {
         match self {
             Self::Crowded { .. } if options.has_room_left() => Some(options.with_room(particles)),
             Self::Overreached { .. } if options.may_lengthen() => Some(options.with_longer_bonds()),
+            Self::Unsolved { .. } => options.with_more_iterations(),
             _ => None,
         }
     }

@@ -864,6 +864,10 @@ impl<'a> Engine<'a> {
         if failure.is(FailureKind::Frames) {
             return Err(EngineError::Crowded { step });
         }
+        // What follows from a solution that is none is no failure of the scene.
+        if failure.is(FailureKind::Iterations) {
+            return Err(EngineError::Unsolved { step });
+        }
         if failure.is(FailureKind::Reach) {
             // Who knows the whole box misses nobody.
             if self.exchange.as_ref().is_some_and(Exchange::knows_all) {

@@ -25,11 +25,13 @@ pub enum FailureKind {
     Loops,
     /// A bond reaches beyond what a rank knows around its part.
     Reach,
+    /// A solver needs more iterations than were recorded.
+    Iterations,
 }
 
 impl FailureKind {
     /// All of them, in the order of their bits.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Impulse,
         Self::Momentum,
         Self::Displacement,
@@ -41,6 +43,7 @@ impl FailureKind {
         Self::Energy,
         Self::Loops,
         Self::Reach,
+        Self::Iterations,
     ];
 
     /// The constant of the shaders.
@@ -59,6 +62,7 @@ impl FailureKind {
             Self::Energy => "FAILURE_ENERGY",
             Self::Loops => "FAILURE_LOOPS",
             Self::Reach => "FAILURE_REACH",
+            Self::Iterations => "FAILURE_ITERATIONS",
         }
     }
 

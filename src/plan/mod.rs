@@ -274,6 +274,23 @@ impl Plan {
         self.buffers.iter().any(|buffer| buffer.array == array)
     }
 
+    /// Bytes of a step if each of its dispatches passes once over every buffer that it binds; without those that depend on the step.
+    #[must_use]
+    pub fn bytes_bound_in_a_step(&self) -> u64 {
+        let size =
+            |array: Array| self.buffers.iter().find(|buffer| buffer.array == array).map_or(0, |buffer| buffer.bytes);
+        let bound = |kernel: &Kernel| {
+            let Ok((_, linked)) = link_once(kernel.name, kernel.entry, &kernel.choices, self.constants_in) else {
+                return 0;
+            };
+            let constants: Vec<_> = kernel.constants_in(self).collect();
+            let arrays = linked.specialized(&constants).bindings;
+            arrays.iter().map(|binding| size(kernel.array_of(binding.array))).sum::<u64>()
+        };
+        let kernels = [&self.sort, &self.before_report, &self.advance].into_iter().flatten();
+        kernels.map(|kernel| &self.kernels[*kernel]).filter(|kernel| kernel.demand.is_none()).map(bound).sum()
+    }
+
     /// Bytes of all buffers and textures.
     ///
     /// ```

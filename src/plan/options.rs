@@ -56,6 +56,8 @@ pub struct Options {
     pub list_growth: u32,
     /// How often the length that bonds may have among several ranks has been raised by half.
     pub lengthened: u32,
+    /// How often the iterations that are recorded for a solver have been doubled.
+    pub iteration_growth: u32,
     /// The most pairs that one dispatch examines for a radial distribution function; about a second's work if `None`.
     pub pairs_in_dispatch: Option<u64>,
     /// Prefix sum over cells in several levels even where one workgroup would do.
@@ -92,6 +94,12 @@ impl Options {
             list_growth: self.list_growth.saturating_add(1),
             ..self
         }
+    }
+
+    /// The same choices with twice as many iterations of a solver, if more can be asked for.
+    #[must_use]
+    pub fn with_more_iterations(self) -> Option<Self> {
+        (self.iteration_growth < 31).then(|| Self { iteration_growth: self.iteration_growth + 1, ..self })
     }
 
     /// Whether longer bonds may be expected.

@@ -103,15 +103,16 @@ fn time_of_step(scene: &Checked, gpu: &Gpu, options: Options) -> Result<Timed, R
     let mut engine = Engine::new(gpu, plan, &state)?;
     // The first steps list neighbours and touch memory for the first time.
     match engine.advance(2, 2).and_then(|()| engine.finish()) {
-        // As a run does.
-        Err(EngineError::Crowded { .. }) if options.has_room_left() => {
-            return time_of_step(scene, gpu, options.with_room(model.particle_count()));
-        }
         Err(EngineError::Unstable(failure)) => {
             return Err(RunError::UnstableTrial(Instability::new(&failure, engine.plan(), model)));
         }
-        ended => ended?,
-    };
+        // As a run does.
+        Err(error) => match error.roomier(options, model.particle_count()) {
+            Some(roomier) => return time_of_step(scene, gpu, roomier),
+            None => return Err(error.into()),
+        },
+        Ok(_) => {}
+    }
     let (mut done, mut steps) = (0, 1);
     let mut unstable = None;
     let start = Instant::now();
@@ -122,7 +123,11 @@ fn time_of_step(scene: &Checked, gpu: &Gpu, options: Options) -> Result<Timed, R
                 unstable = Some(Instability::new(&failure, engine.plan(), model));
                 break;
             }
-            Err(EngineError::GaveUp { .. } | EngineError::Crowded { .. }) if done > 0 => break,
+            Err(EngineError::GaveUp { .. } | EngineError::Crowded { .. } | EngineError::Unsolved { .. })
+                if done > 0 =>
+            {
+                break;
+            }
             ended => ended?,
         };
         done += steps;

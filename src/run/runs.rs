@@ -260,6 +260,7 @@ impl Run {
         let task = Task { id, scene, directory, interrupt, notices, unseen, mixed, draws, earlier };
         let mut begun = false;
         loop {
+            observer(Event::Compiling { kernels: plan.kernels.len() });
             let opened = open(&task, &gpu, plan, (choice, processes), options, &start);
             let ended = opened.and_then(|mut engine| {
                 if !std::mem::replace(&mut begun, true) {
@@ -293,6 +294,9 @@ impl Run {
                     options = roomier;
                     let (reason, with) = match error {
                         EngineError::Overreached { .. } => ("a bond is longer than expected", "wider halos"),
+                        EngineError::Unsolved { .. } => {
+                            ("friction takes more iterations than expected", "more of them")
+                        }
                         _ => (model.physics().crowd(model), "more memory"),
                     };
                     if begun {

@@ -58,11 +58,14 @@ impl<'a> Runner<'a> {
     fn take_turn(&mut self, gpu: &'a Gpu) -> Result<(), EngineError> {
         match self.advance(gpu) {
             Err(error) if is_a_result(&error) => self.has_ended = true,
-            Err(EngineError::Crowded { .. }) if self.options.has_room_left() => {
-                self.options = self.options.with_room(self.choice.state.len() as u64);
-                return self.take_turn(gpu);
-            }
-            ended => ended?,
+            Err(error) => match error.roomier(self.options, self.choice.state.len() as u64) {
+                Some(roomier) => {
+                    self.options = roomier;
+                    return self.take_turn(gpu);
+                }
+                None => return Err(error),
+            },
+            Ok(()) => {}
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ use std::time::Duration;
 use mesoscope::Simulation;
 use mesoscope::engine::Engine;
 use mesoscope::families::initial_state;
-use mesoscope::gpu::ConstantsIn;
+use mesoscope::gpu::{ConstantsIn, GpuError};
 use mesoscope::output::{files, read_table};
 use mesoscope::plan::{Hardware, Options};
 use mesoscope::run::{self, Interrupt, Run, RunError};
@@ -531,4 +531,21 @@ fn several_simulations_at_once_have_their_own_bits() {
     let first = simulation(&scene);
     let second = Simulation::on(first.gpu(), &scene).unwrap();
     assert!(bits(first) == expected && bits(second) == expected);
+}
+
+/// A card that is lost in the middle ends what needs it, and the checkpoint before goes on to the bit.
+#[test]
+fn a_lost_adapter_leaves_the_checkpoint() {
+    let scene = fluid(&["time.steps=40"]);
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("before.ckpt");
+    let mut lost = simulation(&scene);
+    lost.advance(10).unwrap();
+    lost.checkpoint(&path).unwrap();
+    lost.gpu().device().destroy();
+    let error = lost.advance(10).and_then(|()| lost.state().map(drop)).unwrap_err();
+    assert!(matches!(error, RunError::Gpu(GpuError::Lost { .. })), "{error:?}");
+    let mut again = Simulation::from_checkpoint(&path, &adapter()).unwrap();
+    again.advance(10).unwrap();
+    assert!(*again.state().unwrap() == unseen(&scene, 20));
 }

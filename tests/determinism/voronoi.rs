@@ -1,13 +1,14 @@
 //! Voronoi DPD: the same bytes whatever changes that is not physics.
 
+use mesoscope::engine::EngineError;
 use mesoscope::plan::Options;
 use mesoscope::run;
 use mesoscope::scene::Checked;
-use mesoscope::shaders::Constant;
+use mesoscope::shaders::{Constant, Entry};
 use rand::SeedableRng as _;
 
 use crate::support::bytes::{self, Bytes, harvest, same};
-use crate::support::{cells, engine, hardware, start};
+use crate::support::{adapter, cells, engine, hardware, series, start};
 
 const STEPS: u64 = 24;
 
@@ -102,4 +103,51 @@ fn a_report_changes_nothing() {
         other.advance(20, 4).unwrap();
         assert!(one.state().unwrap() == other.state().unwrap(), "{changes:?}");
     }
+}
+
+/// Friction that takes more iterations than were recorded is solved with more, to the bits of all that are allowed.
+#[test]
+fn more_iterations_are_recorded_where_friction_needs_them() {
+    let changes = ["interactions.0.viscosity=60", "time.step=0.01", "time.steps=6"];
+    let scene = cells(2116, &changes);
+    let (_, state) = start(&scene);
+    let run_with = |options: Options| {
+        let mut engine = engine(&scene, &state, options);
+        engine.advance(6, 6)?;
+        let state = engine.state()?;
+        engine.finish().map(|samples| (state, samples))
+    };
+    let few = Options::default();
+    assert!(matches!(run_with(few), Err(EngineError::Unsolved { step: 0 })));
+    let more = few.with_more_iterations().unwrap();
+    let all = Options { iteration_growth: 31, ..few };
+    assert!(run::plan(&scene, hardware(), more).advance.len() < run::plan(&scene, hardware(), all).advance.len());
+    let (more, all) = (run_with(more).unwrap(), run_with(all).unwrap());
+    assert!(more == all);
+
+    let directory = tempfile::tempdir().unwrap();
+    let mut repeated = 0;
+    let run = run::Run::start(scene, directory.path().join("run"));
+    let observer = &mut |event: run::Event<'_>| repeated += u32::from(matches!(event, run::Event::Repeating { .. }));
+    run.execute(&adapter(), observer).unwrap();
+    assert_eq!(repeated, 1);
+}
+
+/// Of so many cells one workgroup adds up the sums of all: iterations and residual are as in a small box.
+#[test]
+#[ignore = "seconds"]
+fn a_great_many_cells_are_solved_for() {
+    let solved = |count: u32| {
+        let scene = cells(count, &["interactions.0.viscosity=5", "time.steps=3"]);
+        let (_, state) = start(&scene);
+        let mut engine = engine(&scene, &state, Options::default());
+        engine.advance(3, 3).unwrap();
+        assert_eq!(engine.state().unwrap().total_momentum(), state.total_momentum());
+        let found = series(&mut engine, &scene).pop().unwrap().cells.unwrap();
+        assert!(found.residual > 0.0 && found.residual < 1e-5, "{count} cells: {}", found.residual);
+        found.iterations
+    };
+    let plan = run::plan(&cells(70_225, &[]), hardware(), Options::default());
+    assert!(plan.kernels.iter().any(|kernel| kernel.entry == Entry::FrictionTotal));
+    assert!(solved(70_225).abs_diff(solved(2500)) <= 1);
 }

@@ -150,7 +150,8 @@ fn the_solver_reports_what_it_leaves() {
                 format!(r#"interactions.0.friction_solver={{"iterations":{iterations},"tolerance":{tolerance}}}"#);
             let scene = cells(count, &["time.step=0.1", &solver]);
             let (_, state) = start(&scene);
-            let mut run = Device::from_state(&scene, &state, Options::default());
+            let all = Options { iteration_growth: 31, ..Options::default() };
+            let mut run = Device::from_state(&scene, &state, all);
             run.step(10);
             let row = run.observe();
             let found = row.cells.unwrap();

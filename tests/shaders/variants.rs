@@ -1179,6 +1179,7 @@ fn voronoi_plans() -> Vec<(String, Plan)> {
     }
     let options = Options { list_growth: 2, ..Options::default() };
     plans.extend(plans_of("Voronoi cells of many corners", &cells(200, &[]), options));
+    plans.extend(plans_of("a great many Voronoi cells", &cells(70_000, &[]), Options::default()));
     plans
 }
 

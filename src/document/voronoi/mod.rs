@@ -126,7 +126,7 @@ pub enum InitialMasses {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct FrictionSolver {
-    /// The most iterations of a step: all are recorded in advance, and skipped on the device once the tolerance is reached.
+    /// The most iterations of a step; the device skips those that are not needed once the tolerance is reached.
     #[schemars(range(min = 1, max = 1000))]
     pub iterations: u32,
     /// The residual, relative to the right-hand side, at which to stop. Momentum is conserved to the last bit whatever it is.

@@ -28,9 +28,10 @@ use differences::{differences, linked};
 use features::{Feature, features};
 use scenes::{interaction, shipped, ways_to_say_off};
 
+const ANY: Hardware = Hardware { subgroup_size: None, serial_memory: false, largest_binding: None };
+
 /// The two kinds of adapters that plans differ for, in turns: what a feature needs does not depend on them.
-const ADAPTERS: [Hardware; 2] =
-    [Hardware::default(), Hardware { subgroup_size: Some(8), serial_memory: true, ..Hardware::default() }];
+const ADAPTERS: [Hardware; 2] = [ANY, Hardware { subgroup_size: Some(8), serial_memory: true, ..ANY }];
 
 /// The plan of a scene; none if it is no scene. A scene that names no rule of relaxation has one stage of friction: a feature may be what
 /// makes the default two.

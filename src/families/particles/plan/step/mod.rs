@@ -179,6 +179,9 @@ pub(crate) struct Builder<'a> {
 const RATE_UNIT: f64 = 65536.0;
 const EVEN_RELAXATION: f64 = 20.0;
 
+/// Workgroups that fill an adapter.
+const ENOUGH: u64 = 8192;
+
 impl<'a> Builder<'a> {
     fn constants(&mut self) {
         let units = self.model.units;
@@ -443,16 +446,29 @@ impl<'a> Builder<'a> {
             Traversal::Clusters => Entry::VisitClusters,
         };
         let rows = self.grid.rows();
-        let clusters = traversal == Traversal::Clusters;
         let segments = self.segments(traversal, rows);
-        let mut constants = vec![(Constant::Segments, segments as f64)];
-        let mut groups = rows * segments;
-        if clusters {
-            let wanted = (self.particles / 256).clamp(32, 1024).max(self.least_groups(8));
-            groups = groups.min(wanted.next_multiple_of(32));
-            constants.push((Constant::Shares, groups as f64));
-        }
+        let of_rows = (Constant::Segments, segments as f64);
+        let shares = |groups: u64| (Constant::Shares, groups as f64);
+        let (groups, constants) = match traversal {
+            Traversal::Alone => (rows * segments, vec![of_rows]),
+            Traversal::Rows => {
+                let groups = self.options.segments.map_or_else(|| self.chunks_at_once(), |_| rows * segments);
+                (groups, vec![shares(groups)])
+            }
+            Traversal::Clusters => {
+                let wanted = (self.particles / 256).clamp(32, 1024).max(self.least_groups(8));
+                let groups = (rows * segments).min(wanted.next_multiple_of(32));
+                (groups, vec![of_rows, shares(groups)])
+            }
+        };
         self.plan.add_kernel(Kernel::new(name, entry, choices, groups).with(constants))
+    }
+
+    /// Workgroups that visit chunks of sorted particles: enough of them to fill an adapter, with as many chunks for each.
+    fn chunks_at_once(&self) -> u64 {
+        let lanes = self.workgroup_size();
+        let chunks = (self.slots + self.frame_capacity()).div_ceil(lanes).max(1);
+        chunks.div_ceil(chunks.div_ceil(ENOUGH.max(self.least_groups(lanes))))
     }
 
     /// Workgroups that share a row, where so many rows are visited: enough of them to fill the adapter, none with less than one round of
@@ -461,7 +477,7 @@ impl<'a> Builder<'a> {
     fn segments(&self, traversal: Traversal, rows: u64) -> u64 {
         let (lanes, enough) = match traversal {
             Traversal::Clusters => (8, 64),
-            Traversal::Alone | Traversal::Rows => (self.workgroup_size(), 8192),
+            Traversal::Alone | Traversal::Rows => (self.workgroup_size(), ENOUGH),
         };
         let rounds = (self.particles / self.grid.rows()).div_ceil(lanes).max(1);
         let chosen = self.options.segments.filter(|segments| *segments > 0).map(u64::from);
