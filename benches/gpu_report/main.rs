@@ -42,7 +42,7 @@ const MESHES: [u32; 4] = [64, 256, 1024, 4096];
 /// Steps after which shipped scenes are compared with their reference.
 const COMPARED: u64 = 10;
 /// Particles of the largest scene whose reference takes less than seconds.
-const FEW: u64 = 40_000;
+const FEW: u64 = 70_000;
 
 /// A report on a graphics card.
 #[derive(Debug, Parser)]

@@ -378,3 +378,65 @@ impl<'a> Rewriting<'a> {
         place
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+
+    /// Divides `counts`, an array of words, and `places`, a structure, in a kernel of these statements.
+    fn divided(statements: &str, portions: Portions) -> Result<(Module, Vec<Binding>), Undivided> {
+        let text = format!(
+            "struct Places {{ first: u32, all: array<u32> }}
+            @group(0) @binding(0) var<storage, read_write> counts: array<atomic<u32>>;
+            @group(0) @binding(1) var<storage, read_write> places: Places;
+            @compute @workgroup_size(1) fn main(@builtin(local_invocation_index) lane: u32) {{ {statements} }}"
+        );
+        let mut module = naga::front::wgsl::parse_str(&text).unwrap();
+        let binding = |number, array| Binding { number, array, texture: false, portion: 0 };
+        let mut bindings = vec![binding(0, Array::Counts), binding(1, Array::Places)];
+        let is_used =
+            |array| module.global_variables.iter().any(|(_, variable)| variable.name.as_deref() == Some(array));
+        assert!(is_used("counts"));
+        let of = |array: Array| statements.contains(array.name()).then_some(portions);
+        divide(&mut module, &mut bindings, of)?;
+        Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).unwrap();
+        Ok((module, bindings))
+    }
+
+    #[test]
+    fn elements_are_divided_and_the_rest_is_refused() {
+        let three = Portions { count: 3, bytes: 1 << 20 };
+        for statements in [
+            "atomicStore(&counts[lane], 1u);",
+            "let before = atomicAdd(&counts[lane + 7u], 2u); atomicMax(&counts[before], before);",
+            "for (var i = 0u; i < 3u; i++) { if (atomicLoad(&counts[i]) > 1u) { atomicStore(&counts[5], lane); } }",
+            "atomicStore(&counts[i32(lane)], atomicLoad(&counts[1]));",
+        ] {
+            let (module, bindings) = divided(statements, three).unwrap();
+            let of_counts = bindings.iter().filter(|binding| binding.array == Array::Counts);
+            assert_eq!(of_counts.map(|binding| binding.portion).collect::<Vec<_>>(), [0, 1, 2], "{statements}");
+            assert_eq!(module.global_variables.len(), 4, "{statements}");
+        }
+        let refused = |statements: &str, portions| divided(statements, portions).unwrap_err();
+        assert_eq!(
+            refused("atomicStore(&counts[arrayLength(&counts) - 1u], 1u);", three),
+            Undivided::whole(Array::Counts)
+        );
+        assert_eq!(refused("places.all[lane] = 1u;", three), Undivided::whole(Array::Places));
+        // Words beyond those that a word can number.
+        let many = Portions { count: 9, bytes: 1 << 31 };
+        assert_eq!(refused("atomicStore(&counts[lane], 1u);", many), Undivided { array: Array::Counts, most: 4 << 32 });
+    }
+
+    #[test]
+    fn portions_hold_whole_elements_of_every_size() {
+        let portions = Portions::new(1 << 34, (1 << 31) - 4).unwrap();
+        assert_eq!(portions.count, 9);
+        for size in [4, 8, 12, 16, 20, 28, 32, 36, 48, 60, 64] {
+            assert!(portions.bytes.is_multiple_of(size), "{size}");
+        }
+    }
+}

@@ -274,18 +274,17 @@ impl Plan {
         self.buffers.iter().any(|buffer| buffer.array == array)
     }
 
-    /// Bytes of a step if each of its dispatches passes once over every buffer that it binds; without those that depend on the step.
+    /// Bytes of a step if each of its dispatches passes once over every array that it binds; without those that depend on the step.
     #[must_use]
     pub fn bytes_bound_in_a_step(&self) -> u64 {
-        let size =
-            |array: Array| self.buffers.iter().find(|buffer| buffer.array == array).map_or(0, |buffer| buffer.bytes);
+        let textures = self.textures.iter().map(|texture| (texture.array, texture.bytes()));
+        let buffers = self.buffers.iter().map(|buffer| (buffer.array, buffer.bytes));
+        let sizes: BTreeMap<Array, u64> = buffers.chain(textures).collect();
         let bound = |kernel: &Kernel| {
-            let Ok((_, linked)) = link_once(kernel.name, kernel.entry, &kernel.choices, self.constants_in) else {
-                return 0;
-            };
+            let linked = link_once(kernel.name, kernel.entry, &kernel.choices, self.constants_in);
             let constants: Vec<_> = kernel.constants_in(self).collect();
-            let arrays = linked.specialized(&constants).bindings;
-            arrays.iter().map(|binding| size(kernel.array_of(binding.array))).sum::<u64>()
+            let bindings = linked.map(|(_, linked)| linked.specialized(&constants).bindings).unwrap_or_default();
+            bindings.iter().filter_map(|binding| sizes.get(&kernel.array_of(binding.array))).sum::<u64>()
         };
         let kernels = [&self.sort, &self.before_report, &self.advance].into_iter().flatten();
         kernels.map(|kernel| &self.kernels[*kernel]).filter(|kernel| kernel.demand.is_none()).map(bound).sum()

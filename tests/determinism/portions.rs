@@ -35,7 +35,7 @@ fn arrays_in_portions_give_the_same_bytes() {
             built_in("polymer-melt", &["space.box=[13,13,12]", "particles.2.count=4000"]),
             &[Array::Particles, Array::Kicks],
         ),
-        (built_in("drop", &[]), &[Array::Sorted, Array::PartialSums]),
+        (built_in("drop", &[]), &[Array::Sorted, Array::Samples]),
         (oscillators(&["particles.0.count=6000", "time.steps=20", diffusion]), &[Array::Particles, Array::Tethers]),
         (cells(2600, &[]), &[Array::Particles]),
         (water(&["particles.0.count=16384"]), &[Array::Bins]),

@@ -319,8 +319,8 @@ fn copies_beyond_the_room_of_the_adapter() {
         let said = answer.unwrap();
         let copies: u64 = copies.iter().product();
         assert!(
-            said.contains(" bytes in a")
-                && said.contains(&format!("fewer than the {copies} copies of `state.replicate` need less")),
+            said.contains(" in a ")
+                && said.contains(&format!("fewer than the {copies} copies of `state.replicate` fit")),
             "{said}"
         );
         assert!(cost.time < PATIENCE && cost.memory < MEMORY, "{:?}, {} bytes", cost.time, cost.memory);
