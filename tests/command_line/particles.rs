@@ -394,7 +394,8 @@ fn wrong_scenes_run_nothing() {
 #[test]
 fn check_says_whether_the_adapter_that_is_asked_for_has_room() {
     let place = place().with("/space/box", json!([400, 400, 400]));
-    let parts = ["but this scene needs ", " particles fit, or all of them on ", "ranks that have an adapter each (`--ranks "];
+    let parts =
+        ["but this scene needs ", " particles fit, or all of them on ", "ranks that have an adapter each (`--ranks "];
     fails(&["check", &place.scene(), "--adapter", "0"], 3, &parts);
 }
 
