@@ -154,7 +154,7 @@ impl Reporter {
                 let words =
                     format!("compiling {}, which drivers keep for later runs", counted(kernels as u64, "kernel"));
                 self.compiling = Some(Patience::new(PATIENCE, move |elapsed| {
-                    line(&format!("{words}: {} so far", duration(elapsed.as_secs())))
+                    line(&format!("{words}: {} so far", duration(elapsed.as_secs())));
                 }));
             }
             Event::Started { adapter, first_step, last_step } => {

@@ -8,6 +8,7 @@ use crate::families::Checked;
 use crate::gpu::{AdapterChoice, AdapterKind, Gpu, GpuError, Requirements, STORAGE_BUFFERS};
 use crate::host_memory;
 use crate::plan::{self, Division, Hardware, Options, Part, Plan};
+use std::num::NonZero;
 
 /// Opens an adapter that allows the buffers of a scene, for which it makes the plan.
 pub(super) fn open_adapter(scene: &Checked, choice: &AdapterChoice, options: Options) -> Result<(Gpu, Plan), RunError> {
@@ -45,7 +46,7 @@ fn too_large(scene: &Checked, plan: &Plan, source: GpuError) -> RunError {
             buffer: largest.array,
             fits: (plan.particles as f64 * (allowed as f64 / needed as f64)) as u64,
             copies: scene.state.as_ref().map_or(1, |state| number_of_copies(state.copies())),
-            ranks: hindrances(scene).is_empty().then(|| needed.div_ceil(allowed)),
+            ranks: NonZero::new(needed.div_ceil(allowed)).filter(|_| hindrances(scene).is_empty()),
             source,
         },
         _ => source.into(),

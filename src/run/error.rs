@@ -9,6 +9,7 @@ use crate::output::checkpoint::CheckpointError;
 use crate::plot::PlotError;
 use crate::scene::SceneError;
 use crate::shaders::Array;
+use std::num::NonZero;
 use std::path::{Path, PathBuf};
 
 /// A failure of a run.
@@ -132,7 +133,7 @@ pub enum RunError {
         /// Copies of the box of a file that the scene is made of.
         copies: u64,
         /// Ranks, each with an adapter as large, that could share the scene, if it can be shared.
-        ranks: Option<u64>,
+        ranks: Option<NonZero<u64>>,
     },
     /// The memory of this machine is too small for the particles on their way to the adapter and back.
     #[error(
@@ -194,7 +195,7 @@ fn grouped_particles(count: u64) -> String {
     format!("{} {}", grouped(count), if count == 1 { "particle" } else { "particles" })
 }
 
-fn what_fits(particles: u64, copies: u64, ranks: Option<u64>) -> String {
+fn what_fits(particles: u64, copies: u64, ranks: Option<NonZero<u64>>) -> String {
     let fewer = match copies {
         1 => format!("about {} fit", grouped_particles(particles)),
         copies => format!("fewer than the {copies} copies of `state.replicate` fit"),
