@@ -33,12 +33,8 @@ impl Lammps {
         Self::start_with(&["-suffix", "omp", "-package", "omp", &threads])
     }
 
-    /// The same on a graphics card, with KOKKOS.
-    pub fn on_a_card() -> Result<Self, String> {
-        Self::start_with(&["-kokkos", "on", "gpus", "1", "-suffix", "kk"])
-    }
-
-    fn start_with(arguments: &[&str]) -> Result<Self, String> {
+    /// The same with these arguments, which say what it computes on.
+    pub fn start_with(arguments: &[&str]) -> Result<Self, String> {
         let local = Path::new(env!("CARGO_TARGET_TMPDIR")).join("../lammps");
         let python = std::env::var_os("MESOSCOPE_LAMMPS_PYTHON").map_or_else(
             || {

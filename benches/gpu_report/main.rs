@@ -101,7 +101,7 @@ impl Report {
     }
 
     fn row(&mut self, cells: &[String]) {
-        self.text.push_str(&format!("| {} |\n", cells.join(" | ")));
+        self.text.extend(["| ", &cells.join(" | "), " |\n"]);
     }
 
     fn self_test(&mut self) -> Result<(), Failure> {
@@ -115,7 +115,9 @@ impl Report {
             };
             rows.push([finding.check, verdict.to_owned(), finding.found]);
         })?;
-        rows.iter().for_each(|row| self.row(row));
+        for row in &rows {
+            self.row(row);
+        }
         Ok(())
     }
 

@@ -6,12 +6,15 @@ use std::time::Instant;
 use super::fluid::Fluid;
 use super::lammps::{self, Lammps};
 
+/// Arguments of LAMMPS that computes on a card.
+const ON_A_CARD: [&str; 6] = ["-kokkos", "on", "gpus", "1", "-suffix", "kk"];
+
 /// Particle-steps a second, or why there are none.
 type Rate = Result<f64, String>;
 
 /// Peers that are here, in words.
 pub fn known() -> String {
-    let lammps = Lammps::on_a_card().and_then(|mut lammps| lammps.version());
+    let lammps = Lammps::start_with(&ON_A_CARD).and_then(|mut lammps| lammps.version());
     let hoomd = hoomd(&["version"]);
     let words = |answer: Result<String, String>| answer.unwrap_or_else(|reason| format!("none ({reason})"));
     format!("LAMMPS with KOKKOS: {}; HOOMD-blue: {}", words(lammps), words(hoomd))
@@ -24,7 +27,7 @@ pub fn rates(fluid: &Fluid, time_step: f64, seconds: f64) -> Vec<(&'static str, 
 
 fn of_lammps(fluid: &Fluid, time_step: f64, seconds: f64) -> Rate {
     let words = |error: crate::Failure| error.to_string();
-    let mut lammps = Lammps::on_a_card()?;
+    let mut lammps = Lammps::start_with(&ON_A_CARD)?;
     lammps.fluid(&fluid.model, &fluid.state).map_err(words)?;
     let skin = lammps.tune(time_step, fluid.particles(), seconds).map_err(words)?;
     lammps.set_time(time_step, skin).map_err(words)?;
