@@ -97,7 +97,7 @@ fn visit_rows(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
     let end = select(0u, cell_at(rows() * row_width()), group < SHARES);
     for (var index = group * WORKGROUP + lane; index < end; index += WORKGROUP * SHARES) {
         let row = row_of(fraction_of(position_at(index)));
-        // What a frame holds is visited where it is copied from.
+        // Copies in frames are visited where they are copied from.
         if (index >= row_begin(row) && index < row_end(row)) { visit_particle_of_row(row, index, lane); }
     }
     report_turns(workgroup.x >> 16u);

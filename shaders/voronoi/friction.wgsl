@@ -49,7 +49,7 @@ fn sum_of_lanes(lane: u32, value: vec4<f32>) -> vec4<f32> {
     return solver_lane_sums[0];
 }
 
-// What all lanes of a workgroup go by, alike: what lies in storage may look different to each.
+// The progress that all lanes of a workgroup see alike: what lies in storage may look different to each.
 var<workgroup> solver_progress: Progress;
 
 // The inverse of a cell's own 2 by 2 block of the equations, xx, xy, yy, times a vector.

@@ -120,7 +120,7 @@ struct Reporter {
     reported: u64,
     reported_at: Instant,
     first_step: u64,
-    /// What is said while a driver compiles for long.
+    /// Word of a driver that compiles for long.
     compiling: Option<Patience>,
     /// Warnings that came on the way.
     told: Vec<String>,
@@ -151,8 +151,7 @@ impl Reporter {
         self.compiling = None;
         match event {
             Event::Compiling { kernels } => {
-                let words =
-                    format!("compiling {}, which drivers keep for later runs", counted(kernels as u64, "kernel"));
+                let words = format!("compiling {} and loading particles", counted(kernels as u64, "kernel"));
                 self.compiling = Some(Patience::new(PATIENCE, move |elapsed| {
                     line(&format!("{words}: {} so far", duration(elapsed.as_secs())));
                 }));

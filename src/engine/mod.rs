@@ -864,7 +864,7 @@ impl<'a> Engine<'a> {
         if failure.is(FailureKind::Frames) {
             return Err(EngineError::Crowded { step });
         }
-        // What follows from a solution that is none is no failure of the scene.
+        // Failures that follow from an unfinished solution are none of the scene.
         if failure.is(FailureKind::Iterations) {
             return Err(EngineError::Unsolved { step });
         }

@@ -34,7 +34,7 @@ impl Shortage {
     }
 }
 
-/// What an adapter has too few of if a kernel binds too many arrays or portions of them.
+/// The quantity that is short if a kernel binds too many arrays or portions of them.
 pub(crate) const STORAGE_BUFFERS: &str = "storage buffers in a kernel";
 
 /// Lanes of the largest workgroup, and the bytes that it shares: every adapter with compute shaders allows these.

@@ -19,8 +19,8 @@ pub trait StateLayout: Compared + Debug + Send + Sync {
     /// [`Misfit`].
     fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit>;
 
-    /// Whether [`Self::pack`] of some particles gives their part of the first array, and all of the others: a state then passes to
-    /// the device and back in stretches.
+    /// True if [`Self::pack`] of some particles gives their part of the first array, and all of the others: a state
+    /// then passes to the device and back in stretches.
     fn divides(&self) -> bool {
         false
     }

@@ -1,7 +1,7 @@
 //! The adapter of a run, and the plan for it.
 
 use super::RunError;
-use super::division::hindrances;
+use super::division::{Ranks, divide};
 use super::plan::plan;
 use crate::document::number_of_copies;
 use crate::families::Checked;
@@ -15,9 +15,11 @@ pub(super) fn open_adapter(scene: &Checked, choice: &AdapterChoice, options: Opt
     let open = |hardware: Hardware| -> Result<(Gpu, Plan), RunError> {
         let plan = plan(scene, hardware, options);
         plan::check_precision(scene, &plan)?;
-        let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
-        let opened = Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() });
-        let gpu = opened.map_err(|error| too_large(scene, &plan, error))?;
+        let gpu = open_for(choice, &plan).map_err(|error| {
+            // An adapter that was not asked yet may get by with less.
+            let ranks = hardware.largest_binding.and_then(|_| enough_ranks(scene, choice, hardware, options));
+            too_large(scene, &plan, error, ranks)
+        })?;
         // No binding was too large.
         let same = hardware == Hardware { largest_binding: hardware.largest_binding, ..Hardware::from(&gpu) };
         let plan = if same { plan } else { plan_for(scene, &gpu, options) };
@@ -31,8 +33,27 @@ pub(super) fn open_adapter(scene: &Checked, choice: &AdapterChoice, options: Opt
     }
 }
 
+fn open_for(choice: &AdapterChoice, plan: &Plan) -> Result<Gpu, GpuError> {
+    let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
+    Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() })
+}
+
+/// The number of ranks, more than there are, each with such an adapter, that could share a scene: found by trying; none
+/// where it cannot be shared, or not among a thousand.
+fn enough_ranks(scene: &Checked, choice: &AdapterChoice, hardware: Hardware, options: Options) -> Option<NonZero<u32>> {
+    let now = options.part.map_or(1, |part| part.division.ranks());
+    let more = (1..=10).map_while(|doublings| now.checked_mul(1 << doublings).and_then(NonZero::new));
+    let fits = |ranks: &NonZero<u32>| {
+        divide(scene, Ranks::Count(ranks.get())).is_ok_and(|division| {
+            let part = Some(Part { division, rank: 0 });
+            open_for(choice, &plan(scene, hardware, Options { part, ..options })).is_ok()
+        })
+    };
+    more.into_iter().find(fits)
+}
+
 /// The error of an adapter that refuses a plan, with the array that is to blame and what would fit.
-fn too_large(scene: &Checked, plan: &Plan, source: GpuError) -> RunError {
+fn too_large(scene: &Checked, plan: &Plan, source: GpuError, ranks: Option<NonZero<u32>>) -> RunError {
     let GpuError::TooSmall { allowed, needed, quantity, .. } = source else { return source.into() };
     let largest = plan.buffers.iter().max_by_key(|buffer| match quantity {
         STORAGE_BUFFERS => buffer.bytes,
@@ -46,7 +67,7 @@ fn too_large(scene: &Checked, plan: &Plan, source: GpuError) -> RunError {
             buffer: largest.array,
             fits: (plan.particles as f64 * (allowed as f64 / needed as f64)) as u64,
             copies: scene.state.as_ref().map_or(1, |state| number_of_copies(state.copies())),
-            ranks: NonZero::new(needed.div_ceil(allowed)).filter(|_| hindrances(scene).is_empty()),
+            ranks,
             source,
         },
         _ => source.into(),

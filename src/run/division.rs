@@ -134,7 +134,7 @@ fn halo(scene: &Checked) -> (f64, f64) {
 }
 
 /// Why several ranks cannot share a scene: the reasons that its family gives, else the analyses that need one device.
-pub(super) fn hindrances(scene: &Checked) -> Vec<String> {
+fn hindrances(scene: &Checked) -> Vec<String> {
     let reasons = scene.model().physics().unshared(scene);
     if !reasons.is_empty() {
         return reasons;

@@ -133,7 +133,7 @@ pub enum RunError {
         /// Copies of the box of a file that the scene is made of.
         copies: u64,
         /// Ranks, each with an adapter as large, that could share the scene, if it can be shared.
-        ranks: Option<NonZero<u64>>,
+        ranks: Option<NonZero<u32>>,
     },
     /// The memory of this machine is too small for the particles on their way to the adapter and back.
     #[error(
@@ -195,7 +195,7 @@ fn grouped_particles(count: u64) -> String {
     format!("{} {}", grouped(count), if count == 1 { "particle" } else { "particles" })
 }
 
-fn what_fits(particles: u64, copies: u64, ranks: Option<NonZero<u64>>) -> String {
+fn what_fits(particles: u64, copies: u64, ranks: Option<NonZero<u32>>) -> String {
     let fewer = match copies {
         1 => format!("about {} fit", grouped_particles(particles)),
         copies => format!("fewer than the {copies} copies of `state.replicate` fit"),
