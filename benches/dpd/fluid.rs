@@ -44,7 +44,7 @@ impl Fluid {
         let scene = scene(edge, "groot-warren", 0.04)?;
         let model = scene.model().clone();
         let start = mesoscope::families::initial_state(&scene);
-        let mut engine = engine(gpu, &scene, &start)?;
+        let mut engine = engine(gpu, &scene, &start, Options::default())?;
         engine.advance(EQUILIBRATION, 1)?;
         let state = State { step: 0, ..engine.state()? };
         Ok(Self { edge, model, state })
@@ -56,11 +56,22 @@ impl Fluid {
 
     /// A run of this fluid.
     pub fn run<'a>(&self, gpu: &'a Gpu, integrator: &str, time_step: f64) -> Result<Run<'a>, Failure> {
-        Run::new(engine(gpu, &scene(self.edge, integrator, time_step)?, &self.state)?, self.particles())
+        self.run_with(gpu, integrator, time_step, Options::default())
+    }
+
+    /// A run of this fluid with options of the plan.
+    pub fn run_with<'a>(
+        &self,
+        gpu: &'a Gpu,
+        integrator: &str,
+        time_step: f64,
+        options: Options,
+    ) -> Result<Run<'a>, Failure> {
+        Run::new(engine(gpu, &scene(self.edge, integrator, time_step)?, &self.state, options)?, self.particles())
     }
 }
 
 /// An engine of a scene from a state.
-pub fn engine<'a>(gpu: &'a Gpu, scene: &Checked, state: &State) -> Result<Engine<'a>, Failure> {
-    Ok(Engine::new(gpu, plan_of(scene, gpu.into(), Options::default()), state)?)
+pub fn engine<'a>(gpu: &'a Gpu, scene: &Checked, state: &State, options: Options) -> Result<Engine<'a>, Failure> {
+    Ok(Engine::new(gpu, plan_of(scene, gpu.into(), options), state)?)
 }

@@ -1,6 +1,7 @@
 //! A melt of chains: the price of bonds, and the same melt in LAMMPS.
 
 use mesoscope::gpu::Gpu;
+use mesoscope::plan::Options;
 use mesoscope::scene::{self, Checked};
 use mesoscope::state::State;
 
@@ -37,7 +38,7 @@ pub fn compare(gpu: &Gpu, fluid: &Fluid, peer: bool, turns: Turns) -> Result<(),
     let particles = (chains * BEADS) as usize;
     let start = scene(fluid.edge, chains, "groot-warren", 0.04)?;
     let model = start.model();
-    let mut engine = fluid::engine(gpu, &start, &mesoscope::families::initial_state(&start))?;
+    let mut engine = fluid::engine(gpu, &start, &mesoscope::families::initial_state(&start), Options::default())?;
     engine.advance(EQUILIBRATION, 16)?;
     let state = State { step: 0, ..engine.state()? };
     let mut lammps = if peer { Some(Lammps::start()?) } else { None };
@@ -62,7 +63,7 @@ pub fn compare(gpu: &Gpu, fluid: &Fluid, peer: bool, turns: Turns) -> Result<(),
         for integrator in INTEGRATORS {
             let mut simple = fluid.run(gpu, integrator, time_step)?;
             let melt = scene(fluid.edge, chains, integrator, time_step)?;
-            let mut bonded = Run::new(fluid::engine(gpu, &melt, &state)?, particles)?;
+            let mut bonded = Run::new(fluid::engine(gpu, &melt, &state, Options::default())?, particles)?;
             let (mut ours, mut without, mut theirs) = (Vec::new(), Vec::new(), Vec::new());
             for _ in 0..turns.rounds {
                 ours.push(1e-6 * bonded.rate(turns.seconds)?);

@@ -23,7 +23,7 @@ use std::path::PathBuf;
 use clap::Parser;
 use mesoscope::gpu::{AdapterKind, Gpu, Requirements};
 use mesoscope::numbers::{bytes, six_digits};
-use mesoscope::plan::{Hardware, Options, Plan};
+use mesoscope::plan::{Hardware, Options, Plan, Traversal};
 use mesoscope::scene::{self, Checked};
 use mesoscope::self_test::{self, Verdict};
 
@@ -191,17 +191,30 @@ impl Report {
 
     fn fluids(&mut self) -> Result<(), Failure> {
         self.text.push_str(
-            "| time step | integrator | particles | million particle-steps/s | of the floor |\n|--:|:--|--:|--:|--:|\n",
+            "| time step | integrator | pairs | particles | million particle-steps/s | of the floor |\n|--:|:--|:--|--:|--:|--:|\n",
         );
+        // What a card is to decide: docs/hardware.md.
+        let ways: &[(&str, Option<Traversal>)] = if Hardware::from(&self.gpu).takes_eights() {
+            &[("in eights", None)]
+        } else {
+            &[("by rows", Some(Traversal::Rows)), ("from a queue", Some(Traversal::Queue))]
+        };
         let turns = self.turns;
         for edge in EDGES {
             for time_step in TIME_STEPS {
                 for integrator in INTEGRATORS {
                     let scene = fluid::scene(edge, integrator, time_step)?;
-                    self.speed(&[time_step.to_string(), format!("`{integrator}`")], &scene, |gpu| {
-                        let fluid = Fluid::equilibrated(gpu, edge)?;
-                        rates(turns, fluid.run(gpu, integrator, time_step)?)
-                    });
+                    for &(way, traversal) in ways {
+                        let options = Options { traversal, ..Options::default() };
+                        self.speed(
+                            &[time_step.to_string(), format!("`{integrator}`"), way.to_owned()],
+                            &scene,
+                            |gpu| {
+                                let fluid = Fluid::equilibrated(gpu, edge)?;
+                                rates(turns, fluid.run_with(gpu, integrator, time_step, options)?)
+                            },
+                        );
+                    }
                 }
             }
         }

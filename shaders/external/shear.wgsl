@@ -161,7 +161,7 @@ fn prepare_cluster_hits(row: u32, me: Particle, lane: u32, s: Stretches) {
 // == pairs/prefilter_source/sheared
 // The prefilter reads positions, and sees the copies next to the row.
 fn candidate_probe(index: u32, middle: Middle) -> Probe {
-    return probe_of(copy_at_row(fraction_of(position_at(index))), middle);
+    return candidate_of(copy_at_row(fraction_of(position_at(index))), middle);
 }
 
 // == pairs/cluster_rows/sheared

@@ -6,8 +6,8 @@
 // (notes the place of the particle). Default: the prefilter finds them and nothing is stored. The plan of particles
 // chooses for the two passes of a split step.
 //
-// Slot pairs/prefilter: a word of a few bits an axis that never misses a neighbour. Variants plane, volume; the plan follows
-// the box.
+// Slot pairs/prefilter: a word of a few bits an axis that never misses a neighbour. Variants bytes, whose `hit_of` visits by lanes read;
+// plane and volume, whose `probe_hits` visits of eight do. The plan chooses by the visit and the box.
 // Slot pairs/prefilter_source: what is read of a candidate. Variants words, positions; the plan chooses positions where sorted
 // particles are in textures, and sheared if the scene has shear. Neither has a default.
 

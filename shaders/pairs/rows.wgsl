@@ -26,6 +26,7 @@ fn visit_particle_of_row(row: u32, index: u32, lane: u32) {
     begin_visit(row, me);
     prepare_row_hits(row, me);
     let columns = columns_of(me);
+    let place = place_of_row(row);
     var sums = pass_begin(me);
     var word_number = 0u;
     var neighbour = 0u;
@@ -38,7 +39,7 @@ fn visit_particle_of_row(row: u32, index: u32, lane: u32) {
         while (filled < HIT_WORDS) {
             if (base >= end) {
                 if (neighbour == neighbour_rows()) { break; }
-                let other_row = neighbour_row(row, neighbour);
+                let other_row = row_near(place, neighbour);
                 let start = other_row * row_width() + column_towards(row, other_row, columns);
                 base = cell_at(start);
                 end = cell_at(start + 2u * frame() + 1u);
@@ -79,8 +80,9 @@ fn prepare_row_hits(row: u32, me: Particle) {
 }
 fn hits_of_row(row: u32, index: u32, word: u32, base: u32, count: u32) -> u32 {
     var mask = 0u;
-    for (var bit = 0u; bit < count; bit++) {
-        mask |= select(0u, 1u << bit, probe_hits(hits_probe, candidate_probe(base + bit, hits_middle)));
+    // From the last to the first, which is the lowest bit.
+    for (var left = count; left > 0u; left--) {
+        mask = (mask << 1u) | hit_of(hits_probe, candidate_probe(base + left - 1u, hits_middle));
     }
     let own = index - base;
     mask &= ~select(0u, 1u << (own & 31u), own < 32u);

@@ -166,6 +166,7 @@ impl From<&Gpu> for Hardware {
         Self {
             subgroup_size: gpu.subgroup_size(),
             serial_memory: gpu.serial_memory(),
+            queues_pairs: gpu.queues_pairs(),
             largest_binding: Some(gpu.largest_binding()),
         }
     }

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex};
 
 use super::adapter::{self, AdapterChoice, AdapterDescription};
 use super::compiled::{Compiled, Rewriting};
-use super::environment;
+use super::environment::RequestedPlans;
 use super::error::GpuError;
 
 /// What a plan needs beyond the limits of every WebGPU adapter.
@@ -91,6 +91,7 @@ pub struct Gpu {
     subgroup_size: Option<u32>,
     serial_memory: bool,
     portable: bool,
+    queues_pairs: bool,
     pub(super) compiled: Arc<Compiled>,
     trouble: Arc<Mutex<Option<String>>>,
 }
@@ -197,7 +198,8 @@ impl Gpu {
         requirements: Requirements,
         rewriting: Option<Rewriting>,
     ) -> Result<Self, GpuError> {
-        let portable = environment::requests_portable_plans()? || requirements.portable;
+        let requested = RequestedPlans::from_environment()?;
+        let portable = requested != RequestedPlans::Suitable || requirements.portable;
         let info = adapter.get_info();
         let offered = adapter.limits();
         let mut limits = limits(&offered, requirements).map_err(|shortage| shortage.of(info.name.clone()))?;
@@ -245,6 +247,7 @@ impl Gpu {
                 .then_some(info.subgroup_min_size),
             serial_memory,
             portable,
+            queues_pairs: requested == RequestedPlans::PortableWithQueue,
             compiled: Arc::new(Compiled::new(rewriting)),
             trouble,
         })
@@ -279,6 +282,12 @@ impl Gpu {
     #[must_use]
     pub fn serial_memory(&self) -> bool {
         self.serial_memory
+    }
+
+    /// Whether the environment requests that the lanes of a workgroup share a queue of pairs, with `MESOSCOPE_PLAN=gpu-queue`.
+    #[must_use]
+    pub fn queues_pairs(&self) -> bool {
+        self.queues_pairs
     }
 
     /// Bytes of the largest array that a kernel can bind, if the device is opened for it.

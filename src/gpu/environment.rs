@@ -2,12 +2,26 @@
 
 use super::GpuError;
 
-/// Whether the environment asks for the plans that every GPU gets, on software adapters too.
-pub(super) fn requests_portable_plans() -> Result<bool, GpuError> {
-    match std::env::var_os("MESOSCOPE_PLAN") {
-        None => Ok(false),
-        Some(value) if value == "gpu" => Ok(true),
-        Some(value) => Err(GpuError::Plan { found: value.to_string_lossy().into_owned() }),
+/// Plans that the environment requests.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum RequestedPlans {
+    /// Those that suit the adapter.
+    Suitable,
+    /// Those that every GPU gets, on software adapters too.
+    Portable,
+    /// The same, but the lanes of a workgroup share a queue of pairs.
+    PortableWithQueue,
+}
+
+impl RequestedPlans {
+    /// Reads `MESOSCOPE_PLAN`.
+    pub(super) fn from_environment() -> Result<Self, GpuError> {
+        match std::env::var_os("MESOSCOPE_PLAN") {
+            None => Ok(Self::Suitable),
+            Some(value) if value == "gpu" => Ok(Self::Portable),
+            Some(value) if value == "gpu-queue" => Ok(Self::PortableWithQueue),
+            Some(value) => Err(GpuError::Plan { found: value.to_string_lossy().into_owned() }),
+        }
     }
 }
 

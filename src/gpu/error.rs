@@ -30,7 +30,9 @@ pub enum GpuError {
         needed: u64,
     },
     /// The environment requests plans that are unknown.
-    #[error("MESOSCOPE_PLAN is `{found}`; accepted: `gpu`, for the plans that every GPU gets, or no such variable")]
+    #[error(
+        "MESOSCOPE_PLAN is `{found}`; accepted: `gpu`, for the plans that every GPU gets, `gpu-queue`, for the same with a queue of pairs, or no such variable"
+    )]
     Plan {
         /// The value of the variable.
         found: String,

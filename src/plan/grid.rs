@@ -16,6 +16,37 @@ pub struct Grid {
     pub ratios: [f64; 3],
     /// Square of the prefilter's reach in window units of x.
     pub reach_squared: f64,
+    /// The windows of the prefilter by bytes.
+    pub bytes: ByteWindows,
+}
+
+/// Windows of the box that the prefilter by bytes divides into 256 units on each axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ByteWindows {
+    /// Windows in the box on each axis.
+    pub count: [u32; 3],
+    /// Above the square of the distance in units of any two particles within the cutoff.
+    pub reach: u32,
+}
+
+impl ByteWindows {
+    /// Windows of at least three cells, so that particles a window apart are no candidates of each other, and units that are as equal on all
+    /// axes as whole numbers of windows allow.
+    fn new(units: &Units, cutoff: f64, cells: [u32; 3]) -> Self {
+        let axes = 0..units.dimension;
+        let unit = |axis: usize, count: u32| units.lengths[axis] / (256.0 * f64::from(count));
+        let coarsest = axes.clone().map(|axis| unit(axis, (cells[axis] / 3).max(1))).fold(0.0, f64::max);
+        let mut count = [0; 3];
+        for axis in axes.clone() {
+            count[axis] = ((unit(axis, 1) / coarsest * (1.0 + 1e-12)).floor() as u32).max(1);
+        }
+        let finest = axes.clone().map(|axis| unit(axis, count[axis])).fold(f64::INFINITY, f64::min);
+        // What rounding adds to a difference on each axis, and what the fourth byte does: shaders/pairs/prefilter/bytes.wgsl.
+        let rounding = axes.map(|axis| if axis == 0 { 1.0 } else { 1.5_f64 }.powi(2)).sum::<f64>().sqrt();
+        let reach = (cutoff / finest * (1.0 + 1e-5) + rounding).powi(2) + 1.0;
+        // No word is further from another than this.
+        Self { count, reach: reach.min(65536.0) as u32 + 1 }
+    }
 }
 
 impl Grid {
@@ -67,7 +98,8 @@ impl Grid {
             (0..dimension).map(|axis| (2_f64.powi(32 - bits[axis] as i32) * ratios[axis]).powi(2)).sum::<f64>().sqrt();
         // Half a quantum's diagonal, and a little for the rounding of single precision.
         let reach = (cutoff / unit[0] + 0.5 * diagonal) * (1.0 + 1e-5);
-        Self { dimension, cells, windows, ratios, reach_squared: reach * reach }
+        let bytes = ByteWindows::new(units, cutoff, cells);
+        Self { dimension, cells, windows, ratios, reach_squared: reach * reach, bytes }
     }
 
     /// Number of rows along x.
@@ -101,5 +133,90 @@ impl Grid {
     /// Whether rows are framed by copies of their last and first cell.
     pub(crate) fn framed(&self) -> bool {
         self.cells[0] >= 3
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::rngs::StdRng;
+    use rand::{RngExt, SeedableRng};
+
+    /// The word of a place in 2⁻³² of the box, and whether two words may be within the cutoff: shaders/pairs/prefilter/bytes.wgsl.
+    fn word(windows: ByteWindows, place: [u32; 3], further: u32) -> u32 {
+        let byte = |axis: usize| {
+            let moved = if axis > 0 && windows.count[axis] > 0 { further } else { 0 };
+            place[axis].wrapping_mul(windows.count[axis]).wrapping_add(moved) >> 24
+        };
+        byte(0) | byte(1) << 8 | byte(2) << 16
+    }
+
+    fn hits(windows: ByteWindows, probe: u32, candidate: u32) -> bool {
+        let apart = probe.wrapping_sub(candidate).to_le_bytes().map(|byte| i32::from(byte.cast_signed()));
+        (apart.map(|byte| byte * byte).iter().sum::<i32>() as u32) < windows.reach
+    }
+
+    #[test]
+    fn bytes_never_miss_a_neighbour() {
+        let mut random = StdRng::seed_from_u64(4);
+        let boxes = [
+            (3, [69.0, 69.0, 69.0]),
+            (3, [3.0, 3.0, 3.0]),
+            (3, [2.01, 2.5, 40.0]),
+            (3, [7.3, 11.9, 1000.0]),
+            (2, [5.0, 31.7, 1.0]),
+            (1, [12.0, 1.0, 1.0]),
+        ];
+        for (dimension, lengths) in boxes {
+            let units = Units { dimension, lengths, gaps: [0.0; 3], momentum: 1.0 };
+            let volume: f64 = lengths.iter().product();
+            for particles in [(3.0 * volume) as u64, 20] {
+                let grid = Grid::new(&units, 1.0, particles);
+                for axis in 0..dimension {
+                    let (cells, windows) = (grid.cells[axis], grid.bytes.count[axis]);
+                    assert!(
+                        windows >= 1 && (windows == 1 || 3 * windows <= cells),
+                        "{lengths:?}: {windows} of {cells}"
+                    );
+                }
+                for _ in 0..100_000 {
+                    let first: [u32; 3] =
+                        std::array::from_fn(|axis| if axis < dimension { random.random() } else { 0 });
+                    // Any direction, most often just within the cutoff.
+                    let way: [f64; 3] =
+                        std::array::from_fn(|axis| if axis < dimension { random.random_range(-1.0..1.0) } else { 0.0 });
+                    let length = way.iter().map(|part| part * part).sum::<f64>().sqrt().max(1e-9);
+                    let distance = 1.0 - random.random_range(0.0..1.0_f64).powi(8);
+                    let second: [u32; 3] = std::array::from_fn(|axis| {
+                        let steps = way[axis] / length * distance / lengths[axis] * 2_f64.powi(32);
+                        first[axis].wrapping_add((steps.trunc() as i64) as u32)
+                    });
+                    let (probe, candidate) = (word(grid.bytes, first, 1 << 23), word(grid.bytes, second, 0));
+                    assert!(hits(grid.bytes, probe, candidate), "{lengths:?}: {first:?} and {second:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn bytes_find_little_else() {
+        let mut random = StdRng::seed_from_u64(5);
+        for (lengths, most) in [([69.0; 3], 1.13), ([30.0, 31.0, 100.0], 1.22), ([5.0; 3], 1.18)] {
+            let units = Units { dimension: 3, lengths, gaps: [0.0; 3], momentum: 1.0 };
+            let grid = Grid::new(&units, 1.0, 1_000_000);
+            let (mut found, mut near) = (0, 0);
+            for _ in 0..200_000 {
+                // Candidates are up to two cells away.
+                let first: [u32; 3] = std::array::from_fn(|_| random.random());
+                let way: [f64; 3] = std::array::from_fn(|_| random.random_range(-2.0..2.0));
+                let second: [u32; 3] = std::array::from_fn(|axis| {
+                    first[axis].wrapping_add((way[axis] / lengths[axis] * 2_f64.powi(32)) as i64 as u32)
+                });
+                found += u32::from(hits(grid.bytes, word(grid.bytes, first, 1 << 23), word(grid.bytes, second, 0)));
+                near += u32::from(way.iter().map(|part| part * part).sum::<f64>() < 1.0);
+            }
+            let ratio = f64::from(found) / f64::from(near);
+            assert!(ratio > 1.0 && ratio < most, "{lengths:?}: {ratio}");
+        }
     }
 }

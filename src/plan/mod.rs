@@ -22,7 +22,7 @@ mod texture;
 pub use buffer::{Buffer, Contents};
 pub use compared::Compared;
 pub use failure::{Failure, FailureKind};
-pub use grid::Grid;
+pub use grid::{ByteWindows, Grid};
 pub use kernel::Kernel;
 pub(crate) use kernel::{folded, generator, switch};
 pub(crate) use layout::content;

@@ -11,6 +11,8 @@ pub struct Hardware {
     /// Whether lanes load and store one after the other, as on software adapters: every access to a buffer is expensive, and one of
     /// eight bytes costs no more than one of four; texels of a texture are loaded whole.
     pub serial_memory: bool,
+    /// Whether the lanes of a workgroup share a queue of pairs, where a lane would visit all pairs of a particle.
+    pub queues_pairs: bool,
     /// Bytes that a kernel can bind of one array; a larger one lies in portions. As many as an array has if `None`.
     pub largest_binding: Option<u64>,
 }
@@ -130,6 +132,8 @@ impl Options {
 pub enum Traversal {
     /// One invocation a particle or cell; for any adapter.
     Rows,
+    /// The pairs of all particles of a workgroup in a queue, from which its lanes take them; cells of a mesh as with `Rows`.
+    Queue,
     /// Eight particles or cells a subgroup; only where subgroups have eight lanes.
     Clusters,
     /// No pairs at all: none has a force on each other.

@@ -42,9 +42,10 @@ fn arrays_in_portions_give_the_same_bytes() {
         (water(&["particles.0.count=16384"]), &[Array::Bins]),
     ] {
         let title = &scene.title;
-        // In as small portions as the adapter has buffers for, and to the device and back in many stretches.
+        // In as small portions as the adapter has buffers for, with a queue of pairs, and to the device and back in many stretches.
         let open = |portion: u64| {
-            let hardware = Hardware { largest_binding: Some(portion * PORTION), ..Hardware::default() };
+            let hardware =
+                Hardware { queues_pairs: true, largest_binding: Some(portion * PORTION), ..Hardware::default() };
             let plan = run::plan(&scene, hardware, Options { particles_at_once: Some(700), ..Options::default() });
             let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
             Some((Gpu::open(&adapter(), Requirements { largest_buffer, storage_buffers, portable: true }).ok()?, plan))

@@ -75,6 +75,7 @@ pub fn plans() -> &'static [(String, Plan)] {
     PLANS.get_or_init(|| {
         let kinds = [
             structure_plans,
+            queued_plans,
             fluid_plans,
             long_range_plans,
             shared_plans,
@@ -147,6 +148,40 @@ fn structure_plans() -> Vec<(String, Plan)> {
     }
     let plans: Vec<(String, Plan)> = in_shares(&grounds, plans_beside).into_iter().flatten().collect();
     assert!(plans.len() > 10_000, "only {} plans", plans.len());
+    plans
+}
+
+/// Pairs from a queue, in every pass that takes them from one, in every space, beside one species and two.
+fn queued_plans() -> Vec<(String, Plan)> {
+    let spaces = ["[9,7]", "[9,7,8]"].iter().flat_map(|lengths| {
+        let axis = if lengths.len() < 6 { "y" } else { "z" };
+        [
+            format!(r#"space={{"box":{lengths}}}"#),
+            format!(r#"space={{"box":{lengths},"walls":{{"{axis}":{{}}}}}}"#),
+            format!(r#"space={{"box":{lengths},"shear":{{"rate":0.2,"gradient":"{axis}"}}}}"#),
+        ]
+    });
+    let pairs = [
+        r#"interactions=[{"type":"dpd","repulsion":25}]"#,
+        r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#,
+        r#"interactions=[{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}]"#,
+    ];
+    let particles = [
+        r#"particles=[{"species":"A","count":200}]"#,
+        r#"particles=[{"species":"A","count":200},{"species":"B","count":50,"mass":2.5}]"#,
+    ];
+    let options = Options { traversal: Some(Traversal::Queue), ..Options::default() };
+    let mut plans = Vec::new();
+    for (space, pairs) in spaces.flat_map(|space| pairs.map(|pairs| (space.clone(), pairs))) {
+        for (particles, integrator) in
+            particles.iter().flat_map(|groups| INTEGRATORS.iter().map(move |scheme| (groups, *scheme)))
+        {
+            let changes = [space.as_str(), pairs, particles, integrator, "time.steps=1000"];
+            plans.push((format!("{} queue", changes.join(" ")), plan_of(&fluid(&changes), options)));
+        }
+    }
+    let queued = |plan: &Plan| plan.kernels.iter().filter(|kernel| kernel.entry == Entry::VisitQueue).count();
+    assert!(plans.iter().all(|(_, plan)| queued(plan) > 0));
     plans
 }
 
@@ -1646,6 +1681,8 @@ fn workgroup_memory_stays_within_the_core_limit() {
                                 Some("BINS") => 4096,
                                 Some("COUNTS") => 1024 + 3,
                                 Some("WORKGROUP") => 128,
+                                Some("QUEUE_ENTRIES") => 8 * 128,
+                                Some("HIT_PLACES") => 10 * 128,
                                 other => panic!("how large {other:?} may be is not known"),
                             }
                     }

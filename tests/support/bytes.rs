@@ -58,9 +58,11 @@ pub fn same_in_every_way(scene: &Checked, steps: u64) -> Bytes {
 #[track_caller]
 pub fn same_in_any_traversal_and_order(scene: &Checked, options: Options, steps: u64, random: &mut StdRng) -> Bytes {
     let plain = run(scene, options, steps, 8);
-    let rows = Some(Traversal::Rows);
-    let changed = Options { workgroup_size: Some(32), serial_memory: Some(false), traversal: rows, ..options };
-    assert!(same(&plain, &run(scene, changed, steps, 5)), "{changed:?}");
+    for (lanes, traversal) in [(32, Traversal::Rows), (64, Traversal::Queue)] {
+        let (workgroup_size, traversal) = (Some(lanes), Some(traversal));
+        let changed = Options { workgroup_size, serial_memory: Some(false), traversal, ..options };
+        assert!(same(&plain, &run(scene, changed, steps, 5)), "{changed:?}");
+    }
     assert!(same(&plain, &shuffled(scene, options, steps, 8, random)), "storage order");
     plain
 }

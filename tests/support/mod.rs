@@ -91,7 +91,7 @@ pub fn in_eights() -> Options {
 /// Every way to visit pairs that the adapter has.
 pub fn traversals() -> Vec<Traversal> {
     let clusters = hardware().takes_eights().then_some(Traversal::Clusters);
-    [Traversal::Rows].into_iter().chain(clusters).collect()
+    [Traversal::Rows, Traversal::Queue].into_iter().chain(clusters).collect()
 }
 
 /// A scene's model and initial state.

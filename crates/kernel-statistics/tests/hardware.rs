@@ -78,19 +78,27 @@ impl Compiled {
 /// The most that wgpu lets a kernel bind of one array, on cards of every maker.
 const LARGEST_BINDING: u64 = (1 << 31) - 4;
 
-/// The shipped scenes as a graphics card runs them, and the standard fluid with as many particles as a large card has memory for.
+/// The shipped scenes as a graphics card runs them, the standard fluid with both ways of a leapfrog step and of a split one to visit pairs,
+/// and with as many particles as a large card has memory for.
 fn plans() -> Vec<(String, Plan)> {
-    let plan = |name: &str, edge: Option<u32>| {
-        let set = edge.map(|edge| format!("space.box=[{edge},{edge},{edge}]"));
-        let scene = scene::load(name, set.as_slice()).unwrap();
-        let hardware = Hardware { largest_binding: Some(LARGEST_BINDING), ..Hardware::default() };
+    let hardware = Hardware { largest_binding: Some(LARGEST_BINDING), ..Hardware::default() };
+    let plan = |name: &str, set: &[String], hardware: Hardware| {
+        let scene = scene::load(name, set).unwrap();
         mesoscope::run::plan(&scene, hardware, Options::default())
     };
     let large = [551, 694].map(|edge| {
-        let plan = plan("dpd-fluid", Some(edge));
+        let plan = plan("dpd-fluid", &[format!("space.box=[{edge},{edge},{edge}]")], hardware);
         (format!("dpd-fluid, {} million particles", plan.particles / 1_000_000), plan)
     });
-    scene::builtin().iter().map(|scene| (scene.name.to_owned(), plan(scene.name, None))).chain(large).collect()
+    let leapfrog = ["integrator.type=groot-warren".to_owned()];
+    let queue = Hardware { queues_pairs: true, ..hardware };
+    let others = [
+        ("dpd-fluid, groot-warren".to_owned(), plan("dpd-fluid", &leapfrog, hardware)),
+        ("dpd-fluid, groot-warren, pairs from a queue".to_owned(), plan("dpd-fluid", &leapfrog, queue)),
+        ("dpd-fluid, pairs from a queue".to_owned(), plan("dpd-fluid", &[], queue)),
+    ];
+    let shipped = scene::builtin().iter().map(|scene| (scene.name.to_owned(), plan(scene.name, &[], hardware)));
+    shipped.chain(others).chain(large).collect()
 }
 
 /// A thousand million particles need some seventy bytes each and several bindings an array, which every graphics card has.

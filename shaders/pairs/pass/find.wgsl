@@ -12,6 +12,12 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).kick += select(Steps(0), kick, contact.inside);
     (*sums).rate += select(0u, rate_units(friction_rate(c, root) * rate_scale_of(species_of(me))), contact.inside);
 }
+const QUEUED_SUMS: u32 = DIMENSION + 1u;
+fn queue_sums(lane: u32, sums: Sums) {
+    queue_steps(lane, 0u, sums.kick);
+    queue_word(lane, DIMENSION, sums.rate);
+}
+fn queued_sums(lane: u32) -> Sums { return Sums(queued_steps(lane, 0u), queued_word(lane, DIMENSION)); }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let own = advance_own(me);
     let kick = sums.kick + gathered_kick(index) + external_kick(me) + own.both + own.closing;

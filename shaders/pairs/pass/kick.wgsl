@@ -11,6 +11,12 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).kick += Steps(round(push * contact.direction));
     (*sums).strain += abs(push);
 }
+const QUEUED_SUMS: u32 = DIMENSION + 1u;
+fn queue_sums(lane: u32, sums: Sums) {
+    queue_steps(lane, 0u, sums.kick);
+    queue_strain(lane, DIMENSION, sums.strain);
+}
+fn queued_sums(lane: u32) -> Sums { return Sums(queued_steps(lane, 0u), queued_strain(lane, DIMENSION)); }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     failures_of_particles |= select(FAILURE_IMPULSE, 0u, is_within(sums.strain, STRAIN_LIMIT));
     let kick = sums.kick + gathered_kick(index);

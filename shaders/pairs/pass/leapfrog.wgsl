@@ -16,6 +16,12 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).kick += Steps(round(magnitude * contact.direction));
     (*sums).strain += abs(magnitude);
 }
+const QUEUED_SUMS: u32 = DIMENSION + 1u;
+fn queue_sums(lane: u32, sums: Sums) {
+    queue_steps(lane, 0u, sums.kick);
+    queue_strain(lane, DIMENSION, sums.strain);
+}
+fn queued_sums(lane: u32) -> Sums { return Sums(queued_steps(lane, 0u), queued_strain(lane, DIMENSION)); }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let own = advance_own(me);
     let kick = sums.kick + take_gathered_kick(index) + external_kick(me) + own.both;

@@ -16,6 +16,15 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).impulse += Steps(round(pull * contact.direction));
     (*sums).strain += abs(push) + abs(pull);
 }
+const QUEUED_SUMS: u32 = 2u * DIMENSION + 1u;
+fn queue_sums(lane: u32, sums: Sums) {
+    queue_steps(lane, 0u, sums.kick);
+    queue_steps(lane, DIMENSION, sums.impulse);
+    queue_strain(lane, 2u * DIMENSION, sums.strain);
+}
+fn queued_sums(lane: u32) -> Sums {
+    return Sums(queued_steps(lane, 0u), queued_steps(lane, DIMENSION), queued_strain(lane, 2u * DIMENSION));
+}
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     let relaxed = steps_of(me.momentum) + clock_closing() * sums.impulse;
     let kick = sums.kick + take_gathered_kick(index) + external_kick(me);

@@ -15,6 +15,12 @@ fn pass_pair(sums: ptr<function, Sums>, me: Particle, other_index: u32) {
     (*sums).impulse += Steps(round(pull * contact.direction));
     (*sums).strain += abs(pull);
 }
+const QUEUED_SUMS: u32 = DIMENSION + 1u;
+fn queue_sums(lane: u32, sums: Sums) {
+    queue_steps(lane, 0u, sums.impulse);
+    queue_strain(lane, DIMENSION, sums.strain);
+}
+fn queued_sums(lane: u32) -> Sums { return Sums(queued_steps(lane, 0u), queued_strain(lane, DIMENSION)); }
 fn pass_end(row: u32, index: u32, me: Particle, sums: Sums) {
     failures_of_particles |= select(FAILURE_IMPULSE, 0u, is_within(sums.strain, STRAIN_LIMIT));
     let momentum = held_momentum(me, steps_of(me.momentum) + clock_closing() * sums.impulse);

@@ -20,6 +20,7 @@ fn probe_of(fraction: Fraction, middle: u32) -> Probe {
     return Probe((fraction.x << WINDOW_X) - (1u << 15u),
         PROBE_Y * f32(bitcast<i32>((fraction.y << WINDOW_Y) - (1u << 15u) - middle)));
 }
+fn candidate_of(fraction: Fraction, middle: u32) -> Probe { return probe_of(fraction, middle); }
 fn probe_of_word(word: u32, middle: u32) -> Probe {
     return Probe(word & 0xffff0000u, PROBE_Y * f32(bitcast<i32>((word << 16u) - middle)));
 }

@@ -27,6 +27,7 @@ fn probe_of(fraction: Fraction, middle: vec2<u32>) -> Probe {
         PROBE_Y * f32(bitcast<i32>((fraction.y << WINDOW_Y) - (1u << 21u) - middle.x)),
         PROBE_Z * f32(bitcast<i32>((fraction.z << WINDOW_Z) - (1u << 21u) - middle.y)));
 }
+fn candidate_of(fraction: Fraction, middle: vec2<u32>) -> Probe { return probe_of(fraction, middle); }
 fn probe_of_word(word: u32, middle: vec2<u32>) -> Probe {
     return Probe(word & 0xfff00000u, PROBE_Y * f32(bitcast<i32>(((word << 12u) & 0xffc00000u) - middle.x)),
         PROBE_Z * f32(bitcast<i32>((word << 22u) - middle.y)));

@@ -28,7 +28,8 @@ use differences::{differences, linked};
 use features::{Feature, features};
 use scenes::{interaction, shipped, ways_to_say_off};
 
-const ANY: Hardware = Hardware { subgroup_size: None, serial_memory: false, largest_binding: None };
+const ANY: Hardware =
+    Hardware { subgroup_size: None, serial_memory: false, queues_pairs: false, largest_binding: None };
 
 /// The two kinds of adapters that plans differ for, in turns: what a feature needs does not depend on them.
 const ADAPTERS: [Hardware; 2] = [ANY, Hardware { subgroup_size: Some(8), serial_memory: true, ..ANY }];

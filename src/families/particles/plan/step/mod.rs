@@ -76,6 +76,7 @@ pub(crate) fn plan(model: &Model, measured: &Measured, hardware: Hardware, optio
         (Order::WithList | Order::Never, ..) | (_, false, _) => Traversal::Alone,
         (_, true, Some(traversal)) => traversal,
         (_, true, None) if hardware.takes_eights() => Traversal::Clusters,
+        (_, true, None) if hardware.queues_pairs => Traversal::Queue,
         (_, true, None) => Traversal::Rows,
     };
     let mut builder = Builder {
@@ -198,6 +199,10 @@ impl<'a> Builder<'a> {
             (Constant::ProbeY, self.grid.ratios[1]),
             (Constant::ProbeZ, self.grid.ratios[2]),
             (Constant::ProbeReach, self.grid.reach_squared),
+            (Constant::BytesX, f64::from(self.grid.bytes.count[0])),
+            (Constant::BytesY, f64::from(self.grid.bytes.count[1])),
+            (Constant::BytesZ, f64::from(self.grid.bytes.count[2])),
+            (Constant::BytesReach, f64::from(self.grid.bytes.reach)),
             (Constant::Particles, self.slots as f64),
             (Constant::Workgroup, self.workgroup_size() as f64),
             (Constant::Capacity, (self.slots + capacity) as f64),
@@ -311,16 +316,13 @@ impl<'a> Builder<'a> {
 
     /// The vector space and the grid in it.
     fn space(&self) -> Choices {
-        match self.model.units.dimension {
-            3 => Choices::new()
-                .with(space::Dimension::Three)
-                .with(grid::Dimension::Volume)
-                .with(pairs::Prefilter::Volume),
-            dimension => Choices::new()
-                .with(if dimension == 1 { space::Dimension::One } else { space::Dimension::Two })
-                .with(grid::Dimension::Plane)
-                .with(pairs::Prefilter::Plane),
-        }
+        let by_lanes = self.traversal != Traversal::Clusters;
+        let (space, grid, prefilter) = match self.model.units.dimension {
+            3 => (space::Dimension::Three, grid::Dimension::Volume, pairs::Prefilter::Volume),
+            2 => (space::Dimension::Two, grid::Dimension::Plane, pairs::Prefilter::Plane),
+            _ => (space::Dimension::One, grid::Dimension::Plane, pairs::Prefilter::Plane),
+        };
+        Choices::new().with(space).with(grid).with(if by_lanes { pairs::Prefilter::Bytes } else { prefilter })
     }
 
     /// What kernels choose by the order of particles.
@@ -422,6 +424,11 @@ impl<'a> Builder<'a> {
         })
     }
 
+    /// How reports visit pairs: their sums are more than a word, which no queue adds up, and they are few.
+    pub(crate) fn traversal_of_reports(&self) -> Traversal {
+        if self.traversal == Traversal::Queue { Traversal::Rows } else { self.traversal }
+    }
+
     /// A kernel that visits all pairs.
     pub(crate) fn traversal(
         &mut self,
@@ -443,6 +450,7 @@ impl<'a> Builder<'a> {
         let entry = match traversal {
             Traversal::Alone => Entry::VisitAlone,
             Traversal::Rows => Entry::VisitRows,
+            Traversal::Queue => Entry::VisitQueue,
             Traversal::Clusters => Entry::VisitClusters,
         };
         let rows = self.grid.rows();
@@ -451,9 +459,11 @@ impl<'a> Builder<'a> {
         let shares = |groups: u64| (Constant::Shares, groups as f64);
         let (groups, constants) = match traversal {
             Traversal::Alone => (rows * segments, vec![of_rows]),
-            Traversal::Rows => {
+            Traversal::Rows | Traversal::Queue => {
                 let groups = self.options.segments.map_or_else(|| self.chunks_at_once(), |_| rows * segments);
-                (groups, vec![shares(groups)])
+                let of_lanes = |each: u64| (each * self.workgroup_size()) as f64;
+                let queued = [(Constant::QueueEntries, of_lanes(8)), (Constant::HitPlaces, of_lanes(10))];
+                (groups, [&[shares(groups)][..], if traversal == Traversal::Queue { &queued } else { &[] }].concat())
             }
             Traversal::Clusters => {
                 let wanted = (self.particles / 256).clamp(32, 1024).max(self.least_groups(8));
@@ -477,7 +487,7 @@ impl<'a> Builder<'a> {
     fn segments(&self, traversal: Traversal, rows: u64) -> u64 {
         let (lanes, enough) = match traversal {
             Traversal::Clusters => (8, 64),
-            Traversal::Alone | Traversal::Rows => (self.workgroup_size(), ENOUGH),
+            Traversal::Alone | Traversal::Rows | Traversal::Queue => (self.workgroup_size(), ENOUGH),
         };
         let rounds = (self.particles / self.grid.rows()).div_ceil(lanes).max(1);
         let chosen = self.options.segments.filter(|segments| *segments > 0).map(u64::from);

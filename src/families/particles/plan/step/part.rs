@@ -64,7 +64,7 @@ impl Builder<'_> {
     /// that are visited together may be of both kinds, and on the software adapters that visit them so there is nothing
     /// to gain: host and device are one. Impulses are gathered by copies too, which have to be visited for that.
     fn inner_cells(&self, part: &PlannedPart, edge: f64) -> Option<Cells> {
-        if self.traversal != Traversal::Rows || self.gathers() {
+        if !matches!(self.traversal, Traversal::Rows | Traversal::Queue) || self.gathers() {
             return None;
         }
         let own = part.domains.first().filter(|own| !own.is_whole())?;

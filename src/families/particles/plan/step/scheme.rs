@@ -46,7 +46,7 @@ impl Builder<'_> {
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup, from a row on.
     pub(crate) fn observation(&mut self, name: &'static str, first_group: u32, pass: Choices) -> usize {
         let pass = pass.with_if(self.traversal == Traversal::Clusters, core::Reduction::OfEight);
-        let kernel = self.traversal(name, self.traversal, Masks::Unkept, &pass);
+        let kernel = self.traversal(name, self.traversal_of_reports(), Masks::Unkept, &pass);
         self.plan.kernels[kernel].constants.push((Constant::FirstGroup, f64::from(first_group)));
         self.plan.kernels[kernel].constants.extend(walls::frozen_sums(self.model, &sums(self.model)));
         kernel

@@ -158,6 +158,6 @@ impl Builder<'_> {
     }
 
     fn stress_of_pairs(&mut self, name: &'static str, pass: pairs::Pass) -> usize {
-        self.traversal(name, self.traversal, Masks::Unkept, &Choices::new().with(pass))
+        self.traversal(name, self.traversal_of_reports(), Masks::Unkept, &Choices::new().with(pass))
     }
 }
