@@ -12,9 +12,10 @@ const LENGTH: Unit = Other("length units");
 const AREA: Unit = Other("length units²");
 const WAVE_NUMBER: Unit = Other("1/length unit");
 const VELOCITY_SQUARED: Unit = Other("length units²/time unit²");
-const DIFFUSION: Unit = Other("length units²/time unit");
-const ACCELERATION: Unit = Other("length units/time unit²");
+const DIFFUSIVITY: Unit = Other("length units²/time unit");
 const VELOCITIES: [Unit; 3] = [VELOCITY, VELOCITY_SQUARED, Other("length units⁴/time unit⁴")];
+const ACCELERATIONS: [Unit; 3] =
+    [Other("length units/time unit²"), Other("length units²/time unit⁴"), Other("length units⁴/time unit⁸")];
 const SQUARED_RATE: Unit = Other("1/time unit²");
 const INVERSE: Unit = Other("1 over the unit of the quantity");
 
@@ -24,119 +25,12 @@ const SINCE_START: Quantity = quantity("time", "t", TIME, "time since the start 
 /// The quantities of an analysis. One without a name is every column that no other names.
 pub(super) fn of(id: AnalysisId) -> &'static [Quantity] {
     match id {
-        AnalysisId::RadialDistribution => {
-            const {
-                &[
-                    quantity("distance", "r", LENGTH, "middle of the bin"),
-                    quantity(
-                        "radial_distribution",
-                        "g",
-                        NUMBER,
-                        "pairs over those of particles that are spread evenly",
-                    ),
-                    quantity("pairs", "N", NUMBER, "pairs counted in all samples"),
-                    quantity("peak_distance", "r_p", LENGTH, "distance of the maximum"),
-                    quantity("peak_height", "g(r_p)", NUMBER, "height of the maximum"),
-                ]
-            }
-        }
-        AnalysisId::StructureFactor => {
-            const {
-                &[
-                    quantity("wave_number", "q", WAVE_NUMBER, "mean magnitude of the wave vectors of the bin"),
-                    quantity(
-                        "structure_factor",
-                        "S",
-                        NUMBER,
-                        "⟨ρ_a ρ_b*⟩/√(N_a N_b), 1 for pairs of an ideal gas within a species and 0 between two",
-                    ),
-                    quantity(
-                        "vectors",
-                        "n",
-                        NUMBER,
-                        "wave vectors of the bin, of every two that point against each other one",
-                    ),
-                    quantity("peak_wave_number", "q_p", WAVE_NUMBER, "wave number of the maximum"),
-                    quantity("peak_height", "S(q_p)", NUMBER, "height of the maximum"),
-                ]
-            }
-        }
-        AnalysisId::Diffusion => {
-            const {
-                &[
-                    LAG,
-                    quantity("mean_squared_displacement", "⟨Δr²⟩", AREA, "mean over particles and windows"),
-                    quantity(
-                        "velocity_autocorrelation",
-                        "⟨v(0)·v(t)⟩",
-                        VELOCITY_SQUARED,
-                        "mean over particles and windows",
-                    ),
-                    quantity(
-                        "diffusion_einstein",
-                        "D",
-                        DIFFUSION,
-                        "slope of the mean squared displacement over twice the dimension",
-                    ),
-                    quantity(
-                        "diffusion_green_kubo",
-                        "D",
-                        DIFFUSION,
-                        "integral of the velocity autocorrelation over the dimension",
-                    ),
-                ]
-            }
-        }
-        AnalysisId::ChainSizes => {
-            const {
-                &[
-                    SINCE_START,
-                    quantity(
-                        "end_to_end_squared",
-                        "⟨R²⟩",
-                        AREA,
-                        "mean over chains of the squared distance of the ends",
-                    ),
-                    quantity("radius_of_gyration_squared", "⟨R_g²⟩", AREA, "mean over chains, beads counting alike"),
-                ]
-            }
-        }
-        AnalysisId::Clusters => {
-            const {
-                &[
-                    SINCE_START,
-                    quantity(
-                        "clusters",
-                        "n_c",
-                        NUMBER,
-                        "clusters of at least the least size; in the table of sizes, of this size on average",
-                    ),
-                    quantity("mean_size", "⟨s⟩", NUMBER, "mean number of particles of a cluster"),
-                    quantity(
-                        "weighted_size",
-                        "⟨s²⟩/⟨s⟩",
-                        NUMBER,
-                        "mean over their particles of the size of the cluster",
-                    ),
-                    quantity("largest_size", "s_m", NUMBER, "particles of the largest cluster"),
-                    quantity("size", "s", NUMBER, "particles of a cluster"),
-                    quantity("part", "sn_c/N", NUMBER, "part of the particles that are in clusters of this size"),
-                ]
-            }
-        }
-        AnalysisId::Viscosity => {
-            const {
-                &[
-                    quantity("wave_number", "k", WAVE_NUMBER, "magnitude of the wave vector"),
-                    LAG,
-                    quantity("autocorrelation", "C", NUMBER, "of the transverse momentum waves, 1 at the start"),
-                    quantity("fit", "C", NUMBER, "exponential decay, fitted"),
-                    quantity("shear_viscosity", "η", Viscosity, "mean over the wave numbers, weighted by modes and k²"),
-                    quantity("viscosity", "η", Viscosity, "of the waves of one length"),
-                    quantity("kinematic_viscosity", "ν", DIFFUSION, "shear viscosity over the density"),
-                ]
-            }
-        }
+        AnalysisId::RadialDistribution => RADIAL_DISTRIBUTION,
+        AnalysisId::StructureFactor => STRUCTURE_FACTOR,
+        AnalysisId::Diffusion => DIFFUSION,
+        AnalysisId::ChainSizes => CHAIN_SIZES,
+        AnalysisId::Clusters => CLUSTERS,
+        AnalysisId::Viscosity => VISCOSITY,
         AnalysisId::Autocorrelation(quantity) => match quantity {
             CorrelatedQuantity::Velocity => const { &autocorrelations(VELOCITY_SQUARED) },
             CorrelatedQuantity::Force => const { &autocorrelations(Other("energy units²/length unit²")) },
@@ -144,185 +38,173 @@ pub(super) fn of(id: AnalysisId) -> &'static [Quantity] {
         AnalysisId::Histogram(quantity) => match quantity {
             CountedQuantity::Velocity => const { &histogram("velocity", "v", VELOCITIES) },
             CountedQuantity::Speed => const { &histogram("speed", "|v|", VELOCITIES) },
-            CountedQuantity::Acceleration => {
-                const {
-                    &histogram(
-                        "acceleration",
-                        "a",
-                        [ACCELERATION, Other("length units²/time unit⁴"), Other("length units⁴/time unit⁸")],
-                    )
-                }
-            }
+            CountedQuantity::Acceleration => const { &histogram("acceleration", "a", ACCELERATIONS) },
         },
-        AnalysisId::Circulation => {
-            const {
-                &[
-                    SINCE_START,
-                    quantity("initial", "Γ_0", DIFFUSION, "circulation of the loop at first"),
-                    quantity(
-                        "largest_change",
-                        "max |Γ − Γ_0|",
-                        DIFFUSION,
-                        "as long as the points of the loop are closer together than nodes",
-                    ),
-                    quantity(
-                        "largest_relative_change",
-                        "max |Γ − Γ_0|/|Γ_0|",
-                        NUMBER,
-                        "the largest change over the first value",
-                    ),
-                    quantity(
-                        "resolved_until",
-                        "t",
-                        TIME,
-                        "time up to which the points of the loop are closer together than nodes",
-                    ),
-                    quantity("", "Γ", DIFFUSION, "circulation of the absolute velocity along the loop of this name"),
-                ]
-            }
-        }
-        AnalysisId::Chain => {
-            const {
-                &[
-                    quantity("tau", "τ", NUMBER, "time in units of n/ω_0, that of a cluster of n beads"),
-                    quantity("time", "t", TIME, "time; of the memory, in units of 1/ω_0"),
-                    quantity("cluster", "j", NUMBER, "number of the cluster"),
-                    quantity("micro", "u", NUMBER, "displacement of clusters of beads, over the height of the pulse"),
-                    quantity(
-                        "dpd",
-                        "u",
-                        NUMBER,
-                        "displacement in the chain with friction and noise, over the height of the pulse",
-                    ),
-                    quantity(
-                        "frictionless",
-                        "u",
-                        NUMBER,
-                        "displacement in the chain without friction, over the height of the pulse",
-                    ),
-                    quantity("limit", "C", NUMBER, "limit of large clusters, max(0, 1 − τ)"),
-                    quantity("correlation", "C", NUMBER, "momentum autocorrelation over nmkT"),
-                    quantity("momentum_variance", "⟨P²⟩", NUMBER, "over nmkT"),
-                    quantity("momentum_variance_over_nmkT", "⟨P²⟩", NUMBER, "over nmkT"),
-                    quantity("separation_variance", "⟨Δ²⟩", NUMBER, "of neighbouring clusters, over nkT/κ"),
-                    quantity(
-                        "separation_variance_times_stiffness_over_nkT",
-                        "⟨Δ²⟩",
-                        NUMBER,
-                        "of neighbouring clusters, over nkT/κ",
-                    ),
-                    quantity("peak", "u_m", NUMBER, "height of the pulse, over that at the start"),
-                    quantity("pulse_peak", "u_m", NUMBER, "height of the pulse at the end, over that at the start"),
-                    quantity("variance", "σ²", Other("square of a distance of clusters"), "width of the pulse"),
-                    quantity(
-                        "pulse_variance",
-                        "σ²",
-                        Other("square of a distance of clusters"),
-                        "width of the pulse at the end",
-                    ),
-                    quantity("energy", "E", NUMBER, "energy of the resolved motion, over that at the start"),
-                    quantity(
-                        "pulse_energy",
-                        "E",
-                        NUMBER,
-                        "energy of the resolved motion at the end, over that at the start",
-                    ),
-                    quantity(
-                        "running_friction",
-                        "γ",
-                        NUMBER,
-                        "integral of the memory of a cluster of so many beads up to the time",
-                    ),
-                    quantity("plateau", "γ", NUMBER, "line through the plateau of the integral"),
-                    quantity("plateau_friction_by_cluster_size", "γ", NUMBER, "friction at the plateau"),
-                    quantity("reduced_time", "τ", NUMBER, "time at the end in units of n/ω_0"),
-                    quantity("reduced_friction", "γ*", NUMBER, "friction of the chain with friction and noise"),
-                ]
-            }
-        }
-        AnalysisId::Neighbours => {
-            const {
-                &[
-                    quantity("neighbours", "z", NUMBER, "number of neighbours of a cell"),
-                    quantity("fraction", "f", NUMBER, "part of the cells that have this number"),
-                    quantity("random_points", "f", NUMBER, "that part of the cells of points at random"),
-                    quantity("mean", "⟨z⟩", NUMBER, "mean number of neighbours"),
-                    quantity("variance", "⟨z²⟩ − ⟨z⟩²", NUMBER, "variance of the number of neighbours"),
-                ]
-            }
-        }
-        AnalysisId::ShearWave => {
-            const {
-                &[
-                    SINCE_START,
-                    quantity(
-                        "amplitude",
-                        "A",
-                        VELOCITY,
-                        "velocity along x, projected on the wave that it started with",
-                    ),
-                    quantity("fit", "A", VELOCITY, "exponential decay, fitted"),
-                    quantity("wave_number", "k", WAVE_NUMBER, "magnitude of the wave vector"),
-                    quantity("initial_amplitude", "A_0", VELOCITY, "amplitude of the first sample"),
-                    quantity("decay_rate", "νk²", RATE, "rate of the exponential decay"),
-                    quantity("kinematic_viscosity", "ν", DIFFUSION, "decay rate over k²"),
-                    quantity("shear_viscosity", "η", Viscosity, "kinematic viscosity times the density"),
-                    quantity("", "η", Viscosity, "known beforehand, for comparison"),
-                ]
-            }
-        }
-        AnalysisId::Spectra => {
-            const {
-                &[
-                    quantity("wave_number", "k", WAVE_NUMBER, "wave number in the middle of the shell"),
-                    quantity("modes", "n", NUMBER, "Fourier modes in the shell"),
-                    quantity("kinetic_energy", "K", Energy, "½ Σ h̃(u² + v²) over nodes, of the modes of the shell"),
-                    quantity("potential_energy", "U", Energy, "½ c₀² Σ (h̃ − 1)(h − 1), of the modes of the shell"),
-                    quantity("potential_enstrophy", "Z", SQUARED_RATE, "½ Σ (ζ + f₀)²/h, of the modes of the shell"),
-                    quantity("enstrophy", "Z_ζ", SQUARED_RATE, "½ Σ ζ², of the modes of the shell"),
-                ]
-            }
-        }
-        AnalysisId::Profiles => {
-            const {
-                &[
-                    quantity("position", "x", LENGTH, "middle of the bin along the axis"),
-                    quantity("number_density", "n", Density, "particles over volume"),
-                    quantity("velocity", "u", VELOCITY, "momentum over mass"),
-                    quantity(
-                        "temperature",
-                        "kT",
-                        Temperature,
-                        "of the motion relative to the centre of mass of the bin",
-                    ),
-                    quantity("pressure", "P", Pressure, "pressure tensor relative to the mean velocity of the bin"),
-                ]
-            }
-        }
-        AnalysisId::Stress => {
-            const {
-                &[
-                    LAG_OR_TIME,
-                    quantity("pressure", "P", Pressure, "pressure tensor, the sum of its three parts"),
-                    quantity("kinetic", "P_K", Pressure, "momentum that particles carry"),
-                    quantity("conservative", "P_C", Pressure, "virials of pairs, bonds and angles"),
-                    quantity("frictional", "P_D", Pressure, "virials of friction, noise and baths"),
-                    quantity("surface_tension", "γ", Tension, "of the interfaces across the normal"),
-                    quantity("surface_tension_conservative", "γ_C", Tension, "of the conservative part of the tensor"),
-                    quantity("viscosity_in_shear", "η", Viscosity, "shear stress over the shear rate"),
-                    quantity(
-                        "autocorrelation",
-                        "V⟨σσ⟩/kT",
-                        Other("that of a viscosity over time units"),
-                        "of the shear stress, times V/kT",
-                    ),
-                    quantity("viscosity", "η", Viscosity, "sum of the autocorrelation up to the lag"),
-                    quantity("shear_viscosity", "η", Viscosity, "sum of the autocorrelation up to the longest lag"),
-                ]
-            }
-        }
+        AnalysisId::Circulation => CIRCULATION,
+        AnalysisId::Chain => CHAIN,
+        AnalysisId::Neighbours => NEIGHBOURS,
+        AnalysisId::ShearWave => SHEAR_WAVE,
+        AnalysisId::Spectra => SPECTRA,
+        AnalysisId::Profiles => PROFILES,
+        AnalysisId::Stress => STRESS,
     }
 }
+
+const RADIAL_DISTRIBUTION: &[Quantity] = &[
+    quantity("distance", "r", LENGTH, "middle of the bin"),
+    quantity("radial_distribution", "g", NUMBER, "pairs over those of particles that are spread evenly"),
+    quantity("pairs", "N", NUMBER, "pairs counted in all samples"),
+    quantity("peak_distance", "r_p", LENGTH, "distance of the maximum"),
+    quantity("peak_height", "g(r_p)", NUMBER, "height of the maximum"),
+];
+
+const STRUCTURE_FACTOR: &[Quantity] = &[
+    quantity("wave_number", "q", WAVE_NUMBER, "mean magnitude of the wave vectors of the bin"),
+    quantity(
+        "structure_factor",
+        "S",
+        NUMBER,
+        "⟨ρ_a ρ_b*⟩/√(N_a N_b), 1 for pairs of an ideal gas within a species and 0 between two",
+    ),
+    quantity("vectors", "n", NUMBER, "wave vectors of the bin, of every two that point against each other one"),
+    quantity("peak_wave_number", "q_p", WAVE_NUMBER, "wave number of the maximum"),
+    quantity("peak_height", "S(q_p)", NUMBER, "height of the maximum"),
+];
+
+const DIFFUSION: &[Quantity] = &[
+    LAG,
+    quantity("mean_squared_displacement", "⟨Δr²⟩", AREA, "mean over particles and windows"),
+    quantity("velocity_autocorrelation", "⟨v(0)·v(t)⟩", VELOCITY_SQUARED, "mean over particles and windows"),
+    quantity("diffusion_einstein", "D", DIFFUSIVITY, "slope of the mean squared displacement over twice the dimension"),
+    quantity("diffusion_green_kubo", "D", DIFFUSIVITY, "integral of the velocity autocorrelation over the dimension"),
+];
+
+const CHAIN_SIZES: &[Quantity] = &[
+    SINCE_START,
+    quantity("end_to_end_squared", "⟨R²⟩", AREA, "mean over chains of the squared distance of the ends"),
+    quantity("radius_of_gyration_squared", "⟨R_g²⟩", AREA, "mean over chains, beads counting alike"),
+];
+
+const CLUSTERS: &[Quantity] = &[
+    SINCE_START,
+    quantity(
+        "clusters",
+        "n_c",
+        NUMBER,
+        "clusters of at least the least size; in the table of sizes, of this size on average",
+    ),
+    quantity("mean_size", "⟨s⟩", NUMBER, "mean number of particles of a cluster"),
+    quantity("weighted_size", "⟨s²⟩/⟨s⟩", NUMBER, "mean over their particles of the size of the cluster"),
+    quantity("largest_size", "s_m", NUMBER, "particles of the largest cluster"),
+    quantity("size", "s", NUMBER, "particles of a cluster"),
+    quantity("part", "sn_c/N", NUMBER, "part of the particles that are in clusters of this size"),
+];
+
+const VISCOSITY: &[Quantity] = &[
+    quantity("wave_number", "k", WAVE_NUMBER, "magnitude of the wave vector"),
+    LAG,
+    quantity("autocorrelation", "C", NUMBER, "of the transverse momentum waves, 1 at the start"),
+    quantity("fit", "C", NUMBER, "exponential decay, fitted"),
+    quantity("shear_viscosity", "η", Viscosity, "mean over the wave numbers, weighted by modes and k²"),
+    quantity("viscosity", "η", Viscosity, "of the waves of one length"),
+    quantity("kinematic_viscosity", "ν", DIFFUSIVITY, "shear viscosity over the density"),
+];
+
+const CIRCULATION: &[Quantity] = &[
+    SINCE_START,
+    quantity("initial", "Γ_0", DIFFUSIVITY, "circulation of the loop at first"),
+    quantity(
+        "largest_change",
+        "max |Γ − Γ_0|",
+        DIFFUSIVITY,
+        "as long as the points of the loop are closer together than nodes",
+    ),
+    quantity("largest_relative_change", "max |Γ − Γ_0|/|Γ_0|", NUMBER, "the largest change over the first value"),
+    quantity("resolved_until", "t", TIME, "time up to which the points of the loop are closer together than nodes"),
+    quantity("", "Γ", DIFFUSIVITY, "circulation of the absolute velocity along the loop of this name"),
+];
+
+const CHAIN: &[Quantity] = &[
+    quantity("tau", "τ", NUMBER, "time in units of n/ω_0, that of a cluster of n beads"),
+    quantity("time", "t", TIME, "time; of the memory, in units of 1/ω_0"),
+    quantity("cluster", "j", NUMBER, "number of the cluster"),
+    quantity("micro", "u", NUMBER, "displacement of clusters of beads, over the height of the pulse"),
+    quantity("dpd", "u", NUMBER, "displacement in the chain with friction and noise, over the height of the pulse"),
+    quantity("frictionless", "u", NUMBER, "displacement in the chain without friction, over the height of the pulse"),
+    quantity("limit", "C", NUMBER, "limit of large clusters, max(0, 1 − τ)"),
+    quantity("correlation", "C", NUMBER, "momentum autocorrelation over nmkT"),
+    quantity("momentum_variance", "⟨P²⟩", NUMBER, "over nmkT"),
+    quantity("momentum_variance_over_nmkT", "⟨P²⟩", NUMBER, "over nmkT"),
+    quantity("separation_variance", "⟨Δ²⟩", NUMBER, "of neighbouring clusters, over nkT/κ"),
+    quantity("separation_variance_times_stiffness_over_nkT", "⟨Δ²⟩", NUMBER, "of neighbouring clusters, over nkT/κ"),
+    quantity("peak", "u_m", NUMBER, "height of the pulse, over that at the start"),
+    quantity("pulse_peak", "u_m", NUMBER, "height of the pulse at the end, over that at the start"),
+    quantity("variance", "σ²", Other("square of a distance of clusters"), "width of the pulse"),
+    quantity("pulse_variance", "σ²", Other("square of a distance of clusters"), "width of the pulse at the end"),
+    quantity("energy", "E", NUMBER, "energy of the resolved motion, over that at the start"),
+    quantity("pulse_energy", "E", NUMBER, "energy of the resolved motion at the end, over that at the start"),
+    quantity("running_friction", "γ", NUMBER, "integral of the memory of a cluster of so many beads up to the time"),
+    quantity("plateau", "γ", NUMBER, "line through the plateau of the integral"),
+    quantity("plateau_friction_by_cluster_size", "γ", NUMBER, "friction at the plateau"),
+    quantity("reduced_time", "τ", NUMBER, "time at the end in units of n/ω_0"),
+    quantity("reduced_friction", "γ*", NUMBER, "friction of the chain with friction and noise"),
+];
+
+const NEIGHBOURS: &[Quantity] = &[
+    quantity("neighbours", "z", NUMBER, "number of neighbours of a cell"),
+    quantity("fraction", "f", NUMBER, "part of the cells that have this number"),
+    quantity("random_points", "f", NUMBER, "that part of the cells of points at random"),
+    quantity("mean", "⟨z⟩", NUMBER, "mean number of neighbours"),
+    quantity("variance", "⟨z²⟩ − ⟨z⟩²", NUMBER, "variance of the number of neighbours"),
+];
+
+const SHEAR_WAVE: &[Quantity] = &[
+    SINCE_START,
+    quantity("amplitude", "A", VELOCITY, "velocity along x, projected on the wave that it started with"),
+    quantity("fit", "A", VELOCITY, "exponential decay, fitted"),
+    quantity("wave_number", "k", WAVE_NUMBER, "magnitude of the wave vector"),
+    quantity("initial_amplitude", "A_0", VELOCITY, "amplitude of the first sample"),
+    quantity("decay_rate", "νk²", RATE, "rate of the exponential decay"),
+    quantity("kinematic_viscosity", "ν", DIFFUSIVITY, "decay rate over k²"),
+    quantity("shear_viscosity", "η", Viscosity, "kinematic viscosity times the density"),
+    quantity("", "η", Viscosity, "known beforehand, for comparison"),
+];
+
+const SPECTRA: &[Quantity] = &[
+    quantity("wave_number", "k", WAVE_NUMBER, "wave number in the middle of the shell"),
+    quantity("modes", "n", NUMBER, "Fourier modes in the shell"),
+    quantity("kinetic_energy", "K", Energy, "½ Σ h̃(u² + v²) over nodes, of the modes of the shell"),
+    quantity("potential_energy", "U", Energy, "½ c₀² Σ (h̃ − 1)(h − 1), of the modes of the shell"),
+    quantity("potential_enstrophy", "Z", SQUARED_RATE, "½ Σ (ζ + f₀)²/h, of the modes of the shell"),
+    quantity("enstrophy", "Z_ζ", SQUARED_RATE, "½ Σ ζ², of the modes of the shell"),
+];
+
+const PROFILES: &[Quantity] = &[
+    quantity("position", "x", LENGTH, "middle of the bin along the axis"),
+    quantity("number_density", "n", Density, "particles over volume"),
+    quantity("velocity", "u", VELOCITY, "momentum over mass"),
+    quantity("temperature", "kT", Temperature, "of the motion relative to the centre of mass of the bin"),
+    quantity("pressure", "P", Pressure, "pressure tensor relative to the mean velocity of the bin"),
+];
+
+const STRESS: &[Quantity] = &[
+    LAG_OR_TIME,
+    quantity("pressure", "P", Pressure, "pressure tensor, the sum of its three parts"),
+    quantity("kinetic", "P_K", Pressure, "momentum that particles carry"),
+    quantity("conservative", "P_C", Pressure, "virials of pairs, bonds and angles"),
+    quantity("frictional", "P_D", Pressure, "virials of friction, noise and baths"),
+    quantity("surface_tension", "γ", Tension, "of the interfaces across the normal"),
+    quantity("surface_tension_conservative", "γ_C", Tension, "of the conservative part of the tensor"),
+    quantity("viscosity_in_shear", "η", Viscosity, "shear stress over the shear rate"),
+    quantity(
+        "autocorrelation",
+        "V⟨σσ⟩/kT",
+        Other("that of a viscosity over time units"),
+        "of the shear stress, times V/kT",
+    ),
+    quantity("viscosity", "η", Viscosity, "sum of the autocorrelation up to the lag"),
+    quantity("shear_viscosity", "η", Viscosity, "sum of the autocorrelation up to the longest lag"),
+];
 
 const LAG_OR_TIME: Quantity = quantity("time", "t", TIME, "time since the start of the run; of the correlation, lag");
 
@@ -402,23 +284,18 @@ pub(super) fn numbers_of(column: &str) -> Vec<usize> {
 /// A result whose numbers have their units, those of a box of this dimension.
 pub(super) fn with_units(id: AnalysisId, result: Value, dimension: usize) -> Value {
     match result {
-        Value::Object(entries) => Value::Object(
-            entries
-                .into_iter()
-                .map(|(key, value)| {
-                    let known = named(id, &key).filter(|_| !COUNTS.contains(&key.as_str()));
-                    debug_assert!(
-                        known.is_some() || COUNTS.contains(&key.as_str()) || !value.is_f64(),
-                        "unit of `{key}` of {id:?}"
-                    );
-                    let value = match known {
-                        Some(known) => numbers_with_unit(id, value, known.unit.in_words(Some(dimension)), dimension),
-                        None => with_units(id, value, dimension),
-                    };
-                    (key, value)
-                })
-                .collect(),
-        ),
+        Value::Object(mut entries) => {
+            for (key, value) in &mut entries {
+                let is_count = COUNTS.contains(&key.as_str());
+                let known = named(id, key).filter(|_| !is_count);
+                debug_assert!(known.is_some() || is_count || !value.is_f64(), "unit of `{key}` of {id:?}");
+                *value = match known {
+                    Some(known) => numbers_with_unit(id, value.take(), known.unit.in_words(Some(dimension)), dimension),
+                    None => with_units(id, value.take(), dimension),
+                };
+            }
+            Value::Object(entries)
+        }
         Value::Array(entries) => entries.into_iter().map(|entry| with_units(id, entry, dimension)).collect(),
         other => other,
     }
