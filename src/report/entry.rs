@@ -6,6 +6,7 @@ use image::ImageFormat;
 use image::codecs::jpeg::JpegEncoder;
 use serde::Serialize;
 use serde_json::Value;
+use std::fmt::Display;
 use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -44,6 +45,13 @@ pub(super) struct TextTable {
     /// Places of columns with numbers.
     pub numbers: Vec<usize>,
     pub note: Option<String>,
+}
+
+impl TextTable {
+    pub(super) fn new(heading: &str, header: &[&str], rows: Vec<Vec<String>>) -> Self {
+        let header = header.iter().map(|name| (*name).to_owned()).collect();
+        Self { heading: heading.to_owned(), header, rows, ..Self::default() }
+    }
 }
 
 /// A picture inside of the page.
@@ -104,6 +112,11 @@ impl Entry {
     pub(super) fn add_fact(&mut self, name: &'static str, text: impl Into<String>) {
         self.facts.push(Fact { name, text: text.into() });
     }
+
+    /// What could be read; the reason why it could not be is among what is missing.
+    pub(super) fn readable<T>(&mut self, read: Result<T, impl Display>) -> Option<T> {
+        read.map_err(|error| self.missing.push(error.to_string())).ok()
+    }
 }
 
 /// Pictures of a directory by their names.
@@ -114,8 +127,9 @@ pub(super) fn pictures(directory: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// A picture inside of the page, at most so many pixels wide: a page is to be sent around. What is no picture is said.
-pub(super) fn inside(path: &Path, name: String, width: u32) -> Result<Inside, String> {
+/// A picture inside of the page, at most so many pixels wide: a page is to be sent around.
+pub(super) fn inside(path: &Path, width: u32) -> Result<Inside, String> {
+    let name = path.file_stem().map(|stem| stem.to_string_lossy().replace('_', " ")).unwrap_or_default();
     let bytes = fs::read(path).map_err(|error| format!("`{name}` cannot be read: {error}"))?;
     let damaged = |error: image::ImageError| format!("`{name}` is damaged: {error}");
     let picture = image::load_from_memory_with_format(&bytes, ImageFormat::Png).map_err(damaged)?;

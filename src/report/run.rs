@@ -1,8 +1,8 @@
 //! The page of a run.
 
-use super::entry::{Difference, Entry, Inside, TextTable, WIDTH, in_a_line, inside, pictures};
+use super::entry::{Difference, Entry, TextTable, WIDTH, in_a_line, inside, pictures};
 use crate::numbers::{grouped, prefixed, with_error};
-use crate::output::{OutputError, Summary, files, read_table};
+use crate::output::{Found, OutputError, Summary, files, read_table};
 use crate::run::printed_results;
 use crate::scene::{self, WrittenScene};
 use serde_json::Value;
@@ -60,29 +60,20 @@ fn describe(entry: &mut Entry, directory: &Path, summary: &Summary) {
     differences(entry, summary);
     entry.warnings.clone_from(&summary.warnings);
     entry.tables.extend(means(summary));
-    let results = printed_results(summary);
+    let results: Vec<_> = printed_results(summary).into_iter().map(|(name, text)| vec![name, text]).collect();
     if !results.is_empty() {
-        let rows = results.into_iter().map(|(name, text)| vec![name, text]).collect();
-        let header = ["quantity", "value"].map(str::to_owned).to_vec();
-        entry.tables.push(TextTable {
-            heading: "What analyses found".to_owned(),
-            header,
-            rows,
-            ..TextTable::default()
-        });
+        entry.tables.push(TextTable::new("What analyses found", &["quantity", "value"], results));
     }
     entry.conserved.clone_from(&summary.conserved_exactly);
     entry.not_conserved.clone_from(&summary.not_conserved);
     if summary.files.is_none() {
-        entry
-            .missing
-            .push("the run ended before all of its pictures were written: `mesoscope resume` writes them".to_owned());
+        let note = "the run ended before all of its pictures were written: `mesoscope resume` writes them";
+        entry.missing.push(note.to_owned());
     }
     for (name, extent) in &summary.tables {
-        match extent.find_in(&directory.join(name)) {
-            Ok(crate::output::Found::Whole) => {}
-            Ok(_) => entry.missing.push(format!("`{name}` is not what the run wrote")),
-            Err(error) => entry.missing.push(error.to_string()),
+        let found = entry.readable(extent.find_in(&directory.join(name)));
+        if found.is_some_and(|found| !matches!(found, Found::Whole)) {
+            entry.missing.push(format!("`{name}` is not what the run wrote"));
         }
     }
     for name in summary.files.iter().flatten().filter(|name| !directory.join(name).exists()) {
@@ -154,19 +145,16 @@ fn means(summary: &Summary) -> Option<TextTable> {
     }
     let note =
         few.then(|| "* from few samples: the error is not known to a quarter of itself, and may be larger".to_owned());
-    let header = ["column", "mean after equilibration", "symbol", "value ± standard error", "unit", ""]
-        .map(str::to_owned)
-        .to_vec();
-    (!rows.is_empty()).then(|| TextTable { heading: "Means".to_owned(), header, rows, numbers: vec![3], note })
+    let header = ["column", "mean after equilibration", "symbol", "value ± standard error", "unit", ""];
+    (!rows.is_empty()).then(|| TextTable { numbers: vec![3], note, ..TextTable::new("Means", &header, rows) })
 }
 
 fn last_row(entry: &mut Entry, columns: &[String], row: &[f64]) {
     let rows: Vec<_> =
         columns.iter().zip(row).map(|(name, value)| vec![name.replace('_', " "), with_error(*value, None)]).collect();
     if !rows.is_empty() {
-        let header = ["quantity", "value"].map(str::to_owned).to_vec();
-        let heading = "The last row of the table of energies".to_owned();
-        entry.tables.push(TextTable { heading, header, rows, numbers: vec![1], note: None });
+        let table = TextTable::new("The last row of the table of energies", &["quantity", "value"], rows);
+        entry.tables.push(TextTable { numbers: vec![1], ..table });
     }
 }
 
@@ -180,18 +168,6 @@ fn add_pictures(entry: &mut Entry, directory: &Path) {
         let all = numbered.len();
         numbered = (0..STRIP).map(|place| numbered[place * (all - 1) / (STRIP - 1)].clone()).collect();
     }
-    let mut read = |paths: Vec<std::path::PathBuf>, width: u32| -> Vec<Inside> {
-        let name =
-            |path: &Path| path.file_stem().map(|stem| stem.to_string_lossy().replace('_', " ")).unwrap_or_default();
-        let found = paths.iter().filter_map(|path| match inside(path, name(path), width) {
-            Ok(inside) => Some(inside),
-            Err(note) => {
-                entry.missing.push(note);
-                None
-            }
-        });
-        found.collect()
-    };
-    let (pictures, strip) = (read(single, WIDTH), read(numbered, WIDTH / 3));
-    (entry.pictures, entry.strip) = (pictures, strip);
+    entry.pictures = single.iter().filter_map(|path| entry.readable(inside(path, WIDTH))).collect();
+    entry.strip = numbered.iter().filter_map(|path| entry.readable(inside(path, WIDTH / 3))).collect();
 }

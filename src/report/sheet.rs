@@ -79,7 +79,11 @@ impl Pen {
         self.top += 0.3 * GUTTER;
     }
 
-    fn write_items<'t>(&mut self, texts: impl IntoIterator<Item = &'t str>, style: SheetType) {
+    /// Texts below their heading, if there are any.
+    fn write_list(&mut self, heading: &str, texts: &[String], style: SheetType) {
+        if !texts.is_empty() {
+            self.write_heading(heading);
+        }
         for text in texts {
             self.write(&format!("· {text}"), style);
         }
@@ -93,26 +97,18 @@ impl Pen {
             self.top += 0.3 * GUTTER;
             self.write(description, BODY);
         }
-        if !entry.missing.is_empty() {
-            self.write_heading("Not all of it is here");
-            self.write_items(entry.missing.iter().map(String::as_str), NOTE);
+        self.write_list("Not all of it is here", &entry.missing, NOTE);
+        let facts = entry.facts.iter().map(|fact| vec![fact.name.to_owned(), fact.text.clone()]).collect();
+        let heading = format!("Differences from the built-in scene {}", entry.builtin.as_deref().unwrap_or_default());
+        let differences = entry.differences.iter().map(|d| vec![d.key.clone(), d.before.clone(), d.after.clone()]);
+        let differences = TextTable::new(&heading, &["key", "built-in", "here"], differences.collect());
+        for table in [TextTable::new("What was computed", &[], facts), differences] {
+            if !table.rows.is_empty() {
+                self.write_heading(&table.heading);
+                self.write_table(&table);
+            }
         }
-        if !entry.facts.is_empty() {
-            self.write_heading("What was computed");
-            let rows = entry.facts.iter().map(|fact| vec![fact.name.to_owned(), fact.text.clone()]);
-            self.write_table(&TextTable { rows: rows.collect(), ..TextTable::default() });
-        }
-        if !entry.differences.is_empty() {
-            let builtin = entry.builtin.as_deref().unwrap_or_default();
-            self.write_heading(&format!("Differences from the built-in scene {builtin}"));
-            let rows = entry.differences.iter().map(|d| vec![d.key.clone(), d.before.clone(), d.after.clone()]);
-            let header = ["key", "built-in", "here"].map(str::to_owned).to_vec();
-            self.write_table(&TextTable { header, rows: rows.collect(), ..TextTable::default() });
-        }
-        if !entry.warnings.is_empty() {
-            self.write_heading("Before trusting the numbers");
-            self.write_items(entry.warnings.iter().map(String::as_str), NOTE);
-        }
+        self.write_list("Before trusting the numbers", &entry.warnings, NOTE);
         for table in &entry.tables {
             self.write_heading(&table.heading);
             self.write_table(table);
@@ -120,34 +116,19 @@ impl Pen {
         if let Some(markdown) = &entry.markdown {
             self.write_markdown(markdown);
         }
-        if !entry.conserved.is_empty() || !entry.not_conserved.is_empty() {
-            self.write_heading("What is conserved");
-            let exactly = entry.conserved.iter().map(|line| format!("to the last bit: {line}"));
-            let lines: Vec<String> =
-                exactly.chain(entry.not_conserved.iter().map(|line| format!("not: {line}"))).collect();
-            self.write_items(lines.iter().map(String::as_str), BODY);
-        }
-        if !entry.pictures.is_empty() {
-            self.write_heading("Pictures");
-            self.lay_pictures(&entry.pictures, 2);
-        }
-        if !entry.strip.is_empty() {
-            self.write_heading("As it went on");
-            self.lay_pictures(&entry.strip, 6);
-        }
+        let exactly = entry.conserved.iter().map(|line| format!("to the last bit: {line}"));
+        let lines: Vec<String> = exactly.chain(entry.not_conserved.iter().map(|line| format!("not: {line}"))).collect();
+        self.write_list("What is conserved", &lines, BODY);
+        self.lay_pictures("Pictures", &entry.pictures, 2);
+        self.lay_pictures("As it went on", &entry.strip, 6);
         self.write_heading("How to repeat it");
         for line in &entry.repeat {
             self.write(line, BODY);
         }
-        if entry.scene.is_none() {
-            return;
+        if entry.scene.is_some() {
+            let (directory, scene) = (&entry.directory, entry.scene_is.to_lowercase());
+            self.write(&format!("The page that `mesoscope report {directory}` makes has {scene} as well."), BODY);
         }
-        let whole = format!(
-            "The page that `mesoscope report {}` makes has {} as well.",
-            entry.directory,
-            entry.scene_is.to_lowercase()
-        );
-        self.write(&whole, BODY);
     }
 
     /// A table, in parts below each other where its columns do not fit side by side: each begins with the first column.
@@ -190,8 +171,11 @@ impl Pen {
         }
     }
 
-    /// Pictures side by side, each with its name below.
-    fn lay_pictures(&mut self, pictures: &[Inside], columns: usize) {
+    /// Pictures side by side below their heading, each with its name below.
+    fn lay_pictures(&mut self, heading: &str, pictures: &[Inside], columns: usize) {
+        if !pictures.is_empty() {
+            self.write_heading(heading);
+        }
         let width = (Self::room() - GUTTER * (columns - 1) as f64) / columns as f64;
         for row in pictures.chunks(columns) {
             let mut bottom = self.top;
@@ -221,10 +205,9 @@ impl Pen {
                 Event::SoftBreak | Event::HardBreak => text.push(' '),
                 Event::Start(Tag::Item) => is_item = true,
                 Event::End(TagEnd::Item) => {
-                    self.write_items(
-                        [std::mem::take(&mut text).as_str()].into_iter().filter(|text| !text.is_empty()),
-                        BODY,
-                    );
+                    if !text.is_empty() {
+                        self.write(&format!("· {}", std::mem::take(&mut text)), BODY);
+                    }
                     is_item = false;
                 }
                 Event::End(TagEnd::Heading(_)) => self.write_heading(&std::mem::take(&mut text)),

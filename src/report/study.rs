@@ -1,6 +1,6 @@
 //! The pages of sweeps, tradeoffs and maps of stability.
 
-use super::entry::{Entry, TextTable, WIDTH, inside, pictures};
+use super::entry::{Entry, TextTable, WIDTH, in_a_line, inside, pictures};
 use crate::numbers::{six_digits, with_error};
 use crate::output::own_file;
 use crate::study::Kind;
@@ -16,54 +16,35 @@ const MOST_ROWS: usize = 200;
 pub(super) fn entry(directory: &Path) -> Option<Entry> {
     let kind = Kind::of(directory)?;
     let mut entry = Entry::of(kind.noun, directory);
-    let summary: Value = match own_file::json(&directory.join(kind.summary)) {
-        Ok(summary) => summary,
-        Err(error) => {
-            entry.missing.push(error.to_string());
-            Value::Null
-        }
-    };
-    let text = |key: &str| summary[key].as_str().map(str::to_owned);
+    let summary: Value = entry.readable(own_file::json(&directory.join(kind.summary))).unwrap_or_default();
     let written = summary.pointer("/arguments/text").and_then(Value::as_str);
     let written: Option<Value> = written.and_then(|text| serde_json::from_str(text).ok());
     let title = summary.pointer("/base/title").or_else(|| written.as_ref()?.get("title")).and_then(Value::as_str);
     if let Some(title) = title {
         entry.title = format!("{title}: {}", kind.noun);
     }
-    entry.when = text("date").filter(|date| !date.is_empty());
-    if let Some(adapter) = summary["adapter"]["name"].as_str() {
-        entry.add_fact("adapter", adapter);
-    }
-    if let Some(version) = text("mesoscope_version") {
-        entry.add_fact("version", version);
+    entry.when = summary["date"].as_str().filter(|date| !date.is_empty()).map(str::to_owned);
+    for (name, value) in [("adapter", &summary["adapter"]["name"]), ("version", &summary["mesoscope_version"])] {
+        value.as_str().into_iter().for_each(|text| entry.add_fact(name, text));
     }
     let varied = summary.pointer("/arguments/vary").or_else(|| summary.get("vary")).cloned().unwrap_or_default();
     for value in varied.as_array().into_iter().flatten() {
-        let shown = value.as_str().map_or_else(
-            || {
-                let values =
-                    value["values"].as_array().map(|all| all.iter().map(super::entry::in_a_line).collect::<Vec<_>>());
-                format!("{} = {}", value["key"].as_str().unwrap_or_default(), values.unwrap_or_default().join(", "))
-            },
-            str::to_owned,
-        );
-        entry.add_fact("varied", shown);
+        let values: Vec<String> = value["values"].as_array().into_iter().flatten().map(in_a_line).collect();
+        let of_key = || format!("{} = {}", value["key"].as_str().unwrap_or_default(), values.join(", "));
+        entry.add_fact("varied", value.as_str().map_or_else(of_key, str::to_owned));
     }
-    let unfinished =
-        summary["variants"].as_array().into_iter().flatten().filter(|variant| variant["state"] != "finished");
-    for variant in unfinished {
-        let name = variant["name"].as_str().unwrap_or_default();
-        let why =
-            variant["failure"].as_str().map_or_else(|| "has not ended".to_owned(), |why| format!("failed: {why}"));
-        entry.missing.push(format!("`{name}` {why}"));
+    for variant in summary["variants"].as_array().into_iter().flatten().filter(|one| one["state"] != "finished") {
+        let failure = variant["failure"].as_str().map(|why| format!("failed: {why}"));
+        let why = failure.as_deref().unwrap_or("has not ended");
+        entry.missing.push(format!("`{}` {why}", variant["name"].as_str().unwrap_or_default()));
     }
     for (suffix, heading) in [("", "Runs"), ("-averages", "Means over seeds")] {
-        let path = directory.join(format!("{}{suffix}.csv", kind.command));
+        let name = format!("{}{suffix}.csv", kind.command);
+        let path = directory.join(&name);
         if suffix.is_empty() || path.exists() {
-            match fs::read_to_string(&path) {
-                Ok(found) => entry.tables.extend(table(&found, heading)),
-                Err(error) => entry.missing.push(format!("`{}{suffix}.csv` cannot be read: {error}", kind.command)),
-            }
+            let text = fs::read_to_string(&path).map_err(|error| format!("`{name}` cannot be read: {error}"));
+            let found = entry.readable(text).and_then(|text| table(&text, heading));
+            entry.tables.extend(found);
         }
     }
     if let Ok(page) = fs::read_to_string(directory.join(format!("{}.md", kind.command))) {
@@ -74,11 +55,8 @@ pub(super) fn entry(directory: &Path) -> Option<Entry> {
         entry.tables.clear();
     }
     for path in pictures(directory) {
-        let name = path.file_stem().map(|stem| stem.to_string_lossy().replace('_', " ")).unwrap_or_default();
-        match inside(&path, name, WIDTH) {
-            Ok(picture) => entry.pictures.push(picture),
-            Err(note) => entry.missing.push(note),
-        }
+        let picture = entry.readable(inside(&path, WIDTH));
+        entry.pictures.extend(picture);
     }
     let kept = ["arguments", "scene", "base", "vary", "also", "set", "steps", "state_files"];
     let request: Map<String, Value> =
