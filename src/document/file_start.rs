@@ -9,7 +9,7 @@ use std::sync::Arc;
 /// What a scene keeps of the file that its particles start from, in the order of the file.
 ///
 /// Copies of the box follow each other, x first; in each of them the particles are in this order.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct FileStart {
     /// Copies of the box of the file along every axis.
     pub copies: [u32; 3],

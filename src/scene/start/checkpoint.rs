@@ -1,7 +1,7 @@
 //! The particles of an earlier run, from its last checkpoint.
 
 use crate::families::{Angles, Bonds, Checked, Family, Link, Model};
-use crate::scene::{Change, EarlierRun, FileStart, Integrator, WrittenScene};
+use crate::scene::{Change, EarlierRun, FileStart, WrittenScene};
 use crate::state::{State, StateArray};
 use crate::state_file::checkpoint::{self, ContentError, FILE, MAGIC, START, VERSION};
 use crate::state_file::{Fits, Links, Mistake, ParticleFile, frozen_layers, open_regular_file};
@@ -22,9 +22,10 @@ pub(super) fn of(path: &Path) -> Option<PathBuf> {
 /// An earlier run, as its checkpoint has it.
 #[derive(Debug)]
 pub(super) struct Run {
-    scene: Checked,
+    pub scene: Checked,
     state: State,
-    changes: Vec<Change>,
+    /// Changes between its steps, and before it.
+    pub changes: Vec<Change>,
 }
 
 impl Run {
@@ -38,11 +39,6 @@ impl Run {
         }
     }
 
-    /// The integrator of it, whose rule of relaxation a scene takes that names none.
-    pub(crate) fn integrator(&self) -> &Integrator {
-        &self.scene.model().particles().integrator
-    }
-
     /// Whether a scene has the seed, forces, baths and time step of it, so that it goes on with it: a model of the scene was made with
     /// [`Self::earlier`].
     pub(crate) fn goes_on_with(&self, seed: u64, model: &Model) -> bool {
@@ -52,16 +48,6 @@ impl Run {
     /// The state where the other run begins.
     pub(crate) fn state(&self) -> State {
         State { step: 0, ..self.state.clone() }
-    }
-
-    /// Changes between its steps, and before it.
-    pub(crate) fn changes(&self) -> &[Change] {
-        &self.changes
-    }
-
-    /// Its scene.
-    pub(crate) fn scene(&self) -> &Checked {
-        &self.scene
     }
 
     /// What of it a scene with other steps cannot take, in words.
@@ -76,15 +62,12 @@ impl Run {
     /// Velocities at the report point, where those in a checkpoint are half a step behind: the float64 reference closes the step with
     /// the forces, baths and time step of the run itself.
     pub(crate) fn velocities(&self) -> Result<Vec<[f64; 3]>, Mistake> {
-        let reference = self.scene.model().physics().reference(self.scene.model(), &self.state);
+        let model = self.scene.model();
+        let reference = model.physics().reference(model, &self.state);
         let momenta = reference.and_then(|reference| reference.reported_momenta().ok());
         let momenta = momenta.ok_or_else(|| damaged("the last step of its run cannot be completed"))?;
         let velocity = |(momentum, species): (&[i32; 3], &u32)| {
-            self.scene
-                .model()
-                .units
-                .momentum(*momentum)
-                .map(|part| part / self.scene.model().species[*species as usize].mass)
+            model.units.momentum(*momentum).map(|part| part / model.species[*species as usize].mass)
         };
         Ok(momenta.iter().zip(&self.state.species).map(velocity).collect())
     }
@@ -146,7 +129,7 @@ fn of_state(model: &Model, state: &State) -> Result<ParticleFile, Mistake> {
     if state.len() as u64 != model.particle_count() || (0..state.len()).any(|particle| species(particle).is_none()) {
         return Err(damaged("its particles are not those of its scene"));
     }
-    if model.has_frozen_particles() {
+    if model.frozen_particles() > 0 {
         return Err(frozen_layers("", model.frozen_particles()));
     }
     let mass = |particle: usize| species(particle).map_or(1.0, |species| species.mass);

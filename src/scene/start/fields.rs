@@ -60,15 +60,12 @@ pub(super) fn read(
     let fastest = components.fold(0.0, |most: f64, part| most.max(part.abs()));
     let start = FileStart {
         copies: [1; 3],
-        // The groups of the scene say how many particles there are.
-        species: Vec::new(),
         fastest: vec![fastest; names.count()],
-        bonds: Vec::new(),
-        angles: Vec::new(),
-        surroundings: None,
         origin: Some(Origin::Anew),
         changes,
         places: Some(places),
+        // The groups of the scene say how many particles there are.
+        ..FileStart::default()
     };
     scene.kept = KeptStart::of(shared(start));
     Ok(problems)
@@ -108,7 +105,7 @@ fn places_of_run(
 ) -> Result<(FilePlaces, Vec<Change>), Mistake> {
     state_file::only_frame(state.frame)?;
     let run = checkpoint::run(checkpoint, &|_| Ok(()))?;
-    let theirs = run.scene();
+    let theirs = &run.scene;
     match theirs.mesh() {
         Some(found) if found == mesh => {}
         Some([columns, rows]) => {
@@ -139,7 +136,7 @@ fn places_of_run(
     let velocities = if state.velocities == StateVelocities::File { run.velocities()? } else { Vec::new() };
     let State { positions, masses, .. } = run.state();
     let places = FilePlaces { positions, velocities, masses, ..FilePlaces::default() };
-    Ok((places, run.changes().to_vec()))
+    Ok((places, run.changes))
 }
 
 /// The fields of a file, of which all mistakes are found.
@@ -190,11 +187,10 @@ fn wrong_box(file: &ArrayFile, lengths: &[f64]) -> Vec<Mistake> {
         let span = (last - first).abs() * values.len() as f64 / values.len().checked_sub(1)? as f64;
         // NaN is no length.
         let fits = (span / length - 1.0).abs() <= SPAN;
+        let found = format!("found nodes that span {}", short(span));
         let accepted =
             format!("nodes that span {length}, the edge of the box of the scene; or a file without coordinates");
-        (!fits).then(|| {
-            Mistake::new(format!("array `{name}`"), format!("found nodes that span {}", short(span)), accepted)
-        })
+        (!fits).then(|| Mistake::new(format!("array `{name}`"), found, accepted))
     });
     wrong.collect()
 }
@@ -223,11 +219,8 @@ fn on_nodes(array: Array, name: &str, frame: i64, mesh: [usize; 2]) -> Result<Ve
             _ => {
                 let accepted =
                     "dimensions whose names begin with y and x (or lat and lon, j and i), which tell the axes apart";
-                return Err(Mistake::new(
-                    place,
-                    format!("its dimensions are {}", quoted(named.iter().map(String::as_str))),
-                    accepted,
-                ));
+                let found = format!("its dimensions are {}", quoted(named.iter().map(String::as_str)));
+                return Err(Mistake::new(place, found, accepted));
             }
         },
     };
@@ -241,14 +234,10 @@ fn on_nodes(array: Array, name: &str, frame: i64, mesh: [usize; 2]) -> Result<Ve
     let frames = frames.first().copied().unwrap_or(1);
     let chosen = if frame < 0 { frame + frames as i64 } else { frame };
     let Some(chosen) = usize::try_from(chosen).ok().filter(|chosen| *chosen < frames) else {
-        let accepted = if frames == 0 {
-            "a file with a frame".to_owned()
-        } else {
-            format!(
-                "0 to {}, or -1 to -{frames} from the end: the array has {}",
-                frames - 1,
-                counted(frames as u64, "frame")
-            )
+        let (last, all) = (frames.saturating_sub(1), counted(frames as u64, "frame"));
+        let accepted = match frames {
+            0 => "a file with a frame".to_owned(),
+            _ => format!("0 to {last}, or -1 to -{frames} from the end: the array has {all}"),
         };
         return Err(Mistake::new(place, format!("found frame {frame}"), accepted));
     };

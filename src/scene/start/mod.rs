@@ -52,7 +52,7 @@ pub(super) fn read(
     let path = files.path(name, &state.file);
     let weighing = Weighing::of(scene, fits);
     let read = particles(&path, &state, &|count| weighing.file(count));
-    if let Some(refusal) = weighing.refusal() {
+    if let Some(refusal) = weighing.refusal.into_inner() {
         return Err(refusal);
     }
     let (file, run) = match read {
@@ -87,15 +87,8 @@ fn of_molecules(
         return Ok(problems);
     }
     let Some(file) = molecules::particles(scene, &mut problems) else { return Ok(problems) };
-    let state = StateFile {
-        file: MOLECULES.to_owned(),
-        frame: -1,
-        velocities: StateVelocities::Thermal,
-        replicate: Vec::new(),
-        atom_style: None,
-        outside: OutsidePositions::Refuse,
-        checksum: None,
-    };
+    let (file_name, velocities) = (MOLECULES.to_owned(), StateVelocities::Thermal);
+    let state = StateFile { file: file_name, velocities, ..StateFile::default() };
     Ok(adopted(scene, masses, Reader::new(&state, &file, None, None), MOLECULES, notices))
 }
 
@@ -300,7 +293,9 @@ impl<'a> Reader<'a> {
             places::start(self.file, self.state, &species, (dimension, walled, sheared), lengths, species_of_scene);
         start.surroundings = families::surroundings::of_start(scene, &start, &lengths[..dimension]);
         self.check_order(scene, &start);
-        self.adopt_checksum(scene);
+        if let Some(found) = self.checksum.clone() {
+            adopt_checksum(scene, self.state, found, &mut self.problems);
+        }
         let mut unused = self.file.unused.clone();
         let start = match self.run.take() {
             Some(run) => self.continue_run(scene, start, &run, &mut unused),
@@ -319,7 +314,7 @@ impl<'a> Reader<'a> {
         run: &checkpoint::Run,
         unused: &mut Vec<String>,
     ) -> FileStart {
-        start.changes = run.changes().to_vec();
+        start.changes.clone_from(&run.changes);
         let moves_on = self.state.velocities == StateVelocities::File;
         if moves_on && start.copies == [1; 3] {
             let places = start.places.take();
@@ -329,9 +324,9 @@ impl<'a> Reader<'a> {
             let own = scene.system.clone();
             if let Some(integrator) = scene.system.particle_integrator_mut()
                 && *integrator == (Integrator::Splitting { relaxation: None })
-                && matches!(run.integrator(), Integrator::Splitting { .. })
+                && let theirs @ Integrator::Splitting { .. } = &run.scene.model().particles().integrator
             {
-                integrator.clone_from(run.integrator());
+                integrator.clone_from(theirs);
             }
             // A model needs a scene that makes sense.
             let goes_on = semantics::check(scene).is_empty() && run.goes_on_with(scene.seed, &Model::new(scene));
@@ -658,12 +653,6 @@ impl<'a> Reader<'a> {
                             file in place of chains";
             self.problems.add(format!("particles[{chained}].chain"), found, accepted);
         }
-    }
-
-    /// A checksum in the scene has to be that of what was read.
-    fn adopt_checksum(&mut self, scene: &mut Scene) {
-        let Some(found) = self.checksum.clone() else { return };
-        adopt_checksum(scene, self.state, found, &mut self.problems);
     }
 
     /// Says what is in the file, and nowhere in the scene.

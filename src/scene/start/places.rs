@@ -42,17 +42,7 @@ pub(super) fn start(
     let tethers = fractions(&file.tethers);
     let places = Some(FilePlaces { positions, velocities: Vec::new(), images, tethers, ..FilePlaces::default() });
     let fastest = vec![0.0; species_of_scene];
-    let mut start = FileStart {
-        copies,
-        species,
-        fastest,
-        bonds,
-        angles,
-        surroundings: None,
-        origin: None,
-        changes: Vec::new(),
-        places,
-    };
+    let mut start = FileStart { copies, species, fastest, bonds, angles, places, ..FileStart::default() };
     if state.velocities == StateVelocities::File {
         set_in_motion(&mut start, &file.velocities, dimension);
     }

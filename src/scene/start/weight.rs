@@ -1,7 +1,7 @@
 //! Whether a scene can be run with as many particles as a file or molecules have, before these are read or placed.
 
 use super::super::semantics;
-use crate::document::{Interaction, Molecule, Placement, Problems, Scene, SceneError, number_of_copies};
+use crate::document::{Interaction, Placement, Problems, Scene, SceneError, number_of_copies};
 use crate::families::{self, Checked, StepCheck};
 use crate::numbers::counted;
 use crate::state_file::{self, Mistake};
@@ -18,7 +18,8 @@ const FEW: u64 = 1_000_000;
 pub(super) struct Weighing<'a> {
     scene: &'a Scene,
     fits: Option<&'a Fits<'a>>,
-    refusal: RefCell<Option<SceneError>>,
+    /// Why the particles of a file were refused, if it was not the file's own mistake.
+    pub refusal: RefCell<Option<SceneError>>,
 }
 
 impl<'a> Weighing<'a> {
@@ -34,35 +35,23 @@ impl<'a> Weighing<'a> {
         if let Some(first) = counts.first_mut() {
             *first = count.saturating_mul(copies);
         }
-        match self.decide(&counts) {
-            Ok(()) => Ok(()),
-            Err(refusal) => {
-                *self.refusal.borrow_mut() = Some(refusal);
-                Err(Mistake::new("", format!("found {}", counted(count, "particle")), "fewer"))
-            }
-        }
-    }
-
-    /// Why the particles of a file were refused, if it was not the file's own mistake.
-    pub(super) fn refusal(self) -> Option<SceneError> {
-        self.refusal.into_inner()
+        self.decide(&counts).map_err(|refusal| {
+            *self.refusal.borrow_mut() = Some(refusal);
+            Mistake::new("", format!("found {}", counted(count, "particle")), "fewer")
+        })
     }
 
     /// Decides of molecules that are right by themselves, for which so much memory is free.
     pub(super) fn molecules(&self, free: Option<u64>, problems: &mut Problems) -> Result<(), SceneError> {
-        let volume = self.scene.space.volume();
-        let beads = |molecule: &Molecule, name: &str| {
-            let own = molecule.beads.iter().filter(|bead| *bead == name).count() as u64;
-            own.saturating_mul(molecule.resolved_count(volume))
-        };
-        let groups = &self.scene.particles;
-        let count = |index: usize| {
-            let name = groups[index].species.as_str();
-            let is_first = groups[..index].iter().all(|earlier| earlier.species != name);
-            let counts = self.scene.molecules.iter().map(|molecule| beads(molecule, name));
-            if is_first { counts.fold(0, u64::saturating_add) } else { 0 }
-        };
-        let counts: Vec<u64> = (0..groups.len()).map(count).collect();
+        // The first group of a species has all beads of it.
+        let mut counts = vec![0_u64; self.scene.particles.len()];
+        for molecule in &self.scene.molecules {
+            let copies = molecule.resolved_count(self.scene.space.volume());
+            for bead in &molecule.beads {
+                let count = &mut counts[super::group_of(self.scene, bead)];
+                *count = count.saturating_add(copies);
+            }
+        }
         let all = counts.iter().copied().fold(0, u64::saturating_add);
         let Err(mistake) = state_file::fits_in_memory(all, free) else { return self.decide(&counts) };
         problems.add(super::MOLECULES, mistake.found, mistake.accepted);
@@ -70,11 +59,8 @@ impl<'a> Weighing<'a> {
     }
 
     fn decide(&self, counts: &[u64]) -> Result<(), SceneError> {
-        let Some(fits) = self.fits else { return Ok(()) };
         let all = counts.iter().copied().fold(0, u64::saturating_add);
-        if all <= FEW {
-            return Ok(());
-        }
+        let Some(fits) = self.fits.filter(|_| all > FEW) else { return Ok(()) };
         let bare = bare(self.scene, counts);
         let mut problems = semantics::check(&bare);
         // Its mistakes are those of the scene, and will be said in its words.
