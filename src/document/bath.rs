@@ -64,8 +64,9 @@ impl Bath {
 }
 
 /// The scheme of a bath step with memory.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema, strum::Display)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum BathScheme {
     /// Equation (16) of Cotter and Reich, stable for any rate (default).
     #[default]

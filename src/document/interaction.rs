@@ -8,8 +8,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A force between particles.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema, strum::IntoStaticStr)]
 #[serde(tag = "type", rename_all = "kebab-case", deny_unknown_fields)]
+#[strum(serialize_all = "kebab-case")]
 pub enum Interaction {
     /// Dissipative particle dynamics: soft repulsion a(1 - r/rc), friction and noise along the line of centres.
     Dpd(DpdInteraction),
@@ -32,16 +33,7 @@ pub enum Interaction {
 impl Interaction {
     /// Its name in a scene.
     pub(crate) fn name(&self) -> &'static str {
-        match self {
-            Self::Dpd(_) => "dpd",
-            Self::Langevin(_) => "langevin",
-            Self::ColouredNoise(_) => "coloured-noise",
-            Self::Tether(_) => "tether",
-            Self::BodyForce(_) => "body-force",
-            Self::Bonds(_) => "bonds",
-            Self::Angles(_) => "angles",
-            Self::HarmonicChain(_) => "harmonic-chain",
-        }
+        self.into()
     }
 
     /// Its heat bath with the largest friction, if it has one on particles, pairs or bonds.

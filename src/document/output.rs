@@ -164,12 +164,12 @@ impl Output {
     }
 
     /// Frames of velocities that analyses name, with the places of these in the scene and their quantities.
-    pub(crate) fn frames(&self) -> impl Iterator<Item = (String, &'static str, Frame)> {
+    pub(crate) fn frames(&self) -> impl Iterator<Item = (String, String, Frame)> {
         let correlated = self.autocorrelations.iter().enumerate().filter_map(|(index, asked)| {
-            Some((format!("output.autocorrelations[{index}]"), asked.quantity.name(), asked.frame?))
+            Some((format!("output.autocorrelations[{index}]"), asked.quantity.to_string(), asked.frame?))
         });
         let counted = self.histograms.iter().enumerate().filter_map(|(index, asked)| {
-            Some((format!("output.histograms[{index}]"), asked.quantity.name(), asked.frame?))
+            Some((format!("output.histograms[{index}]"), asked.quantity.to_string(), asked.frame?))
         });
         correlated.chain(counted)
     }
@@ -536,8 +536,8 @@ impl AnalysisId {
     /// The part of a scene that requests it.
     pub(crate) fn path(self) -> String {
         match self {
-            Self::Autocorrelation(quantity) => format!("output.autocorrelations ({})", quantity.name()),
-            Self::Histogram(quantity) => format!("output.histograms ({})", quantity.name()),
+            Self::Autocorrelation(quantity) => format!("output.autocorrelations ({quantity})"),
+            Self::Histogram(quantity) => format!("output.histograms ({quantity})"),
             other => format!("output.{}", other.name()),
         }
     }

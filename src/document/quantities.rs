@@ -4,8 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// A vector of every particle whose autocorrelation can be measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, strum::Display)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum CorrelatedQuantity {
     /// The velocity, where the temperature is measured.
     Velocity,
@@ -15,16 +16,6 @@ pub enum CorrelatedQuantity {
         "voronoi": "\"velocity\" in Voronoi DPD, where momentum moves with mass",
     }))]
     Force,
-}
-
-impl CorrelatedQuantity {
-    /// The name in a scene.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Velocity => "velocity",
-            Self::Force => "force",
-        }
-    }
 }
 
 /// A curve fitted to a decay in time t.
@@ -53,8 +44,9 @@ pub enum Frame {
 }
 
 /// What a histogram counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, strum::Display)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum CountedQuantity {
     /// Components of the velocity, where the temperature is measured.
     Velocity,
@@ -67,20 +59,10 @@ pub enum CountedQuantity {
     Acceleration,
 }
 
-impl CountedQuantity {
-    /// The name in a scene.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Velocity => "velocity",
-            Self::Speed => "speed",
-            Self::Acceleration => "acceleration",
-        }
-    }
-}
-
 /// What profiles along an axis show.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, strum::Display)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum ProfiledQuantity {
     /// Particles per volume (area in two dimensions), of each species and in all.
     Density,
@@ -99,21 +81,12 @@ pub enum ProfiledQuantity {
 impl ProfiledQuantity {
     /// Those that are shown unless a scene names others.
     pub const USUAL: [Self; 3] = [Self::Density, Self::Velocity, Self::Temperature];
-
-    /// The name in a scene.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Density => "density",
-            Self::Velocity => "velocity",
-            Self::Temperature => "temperature",
-            Self::Stress => "stress",
-        }
-    }
 }
 
 /// An axis of the box.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, strum::Display)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "kebab-case")]
 pub enum Axis {
     /// The first.
     X,
@@ -121,15 +94,4 @@ pub enum Axis {
     Y,
     /// The third.
     Z,
-}
-
-impl Axis {
-    /// The name in a scene.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::X => "x",
-            Self::Y => "y",
-            Self::Z => "z",
-        }
-    }
 }

@@ -34,7 +34,8 @@ pub enum System {
 }
 
 /// A kind of systems. Keys and choices of a scene that have a meaning in some kinds only name these in the schema, in `x-of`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::IntoStaticStr)]
+#[strum(serialize_all = "kebab-case")]
 pub enum SystemKind {
     /// [`System::Particles`].
     Particles,
@@ -49,12 +50,8 @@ impl SystemKind {
     pub const ALL: [Self; 3] = [Self::Particles, Self::ShallowWater, Self::Voronoi];
 
     /// The name of the kind in the schema; that of its interaction, where it has one of its own.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Particles => "particles",
-            Self::ShallowWater => "shallow-water",
-            Self::Voronoi => "voronoi",
-        }
+    pub(crate) fn name(self) -> &'static str {
+        self.into()
     }
 
     /// The kind, as messages call it.

@@ -54,7 +54,8 @@ impl AdapterChoice {
 }
 
 /// What an adapter is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::IntoStaticStr)]
+#[strum(serialize_all = "lowercase")]
 pub enum AdapterKind {
     /// A graphics card with memory of its own.
     Discrete,
@@ -86,13 +87,7 @@ impl AdapterKind {
     /// ```
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Discrete => "discrete",
-            Self::Integrated => "integrated",
-            Self::Virtual => "virtual",
-            Self::Software => "software",
-            Self::Other => "other",
-        }
+        self.into()
     }
 }
 

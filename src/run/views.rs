@@ -34,10 +34,7 @@ impl<'a> Views<'a> {
         &mut self,
         draw: impl FnOnce(&Plotter<'_>) -> Result<RgbaImage, PlotError>,
     ) -> Result<RgbaImage, PlotError> {
-        let plotter = match self.plotter.take() {
-            Some(plotter) => Ok(plotter),
-            None => Plotter::new(self.gpu),
-        };
+        let plotter = self.plotter.take().map_or_else(|| Plotter::new(self.gpu), Ok);
         plotter.and_then(|plotter| draw(self.plotter.insert(plotter)))
     }
 
@@ -86,7 +83,7 @@ impl<'a> Views<'a> {
             subtitle = format!("{subtitle}; {some} of {all} particles");
         }
         if let Some(SnapshotSlice { axis, position, thickness }) = asked.slice {
-            subtitle = format!("{subtitle}; slice at {} = {position} ± {}", axis.name(), rounded(0.5 * thickness));
+            subtitle = format!("{subtitle}; slice at {axis} = {position} ± {}", rounded(0.5 * thickness));
         }
         if !asked.species.is_empty() {
             let names: Vec<_> = asked.species.iter().map(|name| printable::name(name)).collect();

@@ -1,7 +1,7 @@
 //! What pictures show: ranges of colours that have a length, of quantities that have a scale, and slices within the
 //! box.
 
-use super::{Problems, Scene, SnapshotColor, SnapshotSlice, SnapshotView};
+use super::{FieldQuantity, Problems, Scene, SnapshotColor, SnapshotSlice, SnapshotView};
 
 /// Finds ranges of colours and parts of the box that cannot be shown.
 pub(super) fn check(scene: &Scene, problems: &mut Problems) {
@@ -21,19 +21,9 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
         let accepted = "no `view` of a box that has not three dimensions, which is seen from above";
         problems.refuse("output.snapshot.view", "a side of the box", accepted);
     }
-    let ranges = scene.output.fields.as_ref().map(|fields| &fields.ranges);
-    for (name, range) in ranges.into_iter().flat_map(|ranges| {
-        [
-            ("depth", ranges.depth),
-            ("potential_vorticity", ranges.potential_vorticity),
-            ("vorticity", ranges.vorticity),
-            ("speed", ranges.speed),
-            ("velocity_x", ranges.velocity_x),
-            ("velocity_y", ranges.velocity_y),
-        ]
-    }) {
-        if let Some(range) = range {
-            check_range(&format!("output.fields.ranges.{name}"), range, problems);
+    for quantity in FieldQuantity::ALL {
+        if let Some(range) = scene.output.fields.as_ref().and_then(|fields| fields.ranges.of(quantity)) {
+            check_range(&format!("output.fields.ranges.{}", quantity.stem()), range, problems);
         }
     }
 }
@@ -45,7 +35,7 @@ fn check_slice(slice: SnapshotSlice, scene: &Scene, problems: &mut Problems) {
         let accepted = "no `slice` of a box that has not three dimensions, whose particles are all seen";
         return problems.refuse(path, "a part of the box", accepted);
     };
-    let (axis, length) = (slice.axis.name(), scene.space.lengths[slice.axis as usize]);
+    let (axis, length) = (slice.axis, scene.space.lengths[slice.axis as usize]);
     if slice.position > length {
         let accepted = format!("a place along {axis} in the box: 0 to {length}");
         problems.refuse(format!("{path}.position"), slice.position, accepted);

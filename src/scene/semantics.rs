@@ -1,6 +1,7 @@
 //! What a schema cannot say: counts, species, lengths and durations that have to fit each other.
 
 use std::collections::HashMap;
+use std::fmt::Display;
 
 use super::{
     CountedPairs, CountedQuantity, Interaction, ParticleGroup, Placement, Problems, Scene, SpeciesNames,
@@ -335,16 +336,18 @@ fn check_analyses(scene: &Scene, problems: &mut Problems) {
             problems.refuse(path, format!("{name} again"), "every quantity at most once");
         }
     };
-    let quoted = |name: &str| format!("\"{name}\"");
+    let quoted = |name: &dyn Display| format!("\"{name}\"");
     let fields = output.fields.iter().flat_map(|asked| &asked.quantities);
     let fields = fields.map(|quantity| format!("the {}", quantity.stem().replace('_', " ")));
     once("fields.quantities", "", fields.collect());
-    let correlated = output.autocorrelations.iter().map(|asked| quoted(asked.quantity.name()));
+    let correlated = output.autocorrelations.iter().map(|asked| quoted(&asked.quantity));
     once("autocorrelations", ".quantity", correlated.collect());
     let profiles = output.profiles.iter().flat_map(|asked| &asked.quantities);
-    once("profiles.quantities", "", profiles.map(|quantity| quoted(quantity.name())).collect());
-    once("histograms", ".quantity", output.histograms.iter().map(|asked| quoted(asked.quantity.name())).collect());
-    for (path, quantity, _) in output.frames().filter(|(_, quantity, _)| ["force", "acceleration"].contains(quantity)) {
+    once("profiles.quantities", "", profiles.map(|quantity| quoted(quantity)).collect());
+    once("histograms", ".quantity", output.histograms.iter().map(|asked| quoted(&asked.quantity)).collect());
+    for (path, quantity, _) in
+        output.frames().filter(|(_, quantity, _)| ["force", "acceleration"].contains(&quantity.as_str()))
+    {
         let accepted = "no `frame`: only velocities depend on one";
         problems.refuse(format!("{path}.frame"), format!("for the quantity \"{quantity}\""), accepted);
     }
@@ -362,7 +365,7 @@ fn check_analyses(scene: &Scene, problems: &mut Problems) {
     }
     for (key, axis) in axes {
         if let Some(axis) = axis.filter(|axis| *axis as usize >= scene.space.lengths.len()) {
-            problems.refuse(format!("output.{key}"), quoted(axis.name()), "an axis of the box");
+            problems.refuse(format!("output.{key}"), quoted(&axis), "an axis of the box");
         }
     }
 }

@@ -184,7 +184,8 @@ fn advance(reference: &mut dyn Stepper, steps: u64) -> Result<(), String> {
 }
 
 /// What a step changes of a state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 enum Quantity {
     Momenta,
     Positions,
@@ -194,15 +195,6 @@ enum Quantity {
 
 impl Quantity {
     const ALL: [Self; 4] = [Self::Momenta, Self::Positions, Self::Masses, Self::Energies];
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Momenta => "momenta",
-            Self::Positions => "positions",
-            Self::Masses => "masses",
-            Self::Energies => "energies",
-        }
-    }
 
     /// All of a state, in integer units.
     fn of(self, state: &State) -> Vec<i64> {
@@ -282,7 +274,7 @@ fn compare(
     let (part, quantity) = deviation(&start, &device.state().map_err(words)?, &reference_step(model, &start)?);
     device.advance(STEPS - 1, STEPS).map_err(words)?;
     let last = device.state().map_err(words)?;
-    let mut found = format!("a step is off by {part:.0e} of its change at most ({})", quantity.name());
+    let mut found = format!("a step is off by {part:.0e} of its change at most ({quantity})");
     if part > TOLERANCE {
         return Err(format!("{found}, more than {TOLERANCE:.0e}"));
     }

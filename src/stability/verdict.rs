@@ -2,11 +2,11 @@
 
 use crate::tradeoff::{self, Deviation};
 use serde::{Deserialize, Serialize};
-use std::fmt;
 
 /// What became of a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize, strum::Display)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum Verdict {
     /// It ran, and everything that is compared is within the tolerance.
     #[default]
@@ -22,12 +22,6 @@ pub enum Verdict {
 impl Verdict {
     /// All of them.
     pub(super) const ALL: [Self; 4] = [Self::Right, Self::Biased, Self::Unstable, Self::Refused];
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.serialize(formatter)
-    }
 }
 
 /// The verdict on a run that came to its end, and whether its deviations are certain enough for it.

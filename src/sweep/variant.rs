@@ -46,8 +46,9 @@ pub struct VariantSummary {
 }
 
 /// How far a variant came.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, strum::Display)]
 #[serde(rename_all = "lowercase")]
+#[strum(serialize_all = "lowercase")]
 pub enum VariantState {
     /// It has not ended yet.
     #[default]
@@ -56,12 +57,6 @@ pub enum VariantState {
     Finished,
     /// It failed.
     Failed,
-}
-
-impl fmt::Display for VariantState {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.serialize(formatter)
-    }
 }
 
 impl VariantSummary {

@@ -134,8 +134,9 @@ pub struct Float64Stretch {
 }
 
 /// How far a choice is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, strum::Display)]
 #[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case")]
 pub enum ChoiceState {
     /// Not finished yet.
     #[default]
@@ -144,12 +145,6 @@ pub enum ChoiceState {
     Finished,
     /// Became unstable, which is a result.
     Unstable,
-}
-
-impl fmt::Display for ChoiceState {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.serialize(formatter)
-    }
 }
 
 impl Choice {

@@ -37,8 +37,9 @@ pub enum Amount {
 }
 
 /// Whether a choice meets its targets.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, strum::Display)]
 #[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "snake_case")]
 pub enum Verdict {
     /// All errors with their uncertainty are within the targets.
     Meets,
@@ -46,12 +47,6 @@ pub enum Verdict {
     Open,
     /// Some error is beyond its target with all of its uncertainty.
     Misses,
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.serialize(formatter)
-    }
 }
 
 impl Target {

@@ -86,8 +86,9 @@ impl FieldRanges {
 }
 
 /// A field on the mesh of shallow water.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema, strum::IntoStaticStr)]
 #[serde(rename_all = "kebab-case")]
+#[strum(serialize_all = "snake_case")]
 pub enum FieldQuantity {
     /// The smoothed depth h.
     Depth,
@@ -111,13 +112,6 @@ impl FieldQuantity {
     /// The stem of the names of its files.
     #[must_use]
     pub fn stem(self) -> &'static str {
-        match self {
-            Self::Depth => "depth",
-            Self::PotentialVorticity => "potential_vorticity",
-            Self::Vorticity => "vorticity",
-            Self::Speed => "speed",
-            Self::VelocityX => "velocity_x",
-            Self::VelocityY => "velocity_y",
-        }
+        self.into()
     }
 }

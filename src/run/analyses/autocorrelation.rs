@@ -101,7 +101,7 @@ impl Descriptor for Autocorrelation {
         let warnings = fit
             .as_ref()
             .and_then(|fit| fit.as_ref().err())
-            .map(|error| format!("no curve was fitted to the {} autocorrelation: {error}", asked.quantity.name()));
+            .map(|error| format!("no curve was fitted to the {} autocorrelation: {error}", asked.quantity));
         let fit = fit.and_then(Result::ok);
         let columns = ["time", "autocorrelation", "autocorrelation_error", "covariance", "covariance_error"];
         let columns = columns.into_iter().chain(fit.as_ref().map(|_| "fit"));
@@ -131,7 +131,7 @@ impl Descriptor for Autocorrelation {
             ["time", "autocorrelation", "autocorrelation_error", "fit"].map(|name| drawn.column(name));
         let fitted = (formula(&drawn.result["fit"]), fit);
         let measured = (&lags[..], &values[..], &errors[..]);
-        drawn.of_species(autocorrelation_chart(drawn.title(), self.0.name(), measured, (&fitted.0, &fitted.1)))
+        drawn.of_species(autocorrelation_chart(drawn.title(), &self.0.to_string(), measured, (&fitted.0, &fitted.1)))
     }
 
     fn finds(&self, _: &Checked) -> Vec<&'static str> {

@@ -103,7 +103,7 @@ impl Descriptor for Histogram {
         let asked = self.of(&scene.output)?;
         let ([samples, below, above, far], rest) = gathered.part(0).split_first_chunk()?;
         let (powers, counts) = rest.split_first_chunk()?;
-        let (name, speed, range) = (self.0.name(), self.0 == CountedQuantity::Speed, range(model, asked));
+        let (name, speed, range) = (self.0.to_string(), self.0 == CountedQuantity::Speed, range(model, asked));
         let low = if speed { 0.0 } else { -range };
         let histogram =
             histogram::Histogram { range: [low, range], counts: counts.to_vec(), below: *below, above: *above };
@@ -121,7 +121,7 @@ impl Descriptor for Histogram {
             vec![histogram.centre(bin), densities[bin], *count, compared]
         });
         let compared = if speed { MAXWELL } else { GAUSSIAN };
-        let table = Table::new([name, "density", "count", compared], rows.collect());
+        let table = Table::new([name.as_str(), "density", "count", compared], rows.collect());
         let total = histogram.total();
         let outside = (histogram.below + histogram.above) / total;
         let mut warnings = Vec::new();

@@ -12,7 +12,7 @@ use crate::measure::stress::Components;
 use crate::numbers::grouped;
 use crate::plan::Need;
 use crate::plot::{Chart, ProfiledSpecies, profiles_chart};
-use crate::scene::{self, AnalysisId, Frame, Output, ProfiledQuantity};
+use crate::scene::{self, AnalysisId, Axis, Frame, Output, ProfiledQuantity};
 use crate::shaders::analyses::{self, InLayers, Layered, LayeredStress};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
@@ -41,7 +41,7 @@ fn has_motion(asked: &scene::Profiles) -> bool {
 impl Descriptor for Profiles {
     fn asked(&self, scene: &Checked) -> Option<Sampling> {
         let asked = scene.output.profiles.as_ref()?;
-        let detail = Some(format!("{} bins along {}", grouped(asked.bins.into()), asked.axis.name()));
+        let detail = Some(format!("{} bins along {}", grouped(asked.bins.into()), asked.axis));
         Some(Sampling { detail, ..Sampling::after_equilibration(scene, asked.every) })
     }
 
@@ -119,7 +119,7 @@ impl Descriptor for Profiles {
             let all: Vec<&str> = model.species.iter().map(|species| species.name.as_str()).collect();
             let species = asked.species.as_ref().map_or_else(|| json!(all), |name| json!(name));
             let mut result = json!({
-                "axis": asked.axis.name(),
+                "axis": asked.axis,
                 "bins": asked.bins,
                 "samples": blocks.samples(),
                 "species": species,
@@ -162,9 +162,9 @@ impl Descriptor for Profiles {
         let of_species =
             |(number, name): (usize, &Value)| density(name.as_str().unwrap_or_default(), density_of(number), name);
         densities.extend(names.iter().enumerate().map(of_species));
-        let axis = drawn.scene.output.profiles.as_ref().map_or("x", |asked| asked.axis.name());
+        let axis = drawn.scene.output.profiles.as_ref().map_or(Axis::X, |asked| asked.axis).to_string();
         let temperature = Some(drawn.scene.temperature).filter(|temperature| *temperature > 0.0);
-        profiles_chart(drawn.title(), axis, drawn.model.units.dimension, drawn.table, &densities, temperature)
+        profiles_chart(drawn.title(), &axis, drawn.model.units.dimension, drawn.table, &densities, temperature)
     }
 
     fn labels(&self) -> &'static [(&'static str, &'static str)] {

@@ -21,7 +21,7 @@ pub(crate) fn check(scene: &Scene, problems: &mut Problems) {
     if let Some((known, across)) = axes.next()
         && let Some((index, other)) = axes.find(|(_, axis)| *axis != across)
     {
-        let found = format!("\"{}\" beside \"{}\" in particles[{known}]", other.name(), across.name());
+        let found = format!("\"{other}\" beside \"{across}\" in particles[{known}]");
         let accepted =
             "layers behind the walls across one axis: where two meet, the corner between them would be empty";
         problems.refuse(format!("particles[{index}].placement.axis"), found, accepted);
@@ -32,7 +32,6 @@ pub(crate) fn check(scene: &Scene, problems: &mut Problems) {
 /// The walls are there, and nothing is said of the particles that they do not have.
 fn check_group(scene: &Scene, group: &ParticleGroup, path: &str, problems: &mut Problems) {
     let Placement::BehindWalls { axis, thickness, .. } = group.placement else { return };
-    let name = axis.name();
     let walled = scene.space.walls.of_axes()[axis as usize].is_some();
     match scene.space.lengths.get(axis as usize) {
         Some(edge) if walled && !(thickness > 0.0 && thickness <= *edge) => {
@@ -41,13 +40,13 @@ fn check_group(scene: &Scene, group: &ParticleGroup, path: &str, problems: &mut 
         }
         Some(_) if walled => {}
         Some(_) => {
-            let accepted = format!("an axis with walls: put them into `space.walls.{name}`");
-            let found = format!("\"{name}\", across which there are no walls");
+            let accepted = format!("an axis with walls: put them into `space.walls.{axis}`");
+            let found = format!("\"{axis}\", across which there are no walls");
             problems.refuse(format!("{path}.placement.axis"), found, accepted);
         }
         None => {
             let accepted = format!("one of the {} axes of the box", scene.space.lengths.len());
-            problems.refuse(format!("{path}.placement.axis"), format!("\"{name}\""), accepted);
+            problems.refuse(format!("{path}.placement.axis"), format!("\"{axis}\""), accepted);
         }
     }
     let is_moved = group.velocities != Velocities::Thermal;

@@ -16,7 +16,7 @@ pub(crate) fn check(scene: &Scene, problems: &mut Problems) {
         }
     }
     let dimension = scene.space.lengths.len();
-    let [flow, gradient] = [shear.flow, shear.gradient].map(|axis| format!("\"{}\"", axis.name()));
+    let [flow, gradient] = [shear.flow, shear.gradient].map(|axis| format!("\"{axis}\""));
     if shear.flow != Axis::X {
         let accepted = "x: cells of neighbours lie in rows along x, which slide past each other";
         problems.refuse("space.shear.flow", &flow, accepted);

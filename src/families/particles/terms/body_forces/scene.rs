@@ -38,7 +38,7 @@ impl SceneTerm for BodyForceInteraction {
             }
             Some(axis) if axis as usize >= dimension => {
                 let accepted = format!("one of the {dimension} axes of the box");
-                problems.refuse(format!("{path}.axis"), format!("\"{}\"", axis.name()), accepted);
+                problems.refuse(format!("{path}.axis"), format!("\"{axis}\""), accepted);
             }
             _ => {}
         }
