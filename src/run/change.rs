@@ -99,7 +99,7 @@ impl Simulation {
                         what is inside";
             return Err(mistake(format!("{text}; accepted: scenes without internal energies")));
         }
-        let mut mistakes = wrong_count(velocities.len(), model.particle_count());
+        let mut mistakes: Vec<String> = wrong_count(velocities.len(), model.particle_count()).into_iter().collect();
         mistakes.extend(listed("is not finite", velocities, |_, velocity| {
             velocity.iter().any(|number| !number.is_finite())
         }));
@@ -175,7 +175,7 @@ impl Simulation {
         let species = &self.here()?.state.species.clone();
         let frozen =
             |particle: usize| species.get(particle).is_some_and(|species| model.species[*species as usize].frozen);
-        let mut mistakes = wrong_count(positions.len(), model.particle_count());
+        let mut mistakes: Vec<String> = wrong_count(positions.len(), model.particle_count()).into_iter().collect();
         mistakes.extend(listed("is not finite", positions, |_, position| {
             position.iter().any(|number| !number.is_finite())
         }));
@@ -223,12 +223,8 @@ fn refuse(mistakes: Vec<String>) -> Result<(), RunError> {
     if mistakes.is_empty() { Ok(()) } else { Err(RunError::Arrays { mistakes }) }
 }
 
-fn wrong_count(found: usize, particles: u64) -> Vec<String> {
-    let is_wrong = found as u64 != particles;
-    is_wrong
-        .then(|| format!("found {found} particles; accepted: {particles}, those of the scene"))
-        .into_iter()
-        .collect()
+fn wrong_count(found: usize, particles: u64) -> Option<String> {
+    (found as u64 != particles).then(|| format!("found {found} particles; accepted: {particles}, those of the scene"))
 }
 
 /// The mistake that some particles share, with their first numbers.

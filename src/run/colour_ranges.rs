@@ -39,10 +39,7 @@ impl ColourRanges {
 
     /// The range of a quantity: that of the user, that of earlier pictures, or the one that begins with this picture.
     pub(super) fn of(&mut self, shown: &str, asked: Option<[f64; 2]>, begin: impl FnOnce() -> [f64; 2]) -> [f64; 2] {
-        match asked {
-            Some(range) => range,
-            None => *self.fixed.entry(shown.to_owned()).or_insert_with(begin),
-        }
+        asked.unwrap_or_else(|| *self.fixed.entry(shown.to_owned()).or_insert_with(begin))
     }
 }
 

@@ -85,7 +85,7 @@ impl EnergyRecorder {
 
     /// What a checkpoint has to keep besides the table itself.
     pub(super) fn section(&self) -> Vec<u8> {
-        bytes(self.rows.configuration().iter().flatten().copied())
+        bytes(self.rows.configuration.iter().flatten().copied())
     }
 
     pub(super) fn add(&mut self, observables: &Observables) -> Result<(), RunError> {

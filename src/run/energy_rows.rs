@@ -12,7 +12,7 @@ pub(super) struct EnergyRows {
     columns: Vec<Column>,
     rows: Vec<Vec<f64>>,
     /// Σ|∇V|² and Σ∇²V of every row after equilibration: an average of the configurational temperature needs both.
-    configuration: Vec<[f64; 2]>,
+    pub configuration: Vec<[f64; 2]>,
     time_step: f64,
     pub equilibration: u64,
 }
@@ -44,11 +44,6 @@ impl EnergyRows {
             self.configuration.push([observables.gradient_squared, observables.laplacian]);
         }
         cells
-    }
-
-    /// The sums behind the configurational temperature, row by row after equilibration.
-    pub(super) fn configuration(&self) -> &[[f64; 2]] {
-        &self.configuration
     }
 
     /// The last value of a column.

@@ -437,10 +437,7 @@ impl Simulation {
     }
 
     fn check_end(&self) -> Result<(), RunError> {
-        match &self.end {
-            Some(reason) => Err(RunError::Ended { reason: reason.clone() }),
-            None => Ok(()),
-        }
+        self.end.clone().map_or(Ok(()), |reason| Err(RunError::Ended { reason }))
     }
 
     /// Looks at the current step, once.
@@ -603,10 +600,9 @@ impl Simulation {
     pub fn trajectory(&self, path: impl AsRef<Path>) -> Result<TrajectoryWriter, RunError> {
         let path = path.as_ref();
         let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        let format = TrajectoryFormat::ALL
-            .into_iter()
-            .find(|format| files::trajectory(*format).rsplit('.').next().is_some_and(|known| known == extension));
-        let Some(format) = format else {
+        let mut formats = TrajectoryFormat::ALL.into_iter();
+        let Some(format) = formats.find(|format| files::trajectory(*format).rsplit('.').next() == Some(extension))
+        else {
             let text =
                 format!("`{}`: found the extension `{extension}`; accepted: gsd, xyz", crate::printable::path(path));
             return Err(RunError::Arrays { mistakes: vec![text] });
@@ -755,25 +751,22 @@ impl Place {
         mut options: Options,
     ) -> Result<(Box<dyn Stepper>, Options), RunError> {
         loop {
-            let opened: Result<Box<dyn Stepper>, RunError> = match &self.shared {
-                None => match Engine::new(&self.gpu, plan_for(scene, &self.gpu, options), state) {
-                    Ok(engine) => Ok(Box::new(engine)),
-                    Err(error) => Err(error.into()),
-                },
-                Some(Shared { division, choice }) => match team(scene, &self.gpu, choice, *division, options, state) {
-                    Ok(team) => {
-                        team.check_alike()?;
-                        Ok(Box::new(team))
-                    }
-                    Err(error) => Err(error),
-                },
-            };
-            let error = match opened {
-                Ok(engine) => return Ok((engine, options)),
-                Err(RunError::Engine(error)) => error,
-                Err(error) => return Err(error),
-            };
-            options = error.roomier(options, scene.model().particle_count()).ok_or(error)?;
+            match self.open_with(scene, state, options) {
+                Err(RunError::Engine(error)) => {
+                    options = error.roomier(options, scene.model().particle_count()).ok_or(error)?;
+                }
+                opened => return Ok((opened?, options)),
+            }
         }
+    }
+
+    /// The same with the room that these options leave.
+    fn open_with(&self, scene: &Checked, state: &State, options: Options) -> Result<Box<dyn Stepper>, RunError> {
+        let Some(Shared { division, choice }) = &self.shared else {
+            return Ok(Box::new(Engine::new(&self.gpu, plan_for(scene, &self.gpu, options), state)?));
+        };
+        let team = team(scene, &self.gpu, choice, *division, options, state)?;
+        team.check_alike()?;
+        Ok(Box::new(team))
     }
 }
