@@ -154,7 +154,8 @@ fn from_file(start: &FileStart, velocities: StateVelocities, model: &Model) -> S
             StateVelocities::Rest => [0; 3],
             StateVelocities::Thermal => thermal_momentum(id, species.mass, key, model),
             StateVelocities::File => {
-                let velocity = places.velocities.get(id % particles_of_copy(start)).copied().unwrap_or_default();
+                let number = id % start.species.len().max(1);
+                let velocity = places.velocities.get(number).copied().unwrap_or_default();
                 velocity.map(|part| to_units(species.mass * part, model))
             }
         }
@@ -162,11 +163,6 @@ fn from_file(start: &FileStart, velocities: StateVelocities, model: &Model) -> S
     state.momenta = (0..state.len()).map(momentum).collect();
     state.images.clone_from(&places.images);
     state
-}
-
-/// Particles of one copy.
-fn particles_of_copy(start: &FileStart) -> usize {
-    start.species.len().max(1)
 }
 
 /// A momentum in integer units.

@@ -93,13 +93,8 @@ pub(crate) fn defaults_to_cotter_reich(scene: &Scene) -> bool {
     let paired = scene.pair_interactions().next().is_some();
     scene.system.kind() == SystemKind::Particles
         && (scene.space.lengths.len() == 1
-            || scene.particles.iter().any(is_fixed_in_space)
+            || scene.particles.iter().any(|group| group.fixed && !group.is_frozen())
             || terms::acting(scene).any(|term| term.is_unsplit(paired)))
-}
-
-/// True if particles are held where they start, not behind walls.
-fn is_fixed_in_space(group: &ParticleGroup) -> bool {
-    group.fixed && !group.is_frozen()
 }
 
 /// Everything that acts on single particles is there at most once.

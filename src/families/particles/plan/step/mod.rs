@@ -579,7 +579,7 @@ impl<'a> Builder<'a> {
             let ranges = ranges(self.force, count, self.repulsion_impulse());
             if self.relaxes_particles() {
                 table.extend(self.particle_entries());
-            } else if langevin::plan::bathes(self.model) {
+            } else if langevin::plan::bath(self.model).is_some() {
                 for species in 0..count {
                     table.extend(langevin::plan::coefficients(&self.scales(), species).map(|value| value as f32));
                     table.push(0.0);

@@ -48,6 +48,7 @@ fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
         let Observed { choices, scales } = report(part, scales);
         Observed { choices: choices.with_if(relaxes, baths::Bonds::Relaxed), scales }
     };
+    let are_noisy = bonds.kinds.iter().any(|kind| kind.bath.is_some() && kind.temperature > 0.0);
     Bonded {
         name: "bonds",
         reports: ["report_bonds", "report_bonds_between"],
@@ -63,7 +64,7 @@ fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
             (Constant::FirstKind, species as f64),
             (Constant::FirstBond, (species + 2 * kinds) as f64),
             potential(bonds),
-            switch(Constant::BondBathsNoisy, are_noisy(bonds)),
+            switch(Constant::BondBathsNoisy, are_noisy),
             (Constant::BondStreamX, f64::from(key[0])),
             (Constant::BondStreamY, f64::from(key[1])),
         ],
@@ -128,11 +129,6 @@ fn potential(bonds: &Bonds) -> (Constant, f64) {
         0.0
     };
     (Constant::BondPotential, potential)
-}
-
-/// True if baths of bonds draw random numbers.
-fn are_noisy(bonds: &Bonds) -> bool {
-    bonds.kinds.iter().any(|kind| kind.bath.is_some() && kind.temperature > 0.0)
 }
 
 /// The cheapest bath that holds those of all bonds.

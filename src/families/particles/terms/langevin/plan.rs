@@ -11,14 +11,9 @@ use crate::plan::{Plan, Traversal, switch};
 use crate::shaders::{Choices, Constant, pairs};
 
 /// The baths on coordinates, if steps do not relax momenta by themselves.
-fn bath(model: &Model) -> Option<&PositionBath> {
+pub(crate) fn bath(model: &Model) -> Option<&PositionBath> {
     let particles = model.particles();
     particles.position_bath.as_ref().filter(|_| !particles.relaxes_particles())
-}
-
-/// True if there are baths on coordinates.
-pub(crate) fn bathes(model: &Model) -> bool {
-    bath(model).is_some()
 }
 
 /// True if baths on coordinates have memory.

@@ -5,11 +5,6 @@ use crate::families::{Model, PairForce};
 use crate::plan::switch;
 use crate::shaders::Constant;
 
-/// True if pairs have a random force.
-pub(crate) fn is_noisy(force: &PairForce) -> bool {
-    force.has_friction() && force.temperature > 0.0
-}
-
 /// The constants that say which repulsion, weight, friction and noise pairs have: compilers leave out the others.
 pub(crate) fn constants(model: &Model, force: &PairForce) -> [(Constant, f64); 7] {
     let friction = match model.particles().integrator {
@@ -20,7 +15,7 @@ pub(crate) fn constants(model: &Model, force: &PairForce) -> [(Constant, f64); 7
         Integrator::Splitting { .. } => 4.0,
     };
     let distribution = match model.distribution {
-        _ if !is_noisy(force) => 0.0,
+        _ if !force.has_friction() || force.temperature <= 0.0 => 0.0,
         // A bath that remembers keeps the shape of its noise: only a Gaussian one has the right law.
         Distribution::Uniform if !force.remembers() => 1.0,
         _ => 2.0,
@@ -34,11 +29,6 @@ pub(crate) fn constants(model: &Model, force: &PairForce) -> [(Constant, f64); 7
         (Constant::Distribution, distribution),
         (Constant::Repulsions, force.repulsion_count() as f64),
     ]
-}
-
-/// True if a repulsion has a range of its own, or is one of several.
-fn repulsions_differ(force: &PairForce) -> bool {
-    force.repulsion_cutoffs_differ() || force.repulsion_count() > 1
 }
 
 /// Rows of the table of coefficients with what each pair of species has of its own: the largest cutoff over that of its
@@ -68,5 +58,8 @@ pub(crate) fn ranges(force: &PairForce, species: usize, impulse: f64) -> Vec<f32
 /// True if pairs of species differ in their cutoff or the exponent of their weight, friction and repulsion have
 /// different cutoffs, or there are several repulsions.
 pub(crate) fn have_ranges(force: &PairForce) -> bool {
-    force.friction_cutoffs_differ() || force.common_weight_exponent().is_none() || repulsions_differ(force)
+    force.repulsion_count() > 1
+        || force.repulsions.iter().flatten().any(|own| own.cutoff != force.cutoff)
+        || force.frictions.iter().any(|own| own.cutoff != force.cutoff)
+        || force.common_weight_exponent().is_none()
 }

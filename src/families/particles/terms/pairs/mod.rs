@@ -295,16 +295,6 @@ impl PairForce {
         self.frictions[a * self.species + b].exponent
     }
 
-    /// True if some repulsion has another range than [`Self::cutoff`].
-    pub(crate) fn repulsion_cutoffs_differ(&self) -> bool {
-        self.repulsions.iter().flatten().any(|own| own.cutoff != self.cutoff)
-    }
-
-    /// True if some friction has another range than [`Self::cutoff`].
-    pub(crate) fn friction_cutoffs_differ(&self) -> bool {
-        self.frictions.iter().any(|friction| friction.cutoff != self.cutoff)
-    }
-
     /// The exponent of the friction weight that all pairs of species have, if they have one.
     pub(crate) fn common_weight_exponent(&self) -> Option<f64> {
         let first = self.frictions.first().map_or(2.0, |friction| friction.exponent);

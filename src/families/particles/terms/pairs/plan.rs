@@ -30,7 +30,8 @@ impl Builder<'_> {
         }
         self.memory_constants();
         let memory = self.force.remembers();
-        let law = self.choices().and(&self.law_of_listed()).and(&shear::of_visits(self.model));
+        let law = self.choices().with(if memory { baths::Pairs::Memory } else { baths::Pairs::White });
+        let law = law.and(&shear::of_visits(self.model));
         let observed = law.clone().with_if(memory, baths::PairReport::Observed);
         let gathered = law.and(&self.kicks());
         kernels.kicks.push(self.kernel("pairs", Entry::VisitListedPairs, gathered.clone(), self.particles));
@@ -53,13 +54,6 @@ impl Builder<'_> {
         };
         let met = if memory { WITH_MEMORY } else { WITHOUT_MEMORY };
         self.plan.operations_per_particle += LISTED * around(range) + met * around(self.force.cutoff);
-    }
-
-    /// The pair force.
-    fn law_of_listed(&self) -> Choices {
-        let force = self.force;
-        let memory = force.remembers();
-        Choices::new().with(if memory { baths::Pairs::Memory } else { baths::Pairs::White })
     }
 
     /// True if some listed pairs are excluded from their repulsion.
