@@ -88,26 +88,20 @@ impl Model {
         let mut family = Family::new(scene, &mut species);
         let mut announced = scene.as_announced().map(|scene| Box::new(Self::new(&scene)));
         let earlier = scene.earlier_run();
-        // A run that goes on with an earlier one has its units.
-        let momentum = earlier.map_or_else(
-            || {
-                let own = family.physics().momentum_unit(scene, &species);
-                announced.as_ref().map_or(own, |announced| own.max(announced.units.momentum))
-            },
-            |earlier| earlier.momentum_unit,
-        );
-        let gaps = family.physics().gaps(scene);
+        let physics = family.physics();
+        let [momentum, expected_velocity] = if let Some(earlier) = earlier {
+            // A run that goes on with an earlier one has its units.
+            [earlier.momentum_unit, earlier.expected_velocity]
+        } else {
+            let own = [physics.momentum_unit(scene, &species), speeds::expected(scene, &species, physics)];
+            let others = announced.as_ref().map_or(own, |model| [model.units.momentum, model.expected_velocity]);
+            [own[0].max(others[0]), own[1].max(others[1])]
+        };
+        let gaps = physics.gaps(scene);
         let edges = lengths;
         let lengths: [f64; 3] = std::array::from_fn(|axis| edges[axis] + gaps[axis]);
         // The rounded sum less this is the edge again.
         let gaps = std::array::from_fn(|axis| lengths[axis] - edges[axis]);
-        let expected_velocity = earlier.map_or_else(
-            || {
-                let own = speeds::expected(scene, &species, family.physics());
-                announced.as_ref().map_or(own, |announced| own.max(announced.expected_velocity))
-            },
-            |earlier| earlier.expected_velocity,
-        );
         if let Some(announced) = &mut announced {
             announced.units.momentum = momentum;
             family.share_units(&mut announced.family);
@@ -161,11 +155,6 @@ impl Model {
         one == other
     }
 
-    /// Whether any force derives from a potential.
-    pub(crate) fn has_potential(&self) -> bool {
-        self.physics().has_potential()
-    }
-
     /// Whether any bath has a memory.
     #[must_use]
     pub fn has_memory(&self) -> bool {
@@ -195,11 +184,6 @@ impl Model {
     /// Number of frozen particles behind walls.
     pub(crate) fn frozen_particles(&self) -> u64 {
         self.species.iter().filter(|species| species.frozen).map(|species| species.count).sum()
-    }
-
-    /// Whether there are frozen particles behind walls.
-    pub(crate) fn has_frozen_particles(&self) -> bool {
-        self.species.iter().any(|species| species.frozen && species.count > 0)
     }
 
     /// Number of particles that can move.
@@ -306,35 +290,23 @@ impl Model {
     /// What acts on particles; nothing in a model of another family.
     #[must_use]
     pub fn particles(&self) -> &Particles {
-        match &self.family {
-            Family::Particles(particles) => particles,
-            _ => &particles::NONE,
-        }
+        if let Family::Particles(particles) = &self.family { particles } else { &particles::NONE }
     }
 
     /// What acts on particles, in a model of them, to change it.
     pub fn particles_mut(&mut self) -> Option<&mut Particles> {
-        match &mut self.family {
-            Family::Particles(particles) => Some(particles),
-            _ => None,
-        }
+        if let Family::Particles(particles) = &mut self.family { Some(particles) } else { None }
     }
 
     /// Shallow water on a mesh, in a model of it; the momenta of its particles are per unit of mass.
     #[must_use]
     pub fn shallow_water(&self) -> Option<&ShallowWater> {
-        match &self.family {
-            Family::ShallowWater(water) => Some(water),
-            _ => None,
-        }
+        if let Family::ShallowWater(water) = &self.family { Some(water) } else { None }
     }
 
     /// Voronoi DPD, in a model of it.
     #[must_use]
     pub fn voronoi(&self) -> Option<&Voronoi> {
-        match &self.family {
-            Family::Voronoi(cells) => Some(cells),
-            _ => None,
-        }
+        if let Family::Voronoi(cells) = &self.family { Some(cells) } else { None }
     }
 }

@@ -348,7 +348,7 @@ impl<'a> Execution<'a> {
         self.analyses.conclude(&setting, self.directory, &mut summary, &go_on)?;
         let changed = self.kept_sums.lost();
         let lost: Vec<KeptQuantity> = changed.iter().map(|(quantity, _)| *quantity).collect();
-        summary.conserved_exactly = conserved(self.scene.model(), &lost, self.kept_sums.is_mixed());
+        summary.conserved_exactly = conserved(self.scene.model(), &lost, self.kept_sums.mixed);
         summary.not_conserved = not_conserved(self.scene.model(), &changed);
         let written = |name: &&str| self.directory.file(name).exists();
         let is_table = |name: &&str| Path::new(name).extension().is_some_and(|extension| extension == "csv");

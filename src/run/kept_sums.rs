@@ -29,7 +29,7 @@ pub(super) struct KeptSums {
     /// Whether no sum may change.
     strict: bool,
     /// Whether some part of the run was shared by ranks that compute differently.
-    mixed: bool,
+    pub mixed: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -82,11 +82,6 @@ impl KeptSums {
     pub(super) fn sections(&self) -> Vec<(String, Vec<u8>)> {
         let mixed = self.mixed.then(|| (MIXED.to_owned(), Vec::new()));
         std::iter::once((SECTION.to_owned(), self.section())).chain(mixed).collect()
-    }
-
-    /// Whether some part of the run was shared by ranks that compute differently.
-    pub(super) fn is_mixed(&self) -> bool {
-        self.mixed
     }
 
     fn section(&self) -> Vec<u8> {
@@ -276,7 +271,7 @@ mod tests {
 
         // What was mixed stays so, and what it has changed is not the fault of the ranks that go on.
         let kept = mixed.sections();
-        assert!(sums(&kept, true, false).is_mixed() && !sums(&unchanged, true, false).is_mixed());
+        assert!(sums(&kept, true, false).mixed && !sums(&unchanged, true, false).mixed);
         assert_eq!(sums(&kept, true, false).refused(), None);
         assert!(conserved(&model, &[], true).contains(&"total momentum, to rounding".to_owned()));
         assert!(warning_of_mixed_ranks(&model).contains("total momentum is conserved to rounding only"));

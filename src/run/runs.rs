@@ -366,7 +366,7 @@ fn attempt(
     let mut warnings = task.notices.clone();
     warnings.extend(task.unseen.clone());
     warnings.extend(families::warnings(&task.scene).iter().map(ToString::to_string));
-    warnings.extend(run.kept_sums.is_mixed().then(|| warning_of_mixed_ranks(task.scene.model())));
+    warnings.extend(run.kept_sums.mixed.then(|| warning_of_mixed_ranks(task.scene.model())));
     warnings.extend(run.kept_sums.warning());
     warnings.extend(pictures::lettering(&task.scene));
     let saved_step = run.saved_step;

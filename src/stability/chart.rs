@@ -22,7 +22,7 @@ fn name_of(key: &str, request: &Request) -> String {
 
 /// The chart of a map.
 pub(super) fn chart(summary: &StabilitySummary, request: &Request) -> Chart {
-    let percent = format!("{} %", short(100.0 * summary.tolerance()));
+    let percent = format!("{} %", short(100.0 * summary.arguments.tolerance));
     let measures: Vec<String> = summary.measures.iter().map(|measure| measure.replace('_', " ")).collect();
     let subtitle = if summary.compares_nothing() {
         "nothing is compared".to_owned()
@@ -40,7 +40,7 @@ pub(super) fn chart(summary: &StabilitySummary, request: &Request) -> Chart {
 /// Verdicts, edges and bounds of all rows.
 fn of_rows(summary: &StabilitySummary, request: &Request, percent: &str) -> Panel {
     let key = &name_of(request.row_key().unwrap_or_default(), request);
-    let numbers = request.row_numbers();
+    let numbers = request.rows.as_ref().and_then(|rows| Some((rows.numbers()?, rows.spacing)));
     let value = |row: &Row| row.setting.as_ref().map(|setting| readable(&setting.value));
     let name = |row: &Row| value(row).unwrap_or_else(|| "the scene".to_owned());
     let named = || Axis::categories(key, summary.rows.iter().map(name).collect());
@@ -95,7 +95,7 @@ fn of_a_row(summary: &StabilitySummary, request: &Request) -> Panel {
     let x = axis(&name_of(&summary.key, request), summary.spacing);
     let mut panel = Panel { x, y: Axis::log("Error (%)"), ..Panel::default() };
     let Some(row) = summary.rows.first() else { return panel };
-    let tolerance = 100.0 * summary.tolerance();
+    let tolerance = 100.0 * summary.arguments.tolerance;
     let mut ends = [tolerance, tolerance];
     for measure in &summary.measures {
         let of_cell = |cell: &super::Cell| {

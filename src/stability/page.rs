@@ -115,7 +115,11 @@ pub(super) fn page(summary: &StabilitySummary, request: &Request) -> String {
     let meaning = if summary.compares_nothing() {
         "Nothing is compared, so that nobody knows whether what ran to its end is right.".to_owned()
     } else {
-        format!("Right means that {} are within {} %.", listed(&summary.measures), short(100.0 * summary.tolerance()))
+        format!(
+            "Right means that {} are within {} %.",
+            listed(&summary.measures),
+            short(100.0 * summary.arguments.tolerance)
+        )
     };
     let begun = summary.adapter.as_ref().map(|adapter| {
         let (date, version) = (&summary.date, &summary.mesoscope_version);

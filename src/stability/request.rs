@@ -31,7 +31,7 @@ pub struct Request {
     /// The key along rows, and the numbers of the grid.
     pub(super) along: Along,
     /// The key of rows; none for a single row.
-    rows: Option<Range>,
+    pub(super) rows: Option<Range>,
 }
 
 /// A request as it is written into the summary, and read from there.
@@ -230,12 +230,6 @@ impl Request {
     /// The key of rows.
     pub(super) fn row_key(&self) -> Option<&str> {
         self.rows.as_ref().map(|rows| rows.key.as_str())
-    }
-
-    /// The numbers of the rows and how they are spread, if they are numbers.
-    pub(super) fn row_numbers(&self) -> Option<(Vec<f64>, Spacing)> {
-        let rows = self.rows.as_ref()?;
-        Some((rows.numbers()?, rows.spacing))
     }
 
     /// The setting of a row.

@@ -113,11 +113,6 @@ impl Row {
 }
 
 impl StabilitySummary {
-    /// The largest error of what is right.
-    pub(crate) fn tolerance(&self) -> f64 {
-        self.arguments.tolerance
-    }
-
     /// Whether no run is compared with anything: no law says what should be, or there are too few particles for what it says.
     pub(crate) fn compares_nothing(&self) -> bool {
         let cells = || self.rows.iter().flat_map(|row| &row.cells);

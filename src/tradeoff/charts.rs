@@ -23,7 +23,7 @@ pub(super) fn chart(summary: &TradeoffSummary, request: &Request, measure: &str)
     let relative = !reference.is_zero();
     let is_part = summary.choices.iter().find_map(|choice| choice.error(measure)).is_some_and(Deviation::is_part);
     let scale = if is_part { 100.0 } else { 1.0 };
-    let sweep = request.sweep();
+    let sweep = &request.sweep;
     let short = ShortKeys::of(&sweep.keys());
     let varied = sweep.variations().iter().filter(|varied| numbers(&varied.values).is_some());
     let labelled = varied.max_by_key(|varied| varied.values.len()).map(|varied| varied.key.as_str());

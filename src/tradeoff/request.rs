@@ -253,11 +253,6 @@ impl Request {
         &self.base
     }
 
-    /// What is varied.
-    pub(crate) fn sweep(&self) -> &Sweep {
-        &self.sweep
-    }
-
     /// Keys among those varied that change what is simulated, and not only how it is computed.
     pub(super) fn physical_keys(&self) -> Vec<&str> {
         let refines = self.base.model().physics().is_resolved_by_particles();

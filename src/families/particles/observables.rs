@@ -41,7 +41,7 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model)
 
 /// The columns of the table of energies.
 pub(super) fn columns(particles: &Particles, model: &Model) -> Vec<Column> {
-    let potential = model.has_potential();
+    let potential = model.physics().has_potential();
     let mut columns = vec![column::TIME, column::KINETIC_ENERGY];
     columns.extend(potential.then_some(column::POTENTIAL_ENERGY));
     columns.push(column::TOTAL_ENERGY);

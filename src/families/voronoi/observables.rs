@@ -66,7 +66,7 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model,
 
 /// The columns of the table of energies.
 pub(super) fn columns(cells: &Voronoi, model: &Model) -> Vec<Column> {
-    let potential = model.has_potential();
+    let potential = model.physics().has_potential();
     let mut columns = vec![column::TIME, column::KINETIC_ENERGY];
     // The free energy of cells that exchange mass derives no force.
     if potential {

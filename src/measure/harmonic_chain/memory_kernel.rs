@@ -30,7 +30,8 @@ const RING: usize = 32;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct MemoryKernel {
-    cluster_size: usize,
+    /// Number n of beads in a cluster.
+    pub(crate) cluster_size: usize,
     /// Frequency and weight of every mode of the clamped beads: K(t) = Σ weight cos(frequency t).
     modes: Vec<[f64; 2]>,
 }
@@ -58,11 +59,6 @@ impl MemoryKernel {
             wave_modes(cluster_size, phase).into_iter().map(move |[frequency, weight]| [frequency, share * weight])
         });
         Self { cluster_size, modes: modes.collect() }
-    }
-
-    /// Number n of beads in a cluster.
-    pub(crate) fn cluster_size(&self) -> usize {
-        self.cluster_size
     }
 
     /// K at a time ω₀t, in units of ω₀².

@@ -15,7 +15,7 @@ pub struct ThermalSeries {
     /// For every pair of neighbours, the sum of `(X_{μ+1} - X_μ)²` over the samples.
     separations: Vec<f64>,
     /// Means of P² and of `(X_{μ+1} - X_μ)²` over the chain, sample after sample.
-    history: Vec<[f64; 2]>,
+    pub(crate) history: Vec<[f64; 2]>,
 }
 
 /// What a series amounts to.
@@ -64,11 +64,6 @@ impl ThermalSeries {
         self.momenta.extend_from_slice(momenta);
         self.separations.iter_mut().zip(squares).for_each(|(sum, square)| *sum += square);
         self.history.extend_from_slice(means.as_chunks().0);
-    }
-
-    /// Means over the chain of P² and of `(X_{μ+1} - X_μ)²`, sample after sample.
-    pub(crate) fn history(&self) -> &[[f64; 2]] {
-        &self.history
     }
 
     /// Averages over time and clusters.
@@ -123,7 +118,7 @@ mod tests {
         series.push(&[0.0, 1.0], &[1.0, 2.0]);
         series.push(&[0.0, 3.0], &[3.0, -1.0]);
         series.push(&[0.0], &[3.0]);
-        assert_eq!(series.history(), [[2.5, 1.0], [5.0, 9.0]]);
+        assert_eq!(series.history, [[2.5, 1.0], [5.0, 9.0]]);
         let estimates = series.estimates();
         assert_eq!(estimates.momentum_variance.unwrap().value, 3.75);
         assert_eq!(estimates.separation_variance.unwrap().value, 5.0);

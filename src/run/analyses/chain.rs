@@ -206,7 +206,7 @@ impl Chains<'_> {
     fn correlation(&self) -> Table {
         let interval = self.interval;
         let unit = self.trios.thermal.cluster_time();
-        let samples = self.thermal[0].history().len();
+        let samples = self.thermal[0].history.len();
         // At least as many origins as lags, where the run is that short.
         let lags = ((LONGEST_LAG * unit / interval) as usize + 1).min(samples.div_ceil(2));
         let times: Vec<f64> = (0..lags).map(|lag| lag as f64 * interval).collect();
@@ -235,8 +235,7 @@ impl Chains<'_> {
         let row = |(index, sample): (usize, &PulseSample)| {
             let mut row = vec![sample.reduced_time];
             for number in 0..3 {
-                let [momentum, separation] =
-                    self.thermal[number].history().get(index).copied().unwrap_or([f64::NAN; 2]);
+                let [momentum, separation] = self.thermal[number].history.get(index).copied().unwrap_or([f64::NAN; 2]);
                 let [momentum_scale, separation_scale] = self.scales();
                 row.extend([momentum / momentum_scale, separation / separation_scale]);
                 row.push(self.exact_separation(number) / separation_scale);
@@ -292,7 +291,7 @@ impl Chains<'_> {
             });
             chains.insert(name.to_owned(), result);
         }
-        let plateaus = kernels.iter().filter_map(|kernel| Some((kernel.cluster_size().to_string(), kernel.plateau()?)));
+        let plateaus = kernels.iter().filter_map(|kernel| Some((kernel.cluster_size.to_string(), kernel.plateau()?)));
         let plateaus: Map<String, Value> = plateaus.map(|(size, plateau)| (size, json!(plateau.friction))).collect();
         json!({
             REDUCED_TIME: value("tau"),
@@ -341,12 +340,12 @@ impl<'a> ExactPulse<'a> {
 fn memory(kernels: &[MemoryKernel]) -> Table {
     const POINTS: usize = 600;
     let mut columns = vec!["time".to_owned()];
-    columns.extend(kernels.iter().map(|kernel| format!("running_friction_{}", kernel.cluster_size())));
-    let plateau = kernels.last().and_then(|kernel| Some((kernel.cluster_size(), kernel.plateau()?)));
+    columns.extend(kernels.iter().map(|kernel| format!("running_friction_{}", kernel.cluster_size)));
+    let plateau = kernels.last().and_then(|kernel| Some((kernel.cluster_size, kernel.plateau()?)));
     if let Some((size, _)) = plateau {
         columns.push(format!("plateau_{size}"));
     }
-    let longest = kernels.last().map_or(1.0, |kernel| kernel.cluster_size() as f64);
+    let longest = kernels.last().map_or(1.0, |kernel| kernel.cluster_size as f64);
     let first = 0.1_f64;
     let ratio = (longest / first).powf(1.0 / POINTS as f64);
     let times = std::iter::once(0.0).chain((0..=POINTS).map(|point| first * ratio.powi(point as i32)));

@@ -17,7 +17,7 @@ pub(crate) fn is_frozen(model: &Model, state: &State, particle: usize) -> bool {
 /// The momentum that every wall is to absorb: that of frozen particles beyond the one in the state; no elements without
 /// frozen particles.
 pub(crate) fn absorbed(model: &Model, state: &State, momenta: &[[i64; 3]]) -> Vec<[i64; 3]> {
-    if !model.has_frozen_particles() {
+    if model.frozen_particles() == 0 {
         return Vec::new();
     }
     let walls = &model.particles().walls;

@@ -53,7 +53,7 @@ impl Builder<'_> {
 
     /// The constant that says how a report tells the conservative part of gathered impulses: `shaders/couplings/kicks.wgsl`.
     pub(super) fn conservative_gathered(&self) -> f64 {
-        match (self.gathers_friction(), self.model.has_potential()) {
+        match (self.gathers_friction(), self.model.physics().has_potential()) {
             (true, false) => 0.0,
             (false, _) => 1.0,
             (true, true) => APART,

@@ -40,7 +40,7 @@ impl Builder<'_> {
 
     /// What passes choose that give frozen particles impulses before the end of a step.
     pub(super) fn booking_of_layers(&self) -> Choices {
-        if self.model.has_frozen_particles() { walls::booking(self.model) } else { Choices::new() }
+        if self.model.frozen_particles() > 0 { walls::booking(self.model) } else { Choices::new() }
     }
 
     /// A kernel that visits all pairs for a report, and leaves a row of sums for every workgroup, from a row on.

@@ -80,11 +80,6 @@ impl ShearedBox {
         self.first.wrapping_add(grown(halves, self.increment))
     }
 
-    /// How far it is displaced where the clock begins, in the same unit.
-    pub(crate) fn first_shift(&self) -> u32 {
-        self.first
-    }
-
     /// The low and the high word of what the displacement grows by in half a time step.
     pub(crate) fn increment(&self) -> [u32; 2] {
         [self.increment as u32, (self.increment >> 32) as u32]

@@ -40,7 +40,7 @@ pub(crate) fn add_constants(model: &Model, parts: u8, entries_before: Option<usi
         (Constant::ShearLow, f64::from(low)),
         (Constant::ShearHigh, f64::from(high)),
         (Constant::ShearStep, f64::from(((high << 1) | (low >> 31)).cast_signed())),
-        (Constant::ShearFirst, f64::from(shear.first_shift())),
+        (Constant::ShearFirst, f64::from(shear.first)),
         moment(0),
         (Constant::ShearPart, 2.0 / f64::from(parts)),
         (Constant::JumpEntries, entries_before.unwrap_or(0) as f64),

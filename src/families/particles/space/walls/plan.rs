@@ -25,7 +25,7 @@ pub(crate) fn booking(model: &Model) -> Choices {
 
 /// Adds the constants of the walls.
 pub(crate) fn add_constants(model: &Model, plan: &mut Plan) {
-    plan.constants.push(switch(Constant::Frozen, model.has_frozen_particles()));
+    plan.constants.push(switch(Constant::Frozen, model.frozen_particles() > 0));
     let walls = &model.particles().walls;
     if walls.is_empty() {
         return;
@@ -68,7 +68,7 @@ pub(crate) fn add_constants(model: &Model, plan: &mut Plan) {
 pub(crate) fn frozen_sums(model: &Model, sums: &Sums) -> Option<(Constant, f64)> {
     let pair = model.particles().walls.iter().position(|walls| walls.layer > 0.0)?;
     let first = sums.place(Sum::Walls)?;
-    model.has_frozen_particles().then_some((Constant::FrozenSums, (first + 6 * pair) as f64))
+    (model.frozen_particles() > 0).then_some((Constant::FrozenSums, (first + 6 * pair) as f64))
 }
 
 /// Adds the kernel that reports what walls have absorbed, before anything moves on from there, into a row after the
