@@ -149,6 +149,16 @@ pub fn counted(count: u64, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
+/// The same with digits in groups of three.
+///
+/// ```
+/// assert_eq!(mesoscope::numbers::counted_in_groups(24_000, "particle"), "24,000 particles");
+/// ```
+#[must_use]
+pub fn counted_in_groups(count: u64, noun: &str) -> String {
+    format!("{} {noun}{}", grouped(count), if count == 1 { "" } else { "s" })
+}
+
 /// A rate with three digits and the prefix of its unit.
 ///
 /// ```

@@ -2,7 +2,7 @@
 
 use super::Field;
 use crate::document::FieldQuantity;
-use crate::numbers::grouped;
+use crate::numbers::counted_in_groups;
 use crate::quantity::Quantity;
 
 /// What pictures of a state are of.
@@ -39,9 +39,7 @@ impl EnergyChart {
     /// The energies of so many particles of this name in a box of this dimension.
     #[must_use]
     pub fn of(noun: &'static str, count: u64, dimension: usize) -> Self {
-        let plural = if count == 1 { "" } else { "s" };
-        let subtitle = format!("{} {noun}{plural}", grouped(count));
-        Self { subtitle, per: Some((noun, count)), dimension, ..Self::default() }
+        Self { subtitle: counted_in_groups(count, noun), per: Some((noun, count)), dimension, ..Self::default() }
     }
 }
 

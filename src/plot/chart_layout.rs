@@ -8,7 +8,7 @@ use super::palette::Colour;
 use super::series_path::{Run, length, runs, thinned};
 use super::text::{CAPITAL_HEIGHT, LINE_HEIGHT, Weight};
 use super::ticks::{Ticks, ticks, ticks_along};
-use crate::numbers::grouped;
+use crate::numbers::counted_in_groups;
 use crate::scene::{Headings, PlotStyle};
 
 /// Sizes in pixels, all in proportion to the picture.
@@ -172,8 +172,8 @@ impl Layout {
         let mut notes = vec![chart.subtitle.clone()];
         let left_out: usize = prepared.iter().map(|prepared| prepared.left_out).sum();
         if left_out > 0 {
-            let (count, plural) = (grouped(left_out as u64), if left_out == 1 { "value" } else { "values" });
-            notes.push(format!("{count} {plural} ≤ 0 left out of a logarithmic axis"));
+            let values = counted_in_groups(left_out as u64, "value");
+            notes.push(format!("{values} ≤ 0 left out of a logarithmic axis"));
         }
         let beyond: Vec<String> = prepared.iter().filter_map(Prepared::beyond_note).collect();
         if !beyond.is_empty() {

@@ -3,14 +3,14 @@
 use crate::engine::EngineError;
 use crate::families::Instability;
 use crate::gpu::GpuError;
-use crate::numbers::{bytes, grouped};
+use crate::numbers::{bytes, counted_in_groups};
 use crate::output::OutputError;
 use crate::output::checkpoint::CheckpointError;
 use crate::plot::PlotError;
 use crate::scene::SceneError;
 use crate::shaders::Array;
 use std::num::NonZero;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A failure of a run.
 ///
@@ -79,7 +79,7 @@ pub enum RunError {
     /// It was asked to stop before its end.
     #[error(
         "interrupted at step {checkpoint_step}; `mesoscope resume {}` continues it",
-        crate::printable::path(directory_of(checkpoint))
+        crate::printable::path(checkpoint.parent().unwrap_or(checkpoint))
     )]
     Interrupted {
         /// The file of the checkpoint.
@@ -138,7 +138,7 @@ pub enum RunError {
     /// The memory of this machine is too small for the particles on their way to the adapter and back.
     #[error(
         "{} take {} of the memory of this machine{}, and {} are free: fewer particles, or a machine with more memory",
-        grouped_particles(*.particles),
+        counted_in_groups(*.particles, "particle"),
         bytes(*.needed),
         if *.is_software { ", in which a software adapter computes," } else { "" },
         bytes(*.free)
@@ -191,22 +191,14 @@ pub enum RunError {
     },
 }
 
-fn grouped_particles(count: u64) -> String {
-    format!("{} {}", grouped(count), if count == 1 { "particle" } else { "particles" })
-}
-
 fn what_fits(particles: u64, copies: u64, ranks: Option<NonZero<u32>>) -> String {
     let fewer = match copies {
-        1 => format!("about {} fit", grouped_particles(particles)),
+        1 => format!("about {} fit", counted_in_groups(particles, "particle")),
         copies => format!("fewer than the {copies} copies of `state.replicate` fit"),
     };
     let shared =
         ranks.map(|ranks| format!(", or all of them on {ranks} ranks that have an adapter each (`--ranks {ranks}`)"));
     fewer + &shared.unwrap_or_default()
-}
-
-fn directory_of(file: &Path) -> &Path {
-    file.parent().unwrap_or(file)
 }
 
 impl RunError {

@@ -15,7 +15,7 @@ mod lammps;
 mod lines;
 mod tally;
 
-use crate::numbers::{bytes, grouped};
+use crate::numbers::{bytes, counted, grouped};
 use crate::{host_memory, printable};
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -165,8 +165,7 @@ impl Mistakes {
 
     fn into_list(mut self) -> Vec<Mistake> {
         if self.unlisted > 0 {
-            let count = self.unlisted;
-            let more = if count == 1 { "1 more mistake".to_owned() } else { format!("{count} more mistakes") };
+            let more = counted(self.unlisted as u64, "more mistake");
             self.listed.push(Mistake::new("", format!("found {more} like these"), "as above"));
         }
         self.listed

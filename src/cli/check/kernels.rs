@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use mesoscope::gpu::{self, GpuError};
-use mesoscope::numbers::{bytes, grouped, six_digits};
+use mesoscope::numbers::{bytes, counted_in_groups, six_digits};
 use mesoscope::plan::{Kernel, Plan, TIDYING};
 use mesoscope::shaders::{Choice, Constant, linked_text, space};
 
@@ -133,12 +133,12 @@ fn section(
             continue;
         }
         let kernel = &plan.kernels[index];
-        let noun = if kernel.workgroups == 1 { "workgroup" } else { "workgroups" };
+        let workgroups = counted_in_groups(kernel.workgroups.into(), "workgroup");
         let times = match kernels.iter().filter(|other| **other == index).count() {
             1 => String::new(),
             count => format!(", {count} times"),
         };
-        let _ = writeln!(text, "  {}, {} {noun}{times}", kernel.name, grouped(kernel.workgroups.into()));
+        let _ = writeln!(text, "  {}, {workgroups}{times}", kernel.name);
         if described.contains(&index) {
             continue;
         }

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use crate::document::{Placement, Problems, Scene, ShallowWaterInteraction, SmoothingSolver, Velocities, brief};
 use crate::families::shallow_water::surface::Surface;
 use crate::families::{LARGEST_DEPTH, chebyshev_iterations};
+use crate::numbers::counted;
 
 /// The most iterations of `chebyshev` that a scene may ask for: each is a kernel of every step.
 const MOST_ITERATIONS: f64 = 10_000.0;
@@ -25,7 +26,7 @@ const PATH: &str = "interactions[0]";
 pub(crate) fn check(scene: &Scene, water: &ShallowWaterInteraction, problems: &mut Problems) {
     let lengths = &scene.space.lengths;
     if lengths.len() != 2 {
-        let found = format!("{} edge{}", lengths.len(), if lengths.len() == 1 { "" } else { "s" });
+        let found = counted(lengths.len() as u64, "edge");
         problems.refuse("space.box", found, "two edges: shallow water is two-dimensional");
     }
     if scene.state.is_some() && !water.surface.is_empty() {

@@ -2,9 +2,9 @@
 
 use super::plan::smoothing::iterations;
 use super::{WaterLayout, waves};
-use crate::document::{BathRate, BathScheme, LaplacianSymbol, MeshBath, Scene, SmoothingSolver};
+use crate::document::{BathRate, LaplacianSymbol, MeshBath, Scene, SmoothingSolver};
 use crate::families::ShallowWater;
-use crate::numbers::{grouped, six_digits};
+use crate::numbers::{counted_in_groups, grouped, six_digits};
 use crate::plan::Plan;
 
 /// The particles, with their number.
@@ -12,8 +12,8 @@ pub(super) fn particles(water: &ShallowWater, count: u64) -> String {
     if water.carriers == count {
         return grouped(count);
     }
-    let noun = if count - water.carriers == 1 { "tracer" } else { "tracers" };
-    format!("{} of water and {} {noun},", grouped(water.carriers), grouped(count - water.carriers))
+    let tracers = counted_in_groups(count - water.carriers, "tracer");
+    format!("{} of water and {tracers},", grouped(water.carriers))
 }
 
 /// What a scene of shallow water does on its mesh.
@@ -50,11 +50,6 @@ pub(super) fn mesh(water: &ShallowWater, scene: &Scene, plan: &Plan, nodes: &str
     match scene.system.shallow_water().and_then(|asked| asked.bath.as_ref()) {
         Some(MeshBath::White {}) => rows.push(("bath", "white".to_owned())),
         Some(MeshBath::Memory { epsilon, scheme, rate }) => {
-            let scheme = match scheme {
-                BathScheme::CotterReich => "cotter-reich",
-                BathScheme::Symmetric => "symmetric",
-                BathScheme::Exponential => "exponential",
-            };
             let rate = if *rate == BathRate::Printed { ", rate as printed" } else { "" };
             rows.push(("bath", format!("memory, epsilon {epsilon}, {scheme}{rate}")));
         }
