@@ -1,7 +1,5 @@
 //! Why a command failed, in words, with its exit code.
 
-use std::fmt;
-
 use mesoscope::gpu::GpuError;
 use mesoscope::output::checkpoint::{CheckpointError, ContentError};
 use mesoscope::output::{OutputError, files};
@@ -14,7 +12,8 @@ use mesoscope::study::StudyError;
 pub const INTERRUPTED: u8 = 130;
 
 /// Why a command failed.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("{message}")]
 pub struct Failure {
     exit_code: u8,
     message: String,
@@ -54,12 +53,6 @@ impl Failure {
     /// What the process returns.
     pub fn exit_code(&self) -> u8 {
         self.exit_code
-    }
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.message)
     }
 }
 

@@ -6,47 +6,25 @@ use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
 use mesoscope::families::{self, Model, PictureKind};
-use mesoscope::numbers::{counted, grouped, prefixed};
+use mesoscope::numbers::{counted, counted_in_groups, grouped, prefixed};
 use mesoscope::output::summary::Unequilibrated;
 use mesoscope::printable;
 use mesoscope::quantity::{Quantity, Unit};
 use mesoscope::ranks::Processes;
 use mesoscope::run::{self, Event, Outcome, Progress, Run};
 
-use super::event_lines::{EventLines, Form, WritingArguments};
+use super::event_lines::{EventLines, Form};
 use super::progress::{Patience, bar, say};
 use super::table::{aligned, labelled};
 use super::{Failure, RanksArgument, line, print};
 
-/// The reports of a run on its progress.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Telling {
-    /// Errors only.
-    Errors,
-    /// Everything, for people.
-    Words,
-    /// Everything; events for programs.
-    Json,
-}
-
-impl Telling {
-    /// As arguments say.
-    pub fn of(quiet: bool, writing: &WritingArguments) -> Self {
-        match writing.progress {
-            _ if quiet => Self::Errors,
-            Form::Words => Self::Words,
-            Form::Json => Self::Json,
-        }
-    }
-}
-
-/// Executes a run on its ranks and reports on it, with warnings of what they cost before.
+/// Executes a run on its ranks and reports on it, with warnings of what they cost before; without a form, errors only.
 pub fn execute(
     simulation: Run,
     processes: Option<&dyn Processes>,
     ranks: &RanksArgument,
     directory: &str,
-    telling: Telling,
+    form: Option<Form>,
 ) -> Result<(), Failure> {
     let copies = processes.map(Processes::count);
     let division = ranks.division(simulation.scene(), copies)?;
@@ -62,14 +40,14 @@ pub fn execute(
             begun.store(true, Ordering::Relaxed);
         }
     };
-    if telling == Telling::Errors {
+    let Some(form) = form else {
         simulation.execute_among(processes, choice, &mut |event| note_begin(&event))?;
         return Ok(());
-    }
+    };
     let scene = simulation.scene().clone();
     let mut known = simulation.notices().to_vec();
     let of_scene: Vec<String> = families::warnings(&scene).iter().map(ToString::to_string).collect();
-    if telling == Telling::Json {
+    if form == Form::Json {
         let mut lines = EventLines::default();
         warning.iter().chain(&known).chain(&of_scene).for_each(|warning| EventLines::warn(warning));
         let outcome = simulation.execute_among(processes, choice, &mut |event| {
@@ -129,13 +107,12 @@ struct Reporter {
 impl Reporter {
     fn new(simulation: &Run) -> Self {
         let (model, scene) = (simulation.scene().model(), simulation.scene());
-        let particles = model.particle_count();
-        let noun = if particles == 1 { "particle" } else { "particles" };
+        let particles = counted_in_groups(model.particle_count(), "particle");
         let dimensions = counted(scene.space.lengths.len() as u64, "dimension");
         let title = printable::name(&scene.title);
         Self {
             flows: model.picture() == PictureKind::Fields,
-            headline: format!("{title}: {} {noun} in {dimensions}", grouped(particles)),
+            headline: format!("{title}: {particles} in {dimensions}"),
             composition: labelled(scene.composition(), "  "),
             bar: ProgressBar::hidden(),
             reported: 0,

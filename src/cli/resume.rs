@@ -9,7 +9,7 @@ use mesoscope::run::Run;
 use mesoscope::study::Kind;
 
 use super::event_lines::WritingArguments;
-use super::report::{self, Telling};
+use super::report;
 use super::{Failure, RanksArgument, guidance, heading, print, processes, whole_number};
 
 /// Continue a run from its last checkpoint
@@ -73,5 +73,6 @@ fn resume(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<()
         return if arguments.quiet { Ok(()) } else { print(&text) };
     }
     let simulation = if arguments.writing.no_pictures { resumed.without_pictures() } else { resumed };
-    report::execute(simulation, processes, &arguments.ranks, &shown, Telling::of(arguments.quiet, &arguments.writing))
+    let form = (!arguments.quiet).then_some(arguments.writing.progress);
+    report::execute(simulation, processes, &arguments.ranks, &shown, form)
 }

@@ -8,7 +8,7 @@ use mesoscope::run::Run;
 use mesoscope::study::Kind;
 
 use super::event_lines::WritingArguments;
-use super::report::{self, Telling};
+use super::report;
 use super::{Failure, RanksArgument, RunArguments, SceneArguments, StudyArguments, heading, processes, sweep};
 
 /// Simulate a scene and write energies, plots and snapshots
@@ -74,11 +74,6 @@ fn simulate(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<
     }
     let started = if arguments.how.force { Run::replace(scene, directory) } else { Run::start(scene, directory) };
     let simulation = if arguments.writing.no_pictures { started.without_pictures() } else { started };
-    report::execute(
-        simulation,
-        processes,
-        &arguments.ranks,
-        &shown,
-        Telling::of(arguments.how.quiet, &arguments.writing),
-    )
+    let form = (!arguments.how.quiet).then_some(arguments.writing.progress);
+    report::execute(simulation, processes, &arguments.ranks, &shown, form)
 }
