@@ -83,22 +83,18 @@ fn take_part<'a>(
     channel: &mut dyn Channel,
     peers: Box<dyn Swap + 'a>,
 ) -> Result<(), String> {
-    let (gpu, plan) = match open_adapter(scene, choice, options) {
-        Ok(opened) => opened,
-        Err(error) => return decline(channel, error.to_string()),
+    let serve = || {
+        let (gpu, plan) = open_adapter(scene, choice, options).map_err(|error| error.to_string())?;
+        let mut engine = Engine::of_part(&gpu, plan, peers).map_err(|error| error.to_string())?;
+        let introduction = introduction(&gpu, scene, choice).map_err(|error| error.to_string())?;
+        let replan = |told: &str| {
+            let mut changed: Scene = serde_json::from_str(told).map_err(|error| error.to_string())?;
+            changed.kept = scene.kept.clone();
+            Ok(plan_for(&Checked::presumed(changed), &gpu, options))
+        };
+        Ok(serve(&mut engine, introduction, channel, &replan))
     };
-    let replan = |told: &str| {
-        let mut changed: Scene = serde_json::from_str(told).map_err(|error| error.to_string())?;
-        changed.kept = scene.kept.clone();
-        Ok(plan_for(&Checked::presumed(changed), &gpu, options))
-    };
-    match Engine::of_part(&gpu, plan, peers) {
-        Ok(mut engine) => match introduction(&gpu, scene, choice) {
-            Ok(introduction) => serve(&mut engine, introduction, channel, &replan),
-            Err(error) => decline(channel, error.to_string()),
-        },
-        Err(error) => decline(channel, error.to_string()),
-    }
+    serve().unwrap_or_else(|reason| decline(channel, reason))
 }
 
 /// Particles and steps of the scene from which ranks find out whether they compute alike.

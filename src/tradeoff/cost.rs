@@ -56,18 +56,13 @@ struct Runner<'a> {
 impl<'a> Runner<'a> {
     /// Times steps, with more room where that is wanted, as a run does.
     fn take_turn(&mut self, gpu: &'a Gpu) -> Result<(), EngineError> {
-        match self.advance(gpu) {
-            Err(error) if is_a_result(&error) => self.has_ended = true,
-            Err(error) => match error.roomier(self.options, self.choice.state.len() as u64) {
-                Some(roomier) => {
-                    self.options = roomier;
-                    return self.take_turn(gpu);
-                }
-                None => return Err(error),
-            },
-            Ok(()) => {}
+        let Err(error) = self.advance(gpu) else { return Ok(()) };
+        if is_a_result(&error) {
+            self.has_ended = true;
+            return Ok(());
         }
-        Ok(())
+        self.options = error.roomier(self.options, self.choice.state.len() as u64).ok_or(error)?;
+        self.take_turn(gpu)
     }
 
     fn advance(&mut self, gpu: &'a Gpu) -> Result<(), EngineError> {
