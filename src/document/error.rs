@@ -48,12 +48,9 @@ const NAMES: usize = 24;
 /// Names as a list that may be read; what is beyond some is counted.
 pub(crate) fn named<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     let mut names = names.into_iter();
-    let mut list = names.by_ref().take(NAMES).collect::<Vec<_>>().join(", ");
+    let list = names.by_ref().take(NAMES).collect::<Vec<_>>().join(", ");
     let more = names.count();
-    if more > 0 {
-        list = format!("{list} and {more} more");
-    }
-    list
+    if more > 0 { format!("{list} and {more} more") } else { list }
 }
 
 impl fmt::Display for Problem {

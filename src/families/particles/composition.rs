@@ -73,12 +73,10 @@ fn counted<const LENGTH: usize>(scene: &Scene, names: &SpeciesNames<'_>, all: &[
     });
     let of_kinds = of_kinds.collect::<Vec<_>>().join(", ");
     let total = grouped(counts.values().sum());
-    if counts.len() > 1 {
-        format!("{total}: {of_kinds}")
-    } else if counts.is_empty() {
-        total
-    } else {
-        of_kinds
+    match counts.len() {
+        0 => total,
+        1 => of_kinds,
+        _ => format!("{total}: {of_kinds}"),
     }
 }
 

@@ -25,24 +25,10 @@ pub(super) fn fate_of_energy(model: &Model) -> String {
 }
 
 /// How all that is no bath adds energy.
-fn drives(model: &Model) -> Vec<&'static str> {
+pub(super) fn drives(model: &Model) -> Vec<&'static str> {
     let mut ways: Vec<_> = model.particles().terms().into_iter().filter_map(Term::energy_source).collect();
     ways.dedup();
     ways
-}
-
-/// True if neither a bath nor a noise exchanges energy with the particles.
-pub(super) fn is_conservative(model: &Model) -> bool {
-    drives(model).is_empty() && baths(model).iter().all(|(step, _)| step.coupling == 0.0)
-}
-
-/// True if baths alone, at the temperature of the model, exchange energy with the particles.
-pub(super) fn has_thermostat(model: &Model) -> bool {
-    let mut acting = baths(model).into_iter().filter(|(step, _)| step.coupling > 0.0).peekable();
-    drives(model).is_empty()
-        && acting.peek().is_some()
-        && model.temperature > 0.0
-        && acting.all(|(_, temperature)| temperature == model.temperature)
 }
 
 /// The steps of all baths of particles, pairs and bonds, with their temperatures.

@@ -268,11 +268,16 @@ impl Physics for Particles {
     }
 
     fn is_conservative(&self, model: &Model) -> bool {
-        conservation::is_conservative(model)
+        conservation::drives(model).is_empty()
+            && conservation::baths(model).iter().all(|(step, _)| step.coupling == 0.0)
     }
 
     fn has_thermostat(&self, model: &Model) -> bool {
-        conservation::has_thermostat(model)
+        let mut acting = conservation::baths(model).into_iter().filter(|(step, _)| step.coupling > 0.0).peekable();
+        conservation::drives(model).is_empty()
+            && acting.peek().is_some()
+            && model.temperature > 0.0
+            && acting.all(|(_, temperature)| temperature == model.temperature)
     }
 
     fn limits(&self, scene: &Checked) -> Vec<Limit> {

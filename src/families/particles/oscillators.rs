@@ -124,7 +124,7 @@ fn mean_bath_square(model: &Model) -> Option<ExactMean> {
     let first = remembering.find(|step| step.coupling > 0.0)?;
     let forgets = |step: &BathStep| step.persistence < 1.0;
     let alike = forgets(&first) && remembering.all(|step| step.continuous_coupling == first.continuous_coupling);
-    (alike && conservation::has_thermostat(model)).then_some(ExactMean {
+    (alike && model.physics().has_thermostat(model)).then_some(ExactMean {
         column: "bath_square",
         continuous: model.temperature * first.continuous_coupling,
         discrete: None,
