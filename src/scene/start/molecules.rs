@@ -51,10 +51,11 @@ pub(super) fn check(scene: &Scene, problems: &mut Problems) {
 /// All particles of molecules that are right by themselves; none where some find no places.
 pub(super) fn particles(scene: &Scene, problems: &mut Problems) -> Option<ParticleFile> {
     let names = SpeciesNames::of(scene);
+    let mass = |name: &&str| scene.particles.iter().find(|group| group.species == *name).map(|group| group.mass);
     let mut all = ParticleFile {
         species: names.names().iter().map(|name| (*name).to_owned()).collect(),
         labelled: true,
-        masses: names.names().iter().map(|name| mass(scene, name)).collect(),
+        masses: names.names().iter().map(mass).collect(),
         dimension: Some(scene.space.lengths.len()),
         ..ParticleFile::default()
     };
@@ -71,11 +72,6 @@ pub(super) fn particles(scene: &Scene, problems: &mut Problems) -> Option<Partic
         }
     }
     problems.is_empty().then_some(all)
-}
-
-/// The mass of a species.
-fn mass(scene: &Scene, name: &str) -> Option<f64> {
-    scene.particles.iter().find(|group| group.species == name).map(|group| group.mass)
 }
 
 /// Checks molecules of one kind by themselves.
