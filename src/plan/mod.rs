@@ -51,7 +51,7 @@ pub(crate) const PARTICLE_WORDS: u32 = 8;
 pub const TIDYING: u64 = 32;
 
 /// Values of the integer units in which the observables are summed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Quanta {
     /// Kinetic energy.
     pub energy: f64,

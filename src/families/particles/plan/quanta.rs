@@ -46,8 +46,7 @@ fn quanta_without_memory(model: &Model) -> Quanta {
         curvature: (power_of_two(strongest) * 2_f64.powi(-24) / (cutoff * cutoff)).max(stiffness),
         length_squared: cutoff * cutoff * 2_f64.powi(-32),
         velocity_squared: energy / lightest,
-        bath_squared: 0.0,
-        bath_products: ProductQuanta::default(),
+        ..Quanta::default()
     }
 }
 

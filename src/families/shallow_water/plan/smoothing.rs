@@ -61,7 +61,7 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
     let workgroup = options.workgroup();
     let constants = [(Constant::MeanMass, water.mean_mass() as f64), (Constant::MassUnit, water.mass_unit)];
     if water.smoothing.length == 0.0 {
-        let kernel = Kernel::new("depths", Entry::FindDepths, Choices::new(), workgroups(water.nodes(), workgroup))
+        let kernel = Kernel::new("depths", Entry::FindDepths, Choices::new(), water.nodes().div_ceil(workgroup))
             .with([constants.as_slice(), &[(Constant::Nodes, water.nodes() as f64)]].concat());
         return SmoothingPlan { kernels: vec![kernel], order: vec![0], buffers: Vec::new() };
     }
@@ -77,11 +77,8 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
 /// Buffers of a plan that may be held in textures: those of Fourier transforms.
 pub(crate) fn texture_candidates(plan: &Plan) -> Vec<Array> {
     let turns = [Entry::FourierTurn, Entry::FourierTurnOfLanes];
-    if plan.kernels.iter().any(|kernel| turns.contains(&kernel.entry)) {
-        vec![Array::Waves, Array::WavesNext]
-    } else {
-        Vec::new()
-    }
+    let is_turned = plan.kernels.iter().any(|kernel| turns.contains(&kernel.entry));
+    if is_turned { vec![Array::Waves, Array::WavesNext] } else { Vec::new() }
 }
 
 /// The factor by which the smoothing multiplies the mode of the mesh with these wave numbers, which count waves in the
@@ -129,10 +126,6 @@ pub fn transfer(water: &ShallowWater, lengths: [f64; 2], wave: [u32; 2]) -> f64 
 #[must_use]
 pub fn iterations(water: &ShallowWater, lengths: [f64; 2], tolerance: f64) -> u32 {
     Polynomial::new(water, lengths, tolerance).weights.len() as u32
-}
-
-fn workgroups(invocations: u64, workgroup: u64) -> u64 {
-    invocations.div_ceil(workgroup)
 }
 
 /// Λ²/Δ² of each axis.
@@ -290,7 +283,7 @@ impl Fourier<'_> {
             Entry::FourierTurn if shared.is_some() => Entry::FourierTurnOfLanes,
             entry => entry,
         };
-        Kernel::new(pass.name, entry, choices, workgroups(lanes, workgroup))
+        Kernel::new(pass.name, entry, choices, lanes.div_ceil(workgroup))
             .with(constants)
             .renamed(if number.is_multiple_of(2) { swapped } else { Vec::new() })
     }
@@ -396,7 +389,7 @@ fn chebyshev(
         ],
     ]
     .concat();
-    let strips = workgroups(u64::from(width) * u64::from(height.div_ceil(STRIP)), workgroup);
+    let strips = (u64::from(width) * u64::from(height.div_ceil(STRIP))).div_ceil(workgroup);
     let mut plan = SmoothingPlan { kernels: Vec::new(), order: Vec::new(), buffers: Vec::new() };
     for application in 1..=water.smoothing.power {
         let choices = Choices::new().with_if(application > 1, Source::Smoothed);
@@ -411,7 +404,7 @@ fn chebyshev(
             );
             plan.kernels.len() - 1
         };
-        let all = workgroups(water.nodes(), workgroup);
+        let all = water.nodes().div_ceil(workgroup);
         plan.order.push(kernel("begin smoothing", Entry::ChebyshevBegin, all, &[], [even, odd]));
         let pair: Vec<usize> = [(0.0, [odd, even]), (1.0, [even, odd])]
             .into_iter()

@@ -12,7 +12,7 @@ use crate::document::WaterIntegrator;
 use crate::families::shallow_water::{Bins, WaterLayout, observables};
 use crate::families::{Model, ShallowWater};
 use crate::noise;
-use crate::plan::{ProductQuanta, switch};
+use crate::plan::switch;
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, grid, mesh, water};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -148,12 +148,8 @@ fn quanta(model: &Model, water: &ShallowWater) -> Quanta {
     Quanta {
         energy: power_of_two(mass * fastest * fastest) * 2_f64.powi(-36),
         pair_energy: power_of_two(speed_squared) * 2_f64.powi(-36),
-        velocity_squared: 0.0,
-        force_squared: 0.0,
-        curvature: 0.0,
-        length_squared: 0.0,
         bath_squared: power_of_two(bath.max(1e-24)) * 2_f64.powi(-32),
-        bath_products: ProductQuanta::default(),
+        ..Quanta::default()
     }
 }
 
@@ -258,17 +254,14 @@ impl Builder<'_> {
 
     /// What is chosen however many ranks there are: the splines, where particles are kept, and what drives them.
     fn choices_of_one_rank(&self) -> Choices {
+        let (spline, nodes) = match self.water.spline_order {
+            1 => (mesh::Spline::Linear, mesh::Nodes::Linear),
+            2 => (mesh::Spline::Quadratic, mesh::Nodes::Quadratic),
+            _ => (mesh::Spline::Cubic, mesh::Nodes::Cubic),
+        };
         let choices = Choices::new()
-            .with(match self.water.spline_order {
-                1 => mesh::Spline::Linear,
-                2 => mesh::Spline::Quadratic,
-                _ => mesh::Spline::Cubic,
-            })
-            .with(match self.water.spline_order {
-                1 => mesh::Nodes::Linear,
-                2 => mesh::Nodes::Quadratic,
-                _ => mesh::Nodes::Cubic,
-            })
+            .with(spline)
+            .with(nodes)
             .with_if(self.water.bath.is_some(), mesh::Surface::Bath)
             .with_if(self.texels, arrays::Order::Texture);
         match self.storage {
@@ -276,11 +269,10 @@ impl Builder<'_> {
                 let in_place = if self.texels { water::Particles::InPlaceTextures } else { water::Particles::InPlace };
                 choices.with(water::Storage::Sorted).with(water::Sorted::BySort).with(in_place)
             }
-            Storage::Bins => choices.with(water::Storage::Bins).with(if self.texels {
-                water::Particles::BinsTextures
-            } else {
-                water::Particles::Bins
-            }),
+            Storage::Bins => {
+                let bins = if self.texels { water::Particles::BinsTextures } else { water::Particles::Bins };
+                choices.with(water::Storage::Bins).with(bins)
+            }
         }
     }
 
@@ -300,11 +292,8 @@ impl Builder<'_> {
         let bin = self.kernel("bin", Entry::BinWater, &none, slots);
         self.plan.prepare.push(bin);
         let paired = self.water.mesh[0].is_multiple_of(2);
-        let choices = Choices::new().with(grid::Dimension::Plane).with(if paired {
-            grid::Rows::MeshInPairs
-        } else {
-            grid::Rows::Mesh
-        });
+        let rows = if paired { grid::Rows::MeshInPairs } else { grid::Rows::Mesh };
+        let choices = Choices::new().with(grid::Dimension::Plane).with(rows);
         let sum = PrefixSum { choices: &choices, rows: u64::from(self.water.mesh[1]), cells: self.water.nodes() };
         self.plan.add_row_sums(sum.rows, sum.cells, self.options);
         for kernel in sum.kernels(self.options) {
