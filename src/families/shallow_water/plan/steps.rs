@@ -348,25 +348,19 @@ impl Builder<'_> {
 
     fn motion(&mut self, measured: &Measured) {
         let groups = self.water.nodes().div_ceil(self.options.workgroup());
-        let push = Choices::new().with(match self.storage {
-            Storage::Sorted => water::Moving::Sorted,
-            Storage::Bins => water::Moving::Bins,
-        });
+        let (moving, eight) = match self.storage {
+            Storage::Sorted => (water::Moving::Sorted, water::Eight::Sorted),
+            Storage::Bins => (water::Moving::Bins, water::Eight::Bins),
+        };
+        let push = Choices::new().with(moving);
         let push = if self.eights {
-            push.with(mesh::Nodes::CubicOfEight).with(mesh::Pass::PushOfEight).with(match self.storage {
-                Storage::Sorted => water::Eight::Sorted,
-                Storage::Bins => water::Eight::Bins,
-            })
+            push.with(mesh::Nodes::CubicOfEight).with(mesh::Pass::PushOfEight).with(eight)
         } else {
             push.with(mesh::Pass::Push)
         };
         let (push, push_on) = (self.cell_kernel("push", &push), self.cell_kernel("push_from_report", &push));
         let report = self.kernel("report", Entry::ReportWater, &Choices::new(), self.water.nodes());
-        self.plan.kernels[push].constants.push((Constant::Closes, 1.0));
-        self.plan.kernels[push_on].constants.push((Constant::Closes, 0.0));
-        self.plan.advance.push(push);
-        self.plan.finish_report.push(push_on);
-        self.plan.report.push(report);
+        self.ends_steps([push, push_on, report]);
         self.plan.sample_observables(measured.every, &observables::sums(), groups);
         if self.tracers() > 0 {
             self.drifting();
@@ -381,12 +375,17 @@ impl Builder<'_> {
         let push = self.kernel("push_tracers", Entry::PushTracers, &none, tracers);
         let push_on = self.kernel("push_tracers_from_report", Entry::PushTracers, &none, tracers);
         let report = self.kernel("report_tracers", Entry::ReportTracers, &none, tracers);
+        self.ends_steps([push, push_on, report]);
+        self.plan.add_buffer(Array::Tracers, WATER * tracers);
+    }
+
+    /// Ends steps with the first of these kernels, reported ones with the second; the third makes the report.
+    fn ends_steps(&mut self, [push, push_on, report]: [usize; 3]) {
         self.plan.kernels[push].constants.push((Constant::Closes, 1.0));
         self.plan.kernels[push_on].constants.push((Constant::Closes, 0.0));
         self.plan.advance.push(push);
         self.plan.finish_report.push(push_on);
         self.plan.report.push(report);
-        self.plan.add_buffer(Array::Tracers, WATER * tracers);
     }
 
     /// Kernels that follow particles and tracers.

@@ -140,11 +140,8 @@ impl Builder<'_> {
 
     /// What is chosen for every kernel: the plane, the grid in it, and what cells are.
     fn choices(&self) -> Choices {
-        plane().with(grid::Dimension::Plane).with(grid::Rows::Plain).with(if self.cells.keeps_energy() {
-            voronoi::Gas::Energy
-        } else {
-            voronoi::Gas::Isothermal
-        })
+        let gas = if self.cells.keeps_energy() { voronoi::Gas::Energy } else { voronoi::Gas::Isothermal };
+        plane().with(grid::Dimension::Plane).with(grid::Rows::Plain).with(gas)
     }
 
     /// The form of pressures and mass exchange.

@@ -417,11 +417,8 @@ impl<'a> Builder<'a> {
 
     /// From where pairs are looked for.
     fn prefilter_source(&self) -> Choices {
-        Choices::new().with(if self.is_sheared() {
-            pairs::PrefilterSource::Sheared
-        } else {
-            self.sorted.prefilter_source()
-        })
+        let source = Choices::new().with(self.sorted.prefilter_source());
+        source.with_if(self.is_sheared(), pairs::PrefilterSource::Sheared)
     }
 
     /// How reports visit pairs: their sums are more than a word, which no queue adds up, and they are few.
