@@ -284,7 +284,7 @@ impl Gpu {
         self.serial_memory
     }
 
-    /// Whether the environment requests that the lanes of a workgroup share a queue of pairs, with `MESOSCOPE_PLAN=gpu-queue`.
+    /// True if the environment requests with `MESOSCOPE_PLAN=gpu-queue` that the lanes of a workgroup share a queue of pairs.
     #[must_use]
     pub fn queues_pairs(&self) -> bool {
         self.queues_pairs

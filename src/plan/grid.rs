@@ -41,7 +41,7 @@ impl ByteWindows {
             count[axis] = ((unit(axis, 1) / coarsest * (1.0 + 1e-12)).floor() as u32).max(1);
         }
         let finest = axes.clone().map(|axis| unit(axis, count[axis])).fold(f64::INFINITY, f64::min);
-        // What rounding adds to a difference on each axis, and what the fourth byte does: shaders/pairs/prefilter/bytes.wgsl.
+        // Rounding adds this to a difference on each axis, the fourth byte at most one: shaders/pairs/prefilter/bytes.wgsl.
         let rounding = axes.map(|axis| if axis == 0 { 1.0 } else { 1.5_f64 }.powi(2)).sum::<f64>().sqrt();
         let reach = (cutoff / finest * (1.0 + 1e-5) + rounding).powi(2) + 1.0;
         // No word is further from another than this.

@@ -11,7 +11,7 @@ pub struct Hardware {
     /// Whether lanes load and store one after the other, as on software adapters: every access to a buffer is expensive, and one of
     /// eight bytes costs no more than one of four; texels of a texture are loaded whole.
     pub serial_memory: bool,
-    /// Whether the lanes of a workgroup share a queue of pairs, where a lane would visit all pairs of a particle.
+    /// True if the lanes of a workgroup share a queue of pairs, where a lane would visit all pairs of a particle.
     pub queues_pairs: bool,
     /// Bytes that a kernel can bind of one array; a larger one lies in portions. As many as an array has if `None`.
     pub largest_binding: Option<u64>,

@@ -113,7 +113,7 @@ impl Entry {
         self.facts.push(Fact { name, text: text.into() });
     }
 
-    /// What could be read; the reason why it could not be is among what is missing.
+    /// The value, or nothing where it cannot be read: the reason is then among what is missing.
     pub(super) fn readable<T>(&mut self, read: Result<T, impl Display>) -> Option<T> {
         read.map_err(|error| self.missing.push(error.to_string())).ok()
     }
