@@ -63,41 +63,24 @@ fn visit_queue_of_chunk(first: u32, end: u32, lane: u32) {
     let row = row_of(fraction_of(me.position));
     // Copies in frames are visited where they are copied from.
     let is_visited = first + lane < end && index >= row_begin(row) && index < row_end(row);
-    begin_visit(row, me);
-    prepare_row_hits(row, me);
-    let columns = columns_of(me);
-    let place_of_lane = place_of_row(row);
+    var search = search_around(row, me);
     pass_begin(me);
     for (var word = 0u; word < QUEUED_SUMS; word++) { atomicStore(&sums_of_lanes[lane].words[word], 0); }
     if (lane == 0u) { atomicStore(&hits_of_lanes, 0u); }
     workgroupBarrier();
     let rows_to_search = select(0u, neighbour_rows(), is_visited);
-    var neighbour = 0u;
-    var base = 0u;
-    var end_of_stretch = 0u;
-    var word_number = 0u;
     // Ends: in every round each lane that has more to search goes on by a row, or by 32 candidates of one.
     loop {
         var count = 0u;
         for (var word = 0u; word < ROUND_WORDS; word++) {
-            if (base >= end_of_stretch && neighbour < rows_to_search) {
-                let other_row = row_near(place_of_lane, neighbour);
-                let start = other_row * row_width() + column_towards(row, other_row, columns);
-                base = cell_at(start);
-                end_of_stretch = cell_at(start + 2u * frame() + 1u);
-                neighbour += 1u;
-            }
+            if (search.base >= search.end && search.rows < rows_to_search) { begin_row(&search, row); }
+            hit_words[(ROUND_WORDS + word) * WORKGROUP + lane] = search.base;
             var mask = 0u;
-            if (base < end_of_stretch) {
-                mask = hits_of_row(row, index, word_number, base, min(32u, end_of_stretch - base));
-                word_number += 1u;
-            }
+            if (search.base < search.end) { mask = next_hits(&search, row, index); }
             hit_words[word * WORKGROUP + lane] = mask;
-            hit_words[(ROUND_WORDS + word) * WORKGROUP + lane] = base;
             count += countOneBits(mask);
-            base += 32u;
         }
-        let goes_on = base < end_of_stretch || neighbour < rows_to_search;
+        let goes_on = search.base < search.end || search.rows < rows_to_search;
         var place = atomicAdd(&hits_of_lanes, count) & ~GOES_ON;
         if (goes_on) { atomicOr(&hits_of_lanes, GOES_ON); }
         workgroupBarrier();

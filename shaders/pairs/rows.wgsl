@@ -23,35 +23,22 @@ fn word_place(lane: u32, word: u32) -> u32 { return word ^ (lane & 15u); }
 // Visits one particle and its pairs.
 fn visit_particle_of_row(row: u32, index: u32, lane: u32) {
     let me = particle_at(index);
-    begin_visit(row, me);
-    prepare_row_hits(row, me);
-    let columns = columns_of(me);
-    let place = place_of_row(row);
+    var search = search_around(row, me);
     var sums = pass_begin(me);
-    var word_number = 0u;
-    var neighbour = 0u;
-    var base = 0u;
-    var end = 0u;
     // Ends: the inner loop goes on until all rows have been searched, or HIT_WORDS more words are filled.
     loop {
         var filled = 0u;
         // Ends: every turn begins a further row, or advances base towards its end.
         while (filled < HIT_WORDS) {
-            if (base >= end) {
-                if (neighbour == neighbour_rows()) { break; }
-                let other_row = row_near(place, neighbour);
-                let start = other_row * row_width() + column_towards(row, other_row, columns);
-                base = cell_at(start);
-                end = cell_at(start + 2u * frame() + 1u);
-                neighbour += 1u;
+            if (search.base >= search.end) {
+                if (search.rows == neighbour_rows()) { break; }
+                begin_row(&search, row);
                 continue;
             }
-            let mask = hits_of_row(row, index, word_number, base, min(32u, end - base));
-            word_number += 1u;
+            lane_hits[lane].words[word_place(lane, HIT_WORDS + filled)] = search.base;
+            let mask = next_hits(&search, row, index);
             lane_hits[lane].words[word_place(lane, filled)] = mask;
-            lane_hits[lane].words[word_place(lane, HIT_WORDS + filled)] = base;
             filled += select(0u, 1u, mask != 0u);
-            base += 32u;
         }
         var word = 0u;
         var mask = 0u;
@@ -68,26 +55,9 @@ fn visit_particle_of_row(row: u32, index: u32, lane: u32) {
             pass_pair(&sums, me, word_base + firstTrailingBit(mask));
             mask &= mask - 1u;
         }
-        if (base >= end && neighbour == neighbour_rows()) { break; }
+        if (search.base >= search.end && search.rows == neighbour_rows()) { break; }
     }
     pass_end(row, index, me, sums);
-}
-
-// Slot pairs/hits: see pairs/hits. Default: the prefilter, candidate by candidate.
-fn prepare_row_hits(row: u32, me: Particle) {
-    hits_middle = row_middle(row);
-    hits_probe = probe_of(fraction_of(me.position), hits_middle);
-}
-fn hits_of_row(row: u32, index: u32, word: u32, base: u32, count: u32) -> u32 {
-    var mask = 0u;
-    // From the last to the first, which is the lowest bit.
-    for (var left = count; left > 0u; left--) {
-        mask = (mask << 1u) | hit_of(hits_probe, candidate_probe(base + left - 1u, hits_middle));
-    }
-    let own = index - base;
-    mask &= ~select(0u, 1u << (own & 31u), own < 32u);
-    keep_mask(row, index, word, mask);
-    return mask;
 }
 
 // Visits every pair from both ends, for any subgroup size. One invocation a sorted particle at a time, in chunks that end where

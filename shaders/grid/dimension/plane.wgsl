@@ -8,14 +8,8 @@ fn row_of(fraction: Fraction) -> u32 { return cell_along(fraction.y, CELLS_Y); }
 
 // Rows that can hold neighbours of a row's particles, the row itself in the middle of the numbering.
 fn neighbour_rows() -> u32 { return select(1u, 3u, CELLS_Y >= 3u); }
-fn neighbour_row(row: u32, index: u32) -> u32 { return row_near(place_of_row(row), index); }
 fn place_of_row(row: u32) -> vec2<u32> { return vec2<u32>(row, 0u); }
 fn row_near(place: vec2<u32>, index: u32) -> u32 { return around(place.x + index - neighbour_rows() / 2u, CELLS_Y); }
-// A number from -1 to `count` as one of a ring.
-fn around(number: u32, count: u32) -> u32 {
-    let positive = min(number, number + count);
-    return min(positive, positive - count);
-}
 
 // Rows around a row, further than the nearest.
 fn row_at(row: u32, index: u32) -> u32 { return (row + index + CELLS_Y - SPAN_Y / 2u) % CELLS_Y; }

@@ -15,7 +15,6 @@ fn row_of(fraction: Fraction) -> u32 {
 fn reach_y() -> u32 { return select(1u, 3u, CELLS_Y >= 3u); }
 fn reach_z() -> u32 { return select(1u, 3u, CELLS_Z >= 3u); }
 fn neighbour_rows() -> u32 { return reach_y() * reach_z(); }
-fn neighbour_row(row: u32, index: u32) -> u32 { return row_near(place_of_row(row), index); }
 // Layer and row in the layer, to be found once for all neighbours of a row.
 fn place_of_row(row: u32) -> vec2<u32> {
     let z = row / CELLS_Y;
@@ -25,11 +24,6 @@ fn row_near(place: vec2<u32>, index: u32) -> u32 {
     let dz = index / reach_y();
     let dy = index - dz * reach_y();
     return around(place.y + dz - reach_z() / 2u, CELLS_Z) * CELLS_Y + around(place.x + dy - reach_y() / 2u, CELLS_Y);
-}
-// A number from -1 to `count` as one of a ring.
-fn around(number: u32, count: u32) -> u32 {
-    let positive = min(number, number + count);
-    return min(positive, positive - count);
 }
 
 // Rows around a row, further than the nearest.
