@@ -95,3 +95,37 @@ pub enum Axis {
     /// The third.
     Z,
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::BathScheme;
+    use crate::scene;
+    use serde_json::{json, to_value};
+    use std::collections::BTreeSet;
+    use std::fmt::Display;
+
+    /// Messages call choices as scenes do: the two derivations are told alike.
+    #[test]
+    fn words_of_choices_are_those_of_scenes() {
+        fn compare<T: Serialize + Display>(choices: &[T]) {
+            for choice in choices {
+                assert_eq!(to_value(choice).unwrap(), json!(choice.to_string()));
+            }
+        }
+        compare(&[Axis::X, Axis::Y, Axis::Z]);
+        compare(&[CorrelatedQuantity::Velocity, CorrelatedQuantity::Force]);
+        compare(&[CountedQuantity::Velocity, CountedQuantity::Speed, CountedQuantity::Acceleration]);
+        compare(&ProfiledQuantity::USUAL);
+        compare(&[ProfiledQuantity::Stress]);
+        compare(&[BathScheme::CotterReich, BathScheme::Symmetric, BathScheme::Exponential]);
+        let mut kinds = BTreeSet::new();
+        for builtin in scene::builtin() {
+            for interaction in scene::load(builtin.name, &[]).unwrap().interactions() {
+                assert_eq!(to_value(interaction).unwrap()["type"], json!(interaction.name()));
+                kinds.insert(interaction.name());
+            }
+        }
+        assert!(kinds.len() > 5, "{kinds:?}");
+    }
+}

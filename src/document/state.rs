@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// The file has the places of all particles, their species by name, and bonds and angles by type; the groups of the scene say
 /// what its species are.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StateFile {
     /// The file or directory, relative to the scene; for a built-in scene to the working directory.

@@ -83,7 +83,7 @@ fn take_part<'a>(
     channel: &mut dyn Channel,
     peers: Box<dyn Swap + 'a>,
 ) -> Result<(), String> {
-    let serve = || {
+    let take_turns = || {
         let (gpu, plan) = open_adapter(scene, choice, options).map_err(|error| error.to_string())?;
         let mut engine = Engine::of_part(&gpu, plan, peers).map_err(|error| error.to_string())?;
         let introduction = introduction(&gpu, scene, choice).map_err(|error| error.to_string())?;
@@ -94,7 +94,7 @@ fn take_part<'a>(
         };
         Ok(serve(&mut engine, introduction, channel, &replan))
     };
-    serve().unwrap_or_else(|reason| decline(channel, reason))
+    take_turns().unwrap_or_else(|reason| decline(channel, reason))
 }
 
 /// Particles and steps of the scene from which ranks find out whether they compute alike.

@@ -87,8 +87,15 @@ fn of_molecules(
         return Ok(problems);
     }
     let Some(file) = molecules::particles(scene, &mut problems) else { return Ok(problems) };
-    let (file_name, velocities) = (MOLECULES.to_owned(), StateVelocities::Thermal);
-    let state = StateFile { file: file_name, velocities, ..StateFile::default() };
+    let state = StateFile {
+        file: MOLECULES.to_owned(),
+        frame: -1,
+        velocities: StateVelocities::Thermal,
+        replicate: Vec::new(),
+        atom_style: None,
+        outside: OutsidePositions::Refuse,
+        checksum: None,
+    };
     Ok(adopted(scene, masses, Reader::new(&state, &file, None, None), MOLECULES, notices))
 }
 
