@@ -35,6 +35,12 @@ pub struct StudyArguments {
     #[arg(long, help_heading = heading::RUNNING, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     jobs: Option<u16>,
 
+    /// Runs that a device advances together, in the dispatches of one, where they differ in numbers only [default: on a card as
+    /// many as have 131,072 particles, up to 64, of those that differ in their seeds; on a software adapter 1]. Results do not depend
+    /// on it but for rounding, where other numbers than seeds differ: kernels then load them
+    #[arg(long, help_heading = heading::RUNNING, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    replicas: Option<u16>,
+
     /// Independent runs of each scene, with its own seed and those that follow: means are taken over them, with errors
     /// from their scatter
     #[arg(long, help_heading = heading::SEVERAL, value_name = "N", conflicts_with = "resume")]
@@ -94,6 +100,7 @@ impl StudyArguments {
             set: scene.set.clone(),
             steps: scene.steps,
             jobs: None,
+            replicas: None,
             seeds: Some(seeds),
             out: Some(directory),
             resume: None,
@@ -121,6 +128,7 @@ impl StudyArguments {
         };
         Ok(study
             .with_jobs(self.jobs.map(usize::from))
+            .with_replicas(self.replicas.map(usize::from))
             .up_to((!self.yes).then_some(LONG))
             .until(&interruption::interrupt(&Arc::new(AtomicBool::new(true)))))
     }

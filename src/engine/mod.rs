@@ -6,6 +6,7 @@ mod exchange;
 mod pipeline;
 mod readback;
 mod recording;
+mod replicas;
 mod shown;
 mod stepper;
 mod stored;
@@ -15,6 +16,7 @@ mod timing;
 pub use error::EngineError;
 pub use exchange::{Movable, Swap, Traffic};
 pub(crate) use readback::read as read_back;
+pub use replicas::{Replica, Replicas};
 pub(crate) use shown::Sampling;
 pub use shown::Shown;
 pub use stepper::{RankReport, Stepper};
@@ -22,8 +24,9 @@ pub use timing::{StageClock, StageTime};
 
 use std::collections::{HashMap, VecDeque};
 use std::ops::Range;
+use std::sync::Arc;
 
-use crate::gpu::{Gpu, GpuError, compute_pass};
+use crate::gpu::{Gpu, GpuError};
 use crate::plan::paths::PATH_WORDS;
 use crate::plan::{self, Failure, FailureKind, Hardware, Layout, Misfit, PARTICLE_WORDS, Paths, Places, Plan, TIDYING};
 use crate::shaders::Array;
@@ -32,6 +35,7 @@ use exchange::Exchange;
 use pipeline::Stage;
 use readback::Readback;
 use recording::Recording;
+use replicas::StepPhase;
 use serde::{Deserialize, Serialize};
 use stored::Stored;
 use texels::Texels;
@@ -126,7 +130,7 @@ pub struct Engine<'a> {
     plan: Plan,
     buffers: HashMap<Array, Stored>,
     textures: HashMap<Array, Texels>,
-    stages: Vec<Stage>,
+    stages: Arc<[Stage]>,
     /// Species of the particles, for layouts that leave them on the host.
     species: Vec<u32>,
     step: u64,
@@ -138,6 +142,8 @@ pub struct Engine<'a> {
     collected: Vec<Sample>,
     /// How particles pass to other ranks and from them, if there are several.
     exchange: Option<Exchange<'a>>,
+    /// Its place among systems that are advanced together, if it is one of several.
+    replica: Option<Replica>,
 }
 
 /// Positions with the number of crossings of the box of some particles, by id; a state without these numbers counts as the first.
@@ -211,9 +217,33 @@ impl<'a> Engine<'a> {
         let buffers = plan.buffers.iter().map(stored).collect::<Result<HashMap<_, _>, GpuError>>()?;
         let textures = plan.textures.iter().map(|planned| Ok((planned.array, Texels::new(gpu, planned)?)));
         let textures = textures.collect::<Result<HashMap<_, _>, GpuError>>()?;
-        let stages = pipeline::stages(gpu, &plan, &buffers, &textures)?;
+        let stages = pipeline::stages(gpu, &plan, &buffers, &textures, None)?.into();
+        Ok(Self::of_arrays(gpu, plan, buffers, textures, stages))
+    }
+
+    /// The engine of one of several systems that are advanced together, with their kernels; its plan differs from theirs in numbers only.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    #[doc(hidden)]
+    pub fn of_replica(replica: Replica, plan: Plan, state: &State) -> Result<Self, EngineError> {
+        let (buffers, textures) = replica.arrays(&plan)?;
+        let (gpu, stages) = (replica.gpu().clone(), Arc::clone(&replica.group.stages));
+        let mut engine = Self::of_arrays(&gpu, plan, buffers, textures, stages);
+        engine.replica = Some(replica);
+        engine.upload(state)?;
+        Ok(engine)
+    }
+
+    fn of_arrays(
+        gpu: &Gpu,
+        plan: Plan,
+        buffers: HashMap<Array, Stored>,
+        textures: HashMap<Array, Texels>,
+        stages: Arc<[Stage]>,
+    ) -> Self {
         let pending_rows = vec![0; plan.samplers.len()];
-        Ok(Self {
+        Self {
             gpu: gpu.clone(),
             plan,
             buffers,
@@ -227,7 +257,12 @@ impl<'a> Engine<'a> {
             in_flight: VecDeque::new(),
             collected: Vec::new(),
             exchange: None,
-        })
+            replica: None,
+        }
+    }
+
+    fn recording(&self, label: &'static str) -> Recording {
+        Recording::of(&self.gpu, self.replica.as_ref(), label)
     }
 
     /// The plan being executed.
@@ -385,22 +420,19 @@ impl<'a> Engine<'a> {
             ..Control::default()
         };
         self.buffers[&Array::Control].write(&self.gpu, 0, bytemuck::bytes_of(&control))?;
-        let mut encoder = self.gpu.encoder("upload");
+        let mut recording = self.recording("upload");
         if let Some(counts) = self.buffers.get(&Array::Counts) {
-            counts.clear(&mut encoder, 0..counts.bytes());
+            recording.clear(counts, 0..counts.bytes());
         }
         self.step = first;
         self.first_step = first;
-        let mut pass = compute_pass(&mut encoder, "preparation");
-        for &kernel in &self.plan.prepare {
-            self.stages[kernel].dispatch(&mut pass);
-        }
-        drop(pass);
+        recording.begin(first, StepPhase::Preparation);
+        recording.dispatch_all(&self.stages, &self.plan.prepare);
         for sampler in &self.plan.samplers {
             // Rows and windows of the state before are discarded.
-            self.buffers[&sampler.samples].clear(&mut encoder, 0..8);
+            recording.clear(&self.buffers[&sampler.samples], 0..8);
         }
-        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.queue.submit([recording.finish().finish()]);
         self.in_flight.clear();
         self.collected.clear();
         self.phase = Phase::Advanced;
@@ -421,12 +453,13 @@ impl<'a> Engine<'a> {
         let mut left = steps;
         while left > 0 {
             let now = left.min(batch.max(1));
-            let mut recording = Recording::new(&self.gpu, "batch");
+            let mut recording = self.recording("batch");
             let mut done = 0;
             while done < now && self.room_for_samples() {
                 self.record_sample(&mut recording)?;
                 let reported = self.phase == Phase::Sorted { reported: true };
                 self.look_ahead(self.step + 1, false)?;
+                recording.begin(self.step, StepPhase::Advance);
                 let kernels = if reported { &self.plan.finish_report } else { &self.plan.advance };
                 record(kernels, &self.stages, &mut self.exchange, self.step, &mut recording)?;
                 self.phase = Phase::Advanced;
@@ -445,7 +478,7 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device failed or the run became unstable.
     pub fn finish(&mut self) -> Result<Vec<Sample>, EngineError> {
-        let mut recording = Recording::new(&self.gpu, "samples at the end");
+        let mut recording = self.recording("samples at the end");
         if self.plan.samplers.iter().any(|sampler| sampler.due(self.step) && !sampler.gathered) {
             self.record_sample(&mut recording)?;
         }
@@ -460,34 +493,13 @@ impl<'a> Engine<'a> {
     /// # Errors
     /// [`EngineError`] if the device failed.
     pub(crate) fn load_numbers(&mut self, plan: &Plan) -> Result<bool, EngineError> {
-        let bytes = |plan: &Plan| plan.buffers.iter().map(|buffer| (buffer.array, buffer.bytes)).collect::<Vec<_>>();
-        let texels = |plan: &Plan| {
-            plan.textures.iter().map(|texture| (texture.array, texture.words, texture.size)).collect::<Vec<_>>()
-        };
-        let kernels = || self.plan.kernels.iter().zip(&plan.kernels).zip(&self.stages);
-        let order = |plan: &Plan| {
-            let Plan { prepare, sort, tidy, before_report, report, advance, finish_report, .. } = plan;
-            [prepare, sort, tidy, before_report, report, advance, finish_report].map(Vec::clone)
-        };
-        let is_alike = plan.kernels.len() == self.plan.kernels.len()
-            && (plan.particles, plan.constants_in, &plan.samplers, &plan.paths, &plan.part)
-                == (
-                    self.plan.particles,
-                    self.plan.constants_in,
-                    &self.plan.samplers,
-                    &self.plan.paths,
-                    &self.plan.part,
-                )
-            && order(plan) == order(&self.plan)
-            && bytes(plan) == bytes(&self.plan)
-            && texels(plan) == texels(&self.plan)
-            && kernels().all(|((own, new), stage)| stage.suits([own, new], [&self.plan, plan]));
-        if !is_alike {
+        // The constants of replicas lie beside each other.
+        if self.replica.is_some() || !pipeline::differ_in_numbers(&self.plan, plan, &self.stages) {
             return Ok(false);
         }
         self.wait_all()?;
         for (stage, kernel) in self.stages.iter().zip(&plan.kernels) {
-            stage.load(&self.gpu, kernel, plan);
+            stage.load(&self.gpu, kernel, plan, 0);
         }
         for (own, new) in self.plan.buffers.iter().zip(&plan.buffers) {
             if let Some(bytes) = new.contents.bytes().filter(|_| own.contents != new.contents) {
@@ -524,7 +536,8 @@ impl<'a> Engine<'a> {
     /// As [`Self::reported`].
     pub(crate) fn take_measurements(&mut self, samplers: &[usize]) -> Result<(), EngineError> {
         self.report_now()?;
-        let mut recording = Recording::new(&self.gpu, "samples");
+        let mut recording = self.recording("samples");
+        recording.begin(self.step, StepPhase::Samples);
         for &number in samplers {
             let sampler = &self.plan.samplers[number];
             if !sampler.due(self.step) {
@@ -660,7 +673,7 @@ impl<'a> Engine<'a> {
         if self.plan.has_buffer(Array::GatheredPaths) {
             write(Array::GatheredPaths, &paths)?;
         }
-        let mut recording = Recording::new(&self.gpu, "samples of all ranks");
+        let mut recording = self.recording("samples of all ranks");
         for (number, sampler) in self.plan.samplers.iter().enumerate() {
             if sampler.gathered && sampler.due(self.step) {
                 recording.dispatch_all(&self.stages, &sampler.kernels);
@@ -671,7 +684,7 @@ impl<'a> Engine<'a> {
     }
 
     fn report_now(&mut self) -> Result<(), EngineError> {
-        let mut recording = Recording::new(&self.gpu, "report");
+        let mut recording = self.recording("report");
         self.record_sample(&mut recording)?;
         self.record_report(&mut recording)?;
         self.submit(recording.finish())
@@ -774,8 +787,10 @@ impl<'a> Engine<'a> {
             return Ok(());
         }
         if self.plan.paths.are_followed() && (self.step - self.first_step).is_multiple_of(self.plan.paths.every) {
+            recording.begin(self.step, StepPhase::Paths);
             recording.dispatch_all(&self.stages, &self.plan.paths.kernels);
         }
+        recording.begin(self.step, StepPhase::Sort);
         let tidy = if self.tidies() { self.plan.tidy.as_slice() } else { &[] };
         for kernels in [self.plan.sort.as_slice(), tidy, self.plan.before_report.as_slice()] {
             record(kernels, &self.stages, &mut self.exchange, self.step, recording)?;
@@ -789,6 +804,7 @@ impl<'a> Engine<'a> {
         if due.iter().any(|&sampler| self.plan.samplers[sampler].needs_report) {
             self.record_report(recording)?;
         }
+        recording.begin(self.step, StepPhase::Samples);
         for sampler in due {
             recording.dispatch_all(&self.stages, &self.plan.samplers[sampler].kernels);
             self.pending_rows[sampler] += 1;
@@ -803,8 +819,9 @@ impl<'a> Engine<'a> {
                 && let Some(momenta) = self.buffers.get(&Array::ReportedMomenta)
             {
                 // What other ranks report now is theirs alone.
-                recording.clear(momenta);
+                recording.clear(momenta, 0..momenta.bytes());
             }
+            recording.begin(self.step, StepPhase::Report);
             record(&self.plan.report, &self.stages, &mut self.exchange, self.step, recording)?;
             self.phase = Phase::Sorted { reported: true };
         }

@@ -1,6 +1,6 @@
 //! A kernel ready to run: pipeline, bound buffers, size.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::iter;
 use std::num::NonZero;
 use std::panic::resume_unwind;
@@ -10,12 +10,17 @@ use std::thread;
 
 use super::stored::Stored;
 use super::texels::Texels;
-use crate::gpu::{CompiledKernel, Gpu, GpuError, LOADED_CONSTANTS, compute_pass, constants_in_bytes};
+use crate::gpu::{
+    CompiledKernel, Gpu, GpuError, LOADED_CONSTANTS, Places, REPLICA_NUMBERS, Replicas, compute_pass,
+    constants_in_bytes,
+};
 use crate::plan::{Kernel, Plan, folded};
 use crate::shaders::{Array, Constant};
 
 /// A kernel ready to be recorded.
 pub(super) struct Stage {
+    /// Its place in the plan.
+    pub number: usize,
     pipeline: wgpu::ComputePipeline,
     bindings: wgpu::BindGroup,
     size: Size,
@@ -34,11 +39,12 @@ enum Size {
 }
 
 impl Stage {
-    pub(super) fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>) {
+    /// Dispatches it, with a layer of workgroups for each of several systems.
+    pub(super) fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, layers: u32) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &self.bindings, &[]);
         match &self.size {
-            Size::Fixed([width, height]) => pass.dispatch_workgroups(*width, *height, 1),
+            Size::Fixed([width, height]) => pass.dispatch_workgroups(*width, *height, layers),
             Size::Demanded(buffer, offset) => pass.dispatch_workgroups_indirect(buffer, *offset),
         }
     }
@@ -57,19 +63,32 @@ pub(super) fn run_without_workgroups(gpu: &Gpu, stages: &[Stage]) -> Result<(), 
     gpu.wait_for(gpu.queue.submit([encoder.finish()]))
 }
 
+/// Arrays of several systems, side by side.
+pub(super) struct SideBySide<'a> {
+    /// Number of systems.
+    pub count: u32,
+    /// Bytes that each has in a buffer of an array.
+    pub sizes: &'a BTreeMap<Array, u64>,
+    /// Rows that each has in a texture.
+    pub rows: u32,
+    /// The buffer of the numbers of those that a dispatch advances.
+    pub numbers: &'a wgpu::Buffer,
+}
+
 /// All kernels of a plan, in its order. Drivers compile on the thread that asks, so each core asks for its share.
 pub(super) fn stages(
     gpu: &Gpu,
     plan: &Plan,
     buffers: &HashMap<Array, Stored>,
     textures: &HashMap<Array, Texels>,
+    beside: Option<&SideBySide<'_>>,
 ) -> Result<Vec<Stage>, GpuError> {
     let threads = thread::available_parallelism().map_or(1, NonZero::get).min(plan.kernels.len());
     let next = AtomicUsize::new(0);
     let make_share = || {
         let numbers = iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
-        let kernels = numbers.map_while(|number| Some((number, plan.kernels.get(number)?)));
-        kernels.map(|(number, kernel)| (number, stage(gpu, plan, kernel, buffers, textures))).collect::<Vec<_>>()
+        let numbers = numbers.take_while(|number| *number < plan.kernels.len());
+        numbers.map(|number| (number, stage(gpu, plan, number, buffers, textures, beside))).collect::<Vec<_>>()
     };
     let mut made = thread::scope(|scope| {
         let workers: Vec<_> = (0..threads).map(|_| scope.spawn(make_share)).collect();
@@ -83,25 +102,30 @@ pub(super) fn stages(
 fn stage(
     gpu: &Gpu,
     plan: &Plan,
-    kernel: &Kernel,
+    number: usize,
     buffers: &HashMap<Array, Stored>,
     textures: &HashMap<Array, Texels>,
+    beside: Option<&SideBySide<'_>>,
 ) -> Result<Stage, GpuError> {
+    let kernel = &plan.kernels[number];
     let [width, height] = folded(kernel.workgroups);
     // By which kernels of a folded dispatch number their workgroups.
     let fold = (height > 1).then_some((Constant::Fold, f64::from(width)));
     let constants = kernel.constants_in(plan).chain(fold);
     let values: HashMap<Constant, f64> = constants.collect();
-    let compiled = gpu.compile(
-        kernel.name,
-        kernel.entry,
-        &kernel.choices,
-        values.clone().into_iter(),
-        plan.constants_in,
-        |variable| plan.portions.get(&kernel.array_of(variable)).copied(),
-    )?;
+    let bytes_of = |variable| beside?.sizes.get(&kernel.array_of(variable)).copied();
+    let replicas = beside.map(|&SideBySide { count, rows, .. }| Replicas { count, bytes_of: &bytes_of, rows });
+    let places = Places {
+        constants: plan.constants_in,
+        portions_of: &|variable| plan.portions.get(&kernel.array_of(variable)).copied(),
+        replicas: replicas.as_ref(),
+    };
+    let compiled = gpu.compile(kernel.name, kernel.entry, &kernel.choices, values.clone().into_iter(), &places)?;
     let CompiledKernel { pipeline, bindings, constants: compiled_in, loaded } = compiled;
-    let loaded = Loaded::new(gpu, kernel, loaded, &values);
+    let loaded = Loaded::new(gpu, kernel, loaded, beside.map_or(1, |beside| beside.count));
+    if let (Some(loaded), None) = (&loaded, beside) {
+        loaded.write(gpu, &values, 0);
+    }
     let bound = bindings.iter().map(|binding| {
         let array = kernel.array_of(binding.array);
         let buffer = buffers.get(&array).map(|stored| stored.portion(binding.portion).as_entire_binding());
@@ -119,6 +143,10 @@ fn stage(
             resource: loaded.buffer.as_entire_binding(),
         }),
     );
+    entries.extend(beside.map(|SideBySide { numbers, .. }| wgpu::BindGroupEntry {
+        binding: REPLICA_NUMBERS,
+        resource: numbers.as_entire_binding(),
+    }));
     let group = gpu.scoped(&format!("binding kernel `{}`", kernel.name), 0, || {
         gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some(kernel.name),
@@ -130,7 +158,7 @@ fn stage(
         (Some(place), Some(stored)) => Size::Demanded(stored.portion(0).clone(), 12 * u64::from(place)),
         _ => Size::Fixed([width, height]),
     };
-    Ok(Stage { pipeline, bindings: group, size, takes_long: kernel.takes_long, compiled_in, loaded })
+    Ok(Stage { number, pipeline, bindings: group, size, takes_long: kernel.takes_long, compiled_in, loaded })
 }
 
 /// Constants that a kernel loads.
@@ -140,26 +168,30 @@ pub(super) struct Loaded {
 }
 
 impl Loaded {
-    fn new(gpu: &Gpu, kernel: &Kernel, constants: Arc<[Constant]>, values: &HashMap<Constant, f64>) -> Option<Self> {
-        let bytes = constants_in_bytes(&constants, values);
-        let buffer = (!bytes.is_empty()).then(|| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+    /// Those of some systems, if a kernel loads any.
+    fn new(gpu: &Gpu, kernel: &Kernel, constants: Arc<[Constant]>, count: u32) -> Option<Self> {
+        let bytes = constants_in_bytes(&constants, &HashMap::new()).len() as u64;
+        (bytes > 0).then(|| {
+            let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(kernel.name),
-                size: bytes.len() as u64,
+                size: bytes * u64::from(count),
                 usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
-            })
-        })?;
-        gpu.queue.write_buffer(&buffer, 0, &bytes);
-        Some(Self { buffer, constants })
+            });
+            Self { buffer, constants }
+        })
+    }
+
+    /// Writes those of a system.
+    fn write(&self, gpu: &Gpu, values: &HashMap<Constant, f64>, system: u32) {
+        let bytes = constants_in_bytes(&self.constants, values);
+        gpu.queue.write_buffer(&self.buffer, bytes.len() as u64 * u64::from(system), &bytes);
     }
 }
 
 impl Stage {
-    /// True if the kernel of a plan differs from that of another at most in constants that are not compiled into this
-    /// one.
+    /// True if the constants of the kernel of a plan differ from those of another at most where they are not compiled into this one.
     pub(super) fn suits(&self, kernels: [&Kernel; 2], plans: [&Plan; 2]) -> bool {
-        let [one, other] = kernels.map(|kernel| Kernel { constants: Vec::new(), ..kernel.clone() });
         let [mut one_has, mut other_has] = [0, 1].map(|side| {
             let all = kernels[side].constants_in(plans[side]);
             let compiled_in = all.filter(|(constant, _)| self.compiled_in.contains(constant));
@@ -167,14 +199,19 @@ impl Stage {
         });
         one_has.sort_unstable();
         other_has.sort_unstable();
-        one == other && one_has == other_has
+        one_has == other_has
     }
 
-    /// Loads the constants of a plan from now on.
-    pub(super) fn load(&self, gpu: &Gpu, kernel: &Kernel, plan: &Plan) {
+    /// Loads the constants of a plan from now on, in place of those of one of several systems.
+    pub(super) fn load(&self, gpu: &Gpu, kernel: &Kernel, plan: &Plan, system: u32) {
         if let Some(loaded) = &self.loaded {
-            let values: HashMap<Constant, f64> = kernel.constants_in(plan).collect();
-            gpu.queue.write_buffer(&loaded.buffer, 0, &constants_in_bytes(&loaded.constants, &values));
+            loaded.write(gpu, &kernel.constants_in(plan).collect(), system);
         }
     }
+}
+
+/// True if plans differ in numbers only: in constants that the kernels of the first one load from buffers, and in tables.
+pub(super) fn differ_in_numbers(own: &Plan, new: &Plan, stages: &[Stage]) -> bool {
+    let mut kernels = own.kernels.iter().zip(&new.kernels).zip(stages);
+    own.differs_in_numbers(new) && kernels.all(|((old, kernel), stage)| stage.suits([old, kernel], [own, new]))
 }

@@ -15,6 +15,8 @@ pub(super) struct Stored {
     portions: Vec<wgpu::Buffer>,
     /// Bytes of each portion but the last.
     each: u64,
+    /// The first byte, where it is a part of a larger array.
+    begin: u64,
     bytes: u64,
 }
 
@@ -35,12 +37,17 @@ impl Stored {
                     mapped_at_creation: false,
                 })
             };
-            Self { portions: (0..count).map(portion).collect(), each, bytes }
+            Self { portions: (0..count).map(portion).collect(), each, begin: 0, bytes }
         })?;
         if let Some(bytes) = contents.bytes() {
             made.write(gpu, 0, &bytes)?;
         }
         Ok(made)
+    }
+
+    /// A stretch of an array in one portion, as an array.
+    pub(super) fn stretch(&self, begin: u64, bytes: u64) -> Self {
+        Self { begin: self.begin + begin, bytes, ..self.clone() }
     }
 
     /// Bytes of all of it.
@@ -96,7 +103,7 @@ impl Stored {
         let firsts = self.portions.iter().zip((0..).map(|number| number * self.each));
         let part = move |(portion, first): (_, u64)| {
             let part = range.start.max(first)..range.end.min(first + self.each);
-            (part.start < part.end).then(|| (portion, part.start - first, part))
+            (part.start < part.end).then(|| (portion, self.begin + part.start - first, part))
         };
         firsts.filter_map(part)
     }

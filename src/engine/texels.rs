@@ -8,6 +8,8 @@ pub(super) struct Texels {
     planned: Texture,
     texture: wgpu::Texture,
     view: wgpu::TextureView,
+    /// The first row, where it is a part of a larger texture.
+    row: u32,
 }
 
 impl Texels {
@@ -33,11 +35,21 @@ impl Texels {
         })?;
         let view = texture
             .create_view(&wgpu::TextureViewDescriptor { label: Some(planned.array.name()), ..Default::default() });
-        let texels = Self { planned: planned.clone(), texture, view };
-        if let Some(bytes) = planned.contents.bytes() {
-            texels.write(gpu, &bytemuck::pod_collect_to_vec::<u8, u32>(&bytes));
-        }
+        let texels = Self { planned: planned.clone(), texture, view, row: 0 };
+        texels.fill(gpu);
         Ok(texels)
+    }
+
+    /// The rows from one on as a texture of a plan.
+    pub(super) fn from_row(&self, row: u32, planned: &Texture) -> Self {
+        Self { planned: planned.clone(), texture: self.texture.clone(), view: self.view.clone(), row: self.row + row }
+    }
+
+    /// Writes what the plan has in it at first.
+    pub(super) fn fill(&self, gpu: &Gpu) {
+        if let Some(bytes) = self.planned.contents.bytes() {
+            self.write(gpu, &bytemuck::pod_collect_to_vec::<u8, u32>(&bytes));
+        }
     }
 
     pub(super) fn binding(&self) -> wgpu::BindingResource<'_> {
@@ -65,16 +77,19 @@ impl Texels {
         if height == 0 {
             return;
         }
-        let origin = wgpu::Origin3d { y: first, ..wgpu::Origin3d::ZERO };
-        let destination = wgpu::TexelCopyTextureInfo { origin, ..self.texture.as_image_copy() };
         let size = wgpu::Extent3d { height, ..extent(&self.planned) };
-        gpu.queue.write_texture(destination, bytemuck::cast_slice(words), self.rows(), size);
+        gpu.queue.write_texture(self.place(first), bytemuck::cast_slice(words), self.rows(), size);
     }
 
     /// Records a copy of all of it to the beginning of a buffer.
     pub(super) fn copy_to(&self, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer) {
         let destination = wgpu::TexelCopyBufferInfo { buffer, layout: self.rows() };
-        encoder.copy_texture_to_buffer(self.texture.as_image_copy(), destination, extent(&self.planned));
+        encoder.copy_texture_to_buffer(self.place(0), destination, extent(&self.planned));
+    }
+
+    fn place(&self, row: u32) -> wgpu::TexelCopyTextureInfo<'_> {
+        let origin = wgpu::Origin3d { y: self.row + row, ..wgpu::Origin3d::ZERO };
+        wgpu::TexelCopyTextureInfo { origin, ..self.texture.as_image_copy() }
     }
 
     fn rows(&self) -> wgpu::TexelCopyBufferLayout {

@@ -123,7 +123,7 @@ impl Engine<'_> {
                     end_of_pass_write_index: Some(2 * place + 1),
                 }),
             });
-            self.stages[kernel].dispatch(&mut pass);
+            self.stages[kernel].dispatch(&mut pass, 1);
         }
         encoder.resolve_query_set(&queries, 0..count, &ticks, 0);
         self.submit(encoder)?;
@@ -156,7 +156,7 @@ impl Engine<'_> {
         {
             let mut pass = compute_pass(&mut encoder, "kernel alone");
             if let Some(kernel) = kernel {
-                self.stages[kernel].dispatch(&mut pass);
+                self.stages[kernel].dispatch(&mut pass, 1);
             }
         }
         let commands = encoder.finish();

@@ -8,6 +8,7 @@ use super::device::Gpu;
 use super::error::GpuError;
 use super::kept::Kept;
 use super::portions::Portions;
+use super::replicas::Replicas;
 use super::shader::{Binding, LinkedShader, link_once};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use mesoscope_shader_modules::module_without_loop_counters;
@@ -46,6 +47,16 @@ pub enum ConstantsIn {
     Buffer,
 }
 
+/// Where a kernel finds its constants and its arrays.
+#[derive(Clone, Copy)]
+pub(crate) struct Places<'a> {
+    pub constants: ConstantsIn,
+    /// Arrays that are in portions.
+    pub portions_of: &'a dyn Fn(Array) -> Option<Portions>,
+    /// Systems that have them side by side, if there are several.
+    pub replicas: Option<&'a Replicas<'a>>,
+}
+
 impl Compiled {
     pub(super) fn new(rewriting: Option<Rewriting>) -> Self {
         Self { rewriting, pipelines: Kept::default() }
@@ -67,20 +78,18 @@ impl Gpu {
         entry: Entry,
         choices: &Choices,
         constants: impl Iterator<Item = (Constant, f64)>,
-        place: ConstantsIn,
-        portions_of: impl Fn(Array) -> Option<Portions>,
+        places: &Places<'_>,
     ) -> Result<CompiledKernel, GpuError> {
-        let (text, linked) = link_once(name, entry, choices, place)?;
+        let Places { constants: place, portions_of, replicas } = *places;
+        let (text, linked) = link_once(name, entry, choices, place, replicas)?;
         let used = constants.filter(|(constant, _)| linked.constants.contains(constant));
         let constants: Vec<(Constant, f64)> = used.collect();
         let bits = constants.iter().map(|(constant, value)| (*constant, value.to_bits())).collect();
         let arrays = linked.bindings.iter().map(|binding| binding.array);
         let portions = arrays.filter_map(|array| Some((array, portions_of(array)?))).collect();
         self.compiled.pipelines.get_or_make((text, bits, portions), || {
-            let divided = linked.specialized(&constants).divided(&portions_of).map_err(|undivided| {
-                let doing = format!("making kernel `{name}`");
-                GpuError::Refused { doing, reason: undivided.to_string() }
-            })?;
+            let divided = linked.specialized(&constants).divided(portions_of);
+            let divided = divided.map_err(|undivided| GpuError::undivided(name, undivided))?;
             let LinkedShader { mut module, bindings, constants: used, loaded, counts_loops, .. } = divided;
             let constants: Vec<(&str, f64)> = (constants.iter())
                 .filter(|(constant, _)| used.contains(constant))

@@ -1,5 +1,6 @@
 //! What can go wrong between the program and the adapter.
 
+use super::portions::Undivided;
 use crate::shaders::Unlinked;
 
 /// A failure of the graphics layer.
@@ -112,6 +113,11 @@ fn driver_hint() -> &'static str {
 }
 
 impl GpuError {
+    /// A kernel that cannot do with a part of an array.
+    pub(super) fn undivided(kernel: &str, undivided: Undivided) -> Self {
+        Self::Refused { doing: format!("making kernel `{kernel}`"), reason: undivided.to_string() }
+    }
+
     /// A kernel that does not link.
     #[must_use]
     pub fn unlinked(kernel: &str, unlinked: Unlinked) -> Self {

@@ -2,10 +2,12 @@
 
 use crate::shaders::Constant;
 use std::collections::HashMap;
-use std::fmt::Write as _;
 
 /// The number of their binding, beyond those of arrays.
 pub(crate) const BINDING: u32 = 999;
+
+/// The name of the buffer in kernels.
+pub(super) const NAME: &str = "loaded_constants";
 
 /// The text of a kernel that loads its real constants from a uniform buffer, and these in the order of the buffer. Constants that `stays` names,
 /// such as those that decide which code there is, stay constants.
@@ -21,29 +23,27 @@ pub(super) fn load(text: &str, stays: impl Fn(Constant) -> bool) -> (String, Vec
     let places: HashMap<&str, usize> =
         loaded.iter().enumerate().map(|(place, constant)| (constant.name(), place)).collect();
     let rows = loaded.len().div_ceil(4);
-    let mut made = format!("@group(0) @binding({BINDING}) var<uniform> loaded_constants: array<vec4<f32>, {rows}>;\n");
-    for line in text.lines() {
-        if declared(line).is_some() {
-            continue;
-        }
-        let mut rest = line;
-        while let Some(begin) = rest.find(|letter: char| letter.is_ascii_alphanumeric() || letter == '_') {
-            let length = rest[begin..].find(|letter: char| !(letter.is_ascii_alphanumeric() || letter == '_'));
-            let end = length.map_or(rest.len(), |length| begin + length);
-            made.push_str(&rest[..begin]);
-            match places.get(&rest[begin..end]) {
-                Some(place) => {
-                    let component = ["x", "y", "z", "w"][place % 4];
-                    let _ = write!(made, "loaded_constants[{}].{component}", place / 4);
-                }
-                None => made.push_str(&rest[begin..end]),
-            }
-            rest = &rest[end..];
-        }
-        made.push_str(rest);
+    let mut made = format!("@group(0) @binding({BINDING}) var<uniform> {NAME}: array<vec4<f32>, {rows}>;\n");
+    for line in text.lines().filter(|line| declared(line).is_none()) {
+        let component = |place: &usize| format!("{NAME}[{}].{}", place / 4, ["x", "y", "z", "w"][place % 4]);
+        made.push_str(&with_words(line, |word, _| places.get(word).map(component)));
         made.push('\n');
     }
     (made, loaded)
+}
+
+/// A line with others in place of its words, given each of them and what stands before it.
+pub(super) fn with_words(line: &str, replaced: impl Fn(&str, &str) -> Option<String>) -> String {
+    let is_of_word = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
+    let mut made = String::with_capacity(line.len());
+    let mut end = 0;
+    while let Some(begin) = line[end..].find(is_of_word).map(|begin| end + begin) {
+        made.push_str(&line[end..begin]);
+        end = begin + line[begin..].find(|letter| !is_of_word(letter)).unwrap_or(line.len() - begin);
+        let word = &line[begin..end];
+        made.push_str(&replaced(word, &line[..begin]).unwrap_or_else(|| word.to_owned()));
+    }
+    made + &line[end..]
 }
 
 /// The bytes of the buffer.

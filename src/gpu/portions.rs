@@ -26,6 +26,9 @@ pub struct Portions {
 }
 
 impl Portions {
+    /// Bytes that are divisible by every size of an element, and by what copies between buffers have to begin at.
+    pub(crate) const UNIT: u64 = 256 * 3 * 3 * 5 * 7;
+
     /// Portions of an array of this size that are as large as a binding may be; none if one is enough.
     ///
     /// ```
@@ -38,9 +41,7 @@ impl Portions {
     /// ```
     #[must_use]
     pub fn new(array: u64, binding: u64) -> Option<Self> {
-        // Divisible by every size of an element, and by what copies between buffers have to begin at.
-        const UNIT: u64 = 256 * 3 * 3 * 5 * 7;
-        let bytes = (binding - binding % UNIT).max(UNIT);
+        let bytes = (binding - binding % Self::UNIT).max(Self::UNIT);
         let count = u32::try_from(array.div_ceil(bytes)).ok()?;
         (array > binding).then_some(Self { count, bytes })
     }
@@ -57,7 +58,7 @@ pub struct Undivided {
 }
 
 impl Undivided {
-    const fn whole(array: Array) -> Self {
+    pub(super) const fn whole(array: Array) -> Self {
         Self { array, most: 0 }
     }
 }

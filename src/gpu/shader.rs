@@ -8,6 +8,7 @@ use super::kept::Kept;
 use super::loaded;
 use super::portions::{Portions, Undivided, divide};
 use super::pruning::{prune, switches};
+use super::replicas::{self, Replicas, replicate};
 use super::{GpuError, access};
 use crate::shaders::{Array, Choices, Constant, Entry, LinkedText, linked_text};
 
@@ -145,19 +146,26 @@ pub(crate) fn link_once(
     entry: Entry,
     choices: &Choices,
     place: ConstantsIn,
+    replicas: Option<&Replicas<'_>>,
 ) -> Result<(String, Arc<LinkedShader>), GpuError> {
     static LINKED: LazyLock<Kept<String, Arc<LinkedShader>>> = LazyLock::new(Kept::default);
     let linked = linked_text(entry, choices).map_err(|unlinked| GpuError::unlinked(name, unlinked))?;
-    let text = linked.text.clone();
-    let shader = LINKED.get_or_make(text.clone(), || Ok(Arc::new(validate(name, entry.name(), &linked)?)))?;
-    if place == ConstantsIn::Code {
-        return Ok((text, shader));
+    let validated = |text: &str, loaded: &[Constant]| {
+        LINKED.get_or_make(text.to_owned(), || {
+            let linked = LinkedText { text: text.to_owned(), parts: linked.parts.clone() };
+            Ok(Arc::new(LinkedShader { loaded: loaded.to_vec(), ..validate(name, entry.name(), &linked)? }))
+        })
+    };
+    let (mut text, mut loaded) = (linked.text.clone(), Vec::new());
+    let mut shader = validated(&text, &loaded)?;
+    if place == ConstantsIn::Buffer {
+        (text, loaded) = loaded::load(&text, |constant| shader.switches.contains(&constant));
+        shader = validated(&text, &loaded)?;
     }
-    let (text, loaded) = loaded::load(&text, |constant| shader.switches.contains(&constant));
-    let shader = LINKED.get_or_make(text.clone(), || {
-        let linked = LinkedText { text: text.clone(), parts: linked.parts };
-        Ok(Arc::new(LinkedShader { loaded, ..validate(name, entry.name(), &linked)? }))
-    })?;
+    if let Some(replicas) = replicas {
+        text = replicate(&text, &shader, entry, replicas).map_err(|undivided| GpuError::undivided(name, undivided))?;
+        shader = validated(&text, &loaded)?;
+    }
     Ok((text, shader))
 }
 
@@ -166,7 +174,7 @@ pub(crate) fn link_once(
 /// # Errors
 /// As [`link`].
 pub fn link_loading(name: &str, entry: Entry, choices: &Choices) -> Result<Arc<LinkedShader>, GpuError> {
-    Ok(link_once(name, entry, choices, ConstantsIn::Buffer)?.1)
+    Ok(link_once(name, entry, choices, ConstantsIn::Buffer, None)?.1)
 }
 
 fn is_of_constants(variable: &naga::GlobalVariable) -> bool {
@@ -196,7 +204,7 @@ pub fn storage_buffers(entry: Entry, choices: &Choices, constants: &[(Constant, 
             return *count;
         }
     }
-    let Ok((_, shader)) = link_once(entry.name(), entry, choices, ConstantsIn::Code) else { return 0 };
+    let Ok((_, shader)) = link_once(entry.name(), entry, choices, ConstantsIn::Code, None) else { return 0 };
     let count = shader.specialized(constants).storage_buffers();
     let key = (kernel.clone(), shader.switched(constants));
     COUNTS.lock().unwrap_or_else(PoisonError::into_inner).insert(key, count);
@@ -254,7 +262,9 @@ pub fn validate(name: &str, entry: &str, linked: &LinkedText) -> Result<LinkedSh
     let used = info.get_entry_point(index);
     let mut bindings = Vec::new();
     for (_, variable) in module.global_variables.iter().filter(|(handle, _)| !used[*handle].is_empty()) {
-        let Some(binding) = variable.binding.as_ref().filter(|_| !is_of_constants(variable)) else { continue };
+        let Some(binding) = variable.binding.as_ref().filter(|bound| bound.binding < replicas::NUMBERS) else {
+            continue;
+        };
         let name = variable.name.as_deref().unwrap_or_default();
         let array = Array::named(name).ok_or_else(|| failure(place(1), format!("there is no array `{name}`")))?;
         let texture = matches!(module.types[variable.ty].inner, naga::TypeInner::Image { .. });

@@ -214,7 +214,7 @@ impl Plan {
             return;
         }
         for kernel in &self.kernels {
-            let Ok((_, linked)) = link_once(kernel.name, kernel.entry, &kernel.choices, self.constants_in) else {
+            let Ok((_, linked)) = link_once(kernel.name, kernel.entry, &kernel.choices, self.constants_in, None) else {
                 continue;
             };
             let constants: Vec<_> = kernel.constants_in(self).collect();
@@ -281,13 +281,45 @@ impl Plan {
         let buffers = self.buffers.iter().map(|buffer| (buffer.array, buffer.bytes));
         let sizes: BTreeMap<Array, u64> = buffers.chain(textures).collect();
         let bound = |kernel: &Kernel| {
-            let linked = link_once(kernel.name, kernel.entry, &kernel.choices, self.constants_in);
+            let linked = link_once(kernel.name, kernel.entry, &kernel.choices, self.constants_in, None);
             let constants: Vec<_> = kernel.constants_in(self).collect();
             let bindings = linked.map(|(_, linked)| linked.specialized(&constants).bindings).unwrap_or_default();
             bindings.iter().filter_map(|binding| sizes.get(&kernel.array_of(binding.array))).sum::<u64>()
         };
         let kernels = [&self.sort, &self.before_report, &self.advance].into_iter().flatten();
         kernels.map(|kernel| &self.kernels[*kernel]).filter(|kernel| kernel.demand.is_none()).map(bound).sum()
+    }
+
+    /// True if another plan differs in constants and in what tables hold, if at all.
+    pub(crate) fn differs_in_numbers(&self, other: &Self) -> bool {
+        let form = |plan: &Self| {
+            let Self { prepare, sort, tidy, before_report, report, advance, finish_report, .. } = plan;
+            let order = [prepare, sort, tidy, before_report, report, advance, finish_report].map(Vec::clone);
+            let buffers = plan.buffers.iter().map(|buffer| (buffer.array, buffer.bytes)).collect::<Vec<_>>();
+            let textures = plan.textures.iter().map(|texture| (texture.array, texture.words, texture.size));
+            (order, buffers, textures.collect::<Vec<_>>())
+        };
+        let kernels = |plan: &Self| {
+            let without = |kernel: &Kernel| Kernel { constants: Vec::new(), ..kernel.clone() };
+            plan.kernels.iter().map(without).collect::<Vec<_>>()
+        };
+        self.particles == other.particles
+            && (self.constants_in, &self.samplers, &self.paths, &self.part)
+                == (other.constants_in, &other.samplers, &other.paths, &other.part)
+            && form(self) == form(other)
+            && kernels(self) == kernels(other)
+    }
+
+    /// True if kernels have the constants that they have in another plan with as many kernels.
+    pub(crate) fn has_constants_of(&self, other: &Self) -> bool {
+        let constants = |plan: &Self, kernel: &Kernel| {
+            let constants = kernel.constants_in(plan);
+            let mut bits: Vec<_> = constants.map(|(constant, value)| (constant.name(), value.to_bits())).collect();
+            bits.sort_unstable();
+            bits
+        };
+        let mut kernels = self.kernels.iter().zip(&other.kernels);
+        kernels.all(|(own, kernel)| constants(self, own) == constants(other, kernel))
     }
 
     /// Bytes of all buffers and textures.

@@ -22,7 +22,7 @@ impl Texture {
     pub const ROW: u64 = 4096;
 
     /// Rows that every adapter has.
-    const ROWS: u64 = 8192;
+    pub(crate) const ROWS: u64 = 8192;
 
     /// Bytes of the largest buffer that every adapter allows: textures are read back through one of that size.
     const BYTES: u64 = 1 << 28;

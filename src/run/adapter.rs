@@ -33,6 +33,14 @@ pub(super) fn open_adapter(scene: &Checked, choice: &AdapterChoice, options: Opt
     }
 }
 
+/// The plan for a device that is open, with the device.
+pub(super) fn plan_on(scene: &Checked, gpu: &Gpu, options: Options) -> Result<(Gpu, Plan), RunError> {
+    let plan = plan_for(scene, gpu, options);
+    plan::check_precision(scene, &plan)?;
+    check_memory(&plan, gpu)?;
+    Ok((gpu.clone(), plan))
+}
+
 fn open_for(choice: &AdapterChoice, plan: &Plan) -> Result<Gpu, GpuError> {
     let (largest_buffer, storage_buffers) = (plan.largest_buffer(), plan.storage_buffers);
     Gpu::open(choice, Requirements { largest_buffer, storage_buffers, ..Requirements::default() })

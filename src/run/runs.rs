@@ -1,6 +1,6 @@
 //! Runs that are started, resumed, and executed from their first step to their summary.
 
-use super::adapter::open_adapter;
+use super::adapter::{open_adapter, plan_on};
 use super::conservation::warning_of_mixed_ranks;
 use super::execution::{Execution, NOTICES, Outcome};
 use super::interrupt::Interrupt;
@@ -10,9 +10,9 @@ use super::plan::plan;
 use super::task::Task;
 use super::team;
 use super::{Event, RunError};
-use crate::engine::{Engine, EngineError, RankReport, Stepper};
+use crate::engine::{Engine, EngineError, RankReport, Replica, Stepper};
 use crate::families::{self, Checked, Instability};
-use crate::gpu::{AdapterChoice, Gpu, unseen_card};
+use crate::gpu::{AdapterChoice, ConstantsIn, Gpu, unseen_card};
 use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::{RankSummary, RanksSummary};
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
@@ -215,7 +215,17 @@ impl Run {
     /// [`RunError`]: no usable adapter, a run that became unstable or was interrupted, files that cannot be written. What was measured
     /// until then and the last good checkpoint are on disk.
     pub fn execute(self, choice: &AdapterChoice, observer: &mut dyn FnMut(Event<'_>)) -> Result<Outcome, RunError> {
-        self.execute_among(None, choice, observer)
+        self.perform(Company::Alone, choice, observer)
+    }
+
+    /// The same as one of several runs that a device advances together.
+    pub(crate) fn execute_with(
+        self,
+        replica: Replica,
+        choice: &AdapterChoice,
+        observer: &mut dyn FnMut(Event<'_>),
+    ) -> Result<Outcome, RunError> {
+        self.perform(Company::Replicas(replica), choice, observer)
     }
 
     /// The same as the first of several processes, which are the ranks that share the run; the others [`follow`](super::follow).
@@ -228,15 +238,33 @@ impl Run {
         choice: &AdapterChoice,
         observer: &mut dyn FnMut(Event<'_>),
     ) -> Result<Outcome, RunError> {
+        self.perform(processes.map_or(Company::Alone, Company::Processes), choice, observer)
+    }
+
+    fn perform(
+        self,
+        company: Company<'_>,
+        choice: &AdapterChoice,
+        observer: &mut dyn FnMut(Event<'_>),
+    ) -> Result<Outcome, RunError> {
+        let (processes, mut replica) = match company {
+            Company::Alone => (None, None),
+            Company::Processes(processes) => (Some(processes), None),
+            Company::Replicas(replica) => (None, Some(replica)),
+        };
         let Self { scene, beginning, interrupt, notices, id, division, mixed, draws } = self;
         let part = division.map(|division| Part { division, rank: 0 });
-        let mut options = Options { part, ..Options::default() };
+        let constants_in = replica.as_ref().map_or(ConstantsIn::Code, Replica::constants_in);
+        let mut options = Options { part, constants_in, ..Options::default() };
         // Whatever takes long before the first step can be left; until then nothing is written, or there is a checkpoint already.
         let is_new = matches!(beginning, Beginning::New { .. });
         let asked = interrupt.clone();
         let proceed = move || if is_new && asked.is_asked() { Err(RunError::NotBegun) } else { Ok(()) };
         let keep_alive = || processes.iter().for_each(|processes| processes.channel().keep_alive());
-        let (mut gpu, mut plan) = open_adapter(&scene, choice, options)?;
+        let (mut gpu, mut plan) = match &replica {
+            Some(replica) => plan_on(&scene, replica.gpu(), options)?,
+            None => open_adapter(&scene, choice, options)?,
+        };
         keep_alive();
         proceed()?;
         let (directory, mut start, earlier, replaces) = match beginning {
@@ -261,7 +289,13 @@ impl Run {
         let mut begun = false;
         loop {
             observer(Event::Compiling { kernels: plan.kernels.len() });
-            let opened = open(&task, &gpu, plan, (choice, processes), options, &start);
+            let opened = match replica.take().filter(|replica| replica.suits(&plan)) {
+                Some(replica) => {
+                    let engine = Engine::of_replica(replica, plan, &start.state).map_err(RunError::from);
+                    engine.map(|engine| -> Box<dyn Stepper> { Box::new(engine) })
+                }
+                None => open(&task, &gpu, plan, (choice, processes), options, &start),
+            };
             let ended = opened.and_then(|mut engine| {
                 if !std::mem::replace(&mut begun, true) {
                     proceed()?;
@@ -310,6 +344,16 @@ impl Run {
             }
         }
     }
+}
+
+/// What advances a run.
+enum Company<'a> {
+    /// The run itself.
+    Alone,
+    /// Processes that are the ranks that share it.
+    Processes(&'a dyn Processes),
+    /// The device, together with other runs.
+    Replicas(Replica),
 }
 
 /// The engine that advances a run, or the ranks that do so together.

@@ -126,7 +126,7 @@ impl StudyRun<StabilitySummary> {
         let (start, before) = (Instant::now(), self.summary.spent);
         let (request, interrupt, measures) =
             (self.request.clone(), self.interrupt().clone(), self.summary.measures.clone());
-        let work = |(row, value): &Place, report: &dyn Fn(Result<Option<Cell>, RunError>)| {
+        let work = |(row, value): &Place, report: &(dyn Fn(Result<Option<Cell>, RunError>) + Sync)| {
             let arguments = &request.arguments;
             let ended = request.scenes(*row, *value).map_err(RunError::from);
             report(

@@ -44,7 +44,7 @@ pub(crate) fn at_once<T: Sync, M: Send>(
     items: &[T],
     jobs: usize,
     interrupt: &Interrupt,
-    work: impl Fn(&T, &dyn Fn(M)) + Sync,
+    work: impl Fn(&T, &(dyn Fn(M) + Sync)) + Sync,
     mut receive: impl FnMut(usize, M) -> Result<(), StudyError>,
 ) -> Result<(), StudyError> {
     let next = AtomicUsize::new(0);
@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn reports_come_with_the_numbers_of_their_items_until_one_fails() {
         let (items, interrupt): (Vec<usize>, _) = ((10..20).collect(), Interrupt::default());
-        let work = |item: &usize, report: &dyn Fn(usize)| {
+        let work = |item: &usize, report: &(dyn Fn(usize) + Sync)| {
             report(*item);
             report(2 * *item);
         };

@@ -2,14 +2,17 @@
 
 use super::concurrency::at_once;
 use super::error::StudyError;
+use super::groups::Group;
 use super::record::Record;
 use super::run::{Observer, StudyEvent, StudyRun};
+use crate::engine::Replica;
 use crate::families::Checked;
 use crate::gpu::AdapterChoice;
 use crate::output::{Id, OutputError, RunDirectory, Summary, files, of_one_run};
 use crate::run::{Event, Progress, Run, RunError};
 use crate::scene::Scene;
 use std::path::Path;
+use std::thread;
 
 /// A run of a study.
 pub(crate) struct Member {
@@ -86,23 +89,35 @@ impl<R: Record> StudyRun<R> {
         on_end: &mut OnEnd<'_, R>,
     ) -> Result<(), StudyError> {
         let (place, interrupt) = (self.directory().to_path_buf(), self.interrupt().clone());
-        let work = |member: &Member, report: &dyn Fn(Message)| {
+        let work = |member: &Member, replica: Option<Replica>, report: &dyn Fn(Message)| {
             let directory = place.join(&member.name);
             let ended = member.simulation(&directory, R::KIND.summary).and_then(|simulation| {
                 if simulation.is_finished() {
                     return Ok(Summary::load(&directory.join(files::SUMMARY))?);
                 }
                 report(Message::Begun(simulation.first_step()));
-                let ended = simulation.until(&interrupt).execute(adapter, &mut |event| {
+                let (run, mut observer) = (simulation.until(&interrupt), |event: Event<'_>| {
                     if let Event::Advanced(progress) = event {
                         report(Message::Advanced(progress));
                     }
                 });
+                let ended = match replica {
+                    Some(replica) => run.execute_with(replica, adapter, &mut observer),
+                    None => run.execute(adapter, &mut observer),
+                };
                 ended.map(|outcome| outcome.summary)
             });
             report(Message::Ended(Box::new(ended)));
         };
-        at_once(members, jobs, &interrupt, work, |number, message| {
+        let groups = self.groups(members, adapter);
+        let together = |group: &Group, report: &(dyn Fn((usize, Message)) + Sync)| {
+            thread::scope(|scope| {
+                for (number, replica) in group.replicas() {
+                    scope.spawn(move || work(&members[number], replica, &|message| report((number, message))));
+                }
+            });
+        };
+        at_once(&groups, jobs, &interrupt, together, |_, (number, message)| {
             let run = members[number].name.as_str();
             match message {
                 Message::Begun(first_step) => observer(StudyEvent::Begun { run, first_step }),

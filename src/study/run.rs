@@ -3,6 +3,8 @@
 use super::concurrency::default_jobs;
 use super::directory;
 use super::error::StudyError;
+use super::groups::{Alike, Group, default_replicas};
+use super::members::Member;
 use super::record::{self, Record};
 use crate::families::Checked;
 use crate::gpu::{AdapterChoice, AdapterDescription, Gpu, Requirements};
@@ -29,6 +31,7 @@ pub struct StudyRun<R: Record> {
     claimed: Option<RunDirectory>,
     interrupt: Interrupt,
     jobs: Option<usize>,
+    replicas: Option<usize>,
     longest: Option<Duration>,
 }
 
@@ -121,7 +124,17 @@ impl<R: Record> StudyRun<R> {
 
     fn of(request: R::Request, summary: R, path: PathBuf) -> Self {
         let interrupt = Interrupt::default();
-        Self { request, summary, path, force: false, claimed: None, interrupt, jobs: None, longest: None }
+        Self {
+            request,
+            summary,
+            path,
+            force: false,
+            claimed: None,
+            interrupt,
+            jobs: None,
+            replicas: None,
+            longest: None,
+        }
     }
 
     /// The same study, which stops when it is asked to: what is known by then is kept, and runs save checkpoints.
@@ -134,6 +147,13 @@ impl<R: Record> StudyRun<R> {
     #[must_use]
     pub fn with_jobs(self, jobs: Option<usize>) -> Self {
         Self { jobs, ..self }
+    }
+
+    /// The same study, which advances so many runs together in the dispatches of one, where their plans differ in numbers only. Without a
+    /// number they are as many as [`default_replicas`] says, of those that differ in their seeds: each has the bytes that it has alone.
+    #[must_use]
+    pub fn with_replicas(self, replicas: Option<usize>) -> Self {
+        Self { replicas, ..self }
     }
 
     /// The same study, which does not begin what is expected to take longer than this; without a time it may take as long as it likes.
@@ -224,6 +244,20 @@ impl<R: Record> StudyRun<R> {
             return Ok(());
         }
         Err(StudyError::Long { kind: R::KIND, expected: in_hours(seconds) })
+    }
+
+    /// Runs that a device advances together, and those that it advances alone.
+    pub(super) fn groups(&self, members: &[Member], choice: &AdapterChoice) -> Vec<Group> {
+        let alone = || Group::of_each(members.len());
+        let Some(largest) = largest(members.iter().map(|member| &member.scene)) else { return alone() };
+        if self.replicas == Some(1) || members.len() < 2 {
+            return alone();
+        }
+        // A run that opens an adapter says what is wrong with it.
+        let Ok(gpu) = run::adapter_for(largest, choice) else { return alone() };
+        let default = default_replicas(gpu.description(), largest.model().particle_count(), members.len());
+        let alike = if self.replicas.is_some() { Alike::ButForNumbers } else { Alike::InConstants };
+        Group::of_alike(members, self.replicas.unwrap_or(default), alike, &gpu)
     }
 
     /// How many of so many runs are under way at once, of which this scene is the largest.

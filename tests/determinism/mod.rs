@@ -14,6 +14,7 @@ pub mod ranks;
 mod ranks_bonds;
 mod ranks_of_water;
 mod relaxation;
+mod replicas;
 mod resumed_analyses;
 mod shallow_water;
 mod shear;
