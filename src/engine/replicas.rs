@@ -4,6 +4,7 @@
 
 use std::collections::{BTreeMap, HashMap, VecDeque};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use super::pipeline::{self, SideBySide, Stage};
 use super::recording::Recording;
@@ -59,6 +60,19 @@ struct Waiting {
     /// Replicas that the buffer of numbers names.
     numbered: Vec<u32>,
 }
+
+/// Replicas for which kernels wait.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Awaited {
+    /// All that have not left.
+    All,
+    /// Those that wait themselves.
+    WhoeverWaits,
+}
+
+/// Time for which replicas wait for one that does something else, such as drawing a picture: it catches up with them later, as kernels
+/// of earlier steps come first.
+const PATIENCE: Duration = Duration::from_millis(20);
 
 /// One of several systems that are advanced together; the others no longer wait for it once it is dropped.
 #[doc(hidden)]
@@ -134,19 +148,31 @@ impl Replicas {
             queue.extend(dispatches);
         }
         loop {
-            self.submit_common(&mut waiting);
+            self.submit_common(&mut waiting, Awaited::All);
             if waiting.dispatches[number].as_ref().is_none_or(VecDeque::is_empty) {
                 return;
             }
-            waiting = self.arrival.wait(waiting).unwrap_or_else(PoisonError::into_inner);
+            let waited = self.arrival.wait_timeout(waiting, PATIENCE);
+            let (woken, time) = waited.unwrap_or_else(PoisonError::into_inner);
+            waiting = woken;
+            if time.timed_out() {
+                self.submit_common(&mut waiting, Awaited::WhoeverWaits);
+            }
         }
     }
 
-    /// Submits kernels until a replica has none that waits: what it dispatches next may come first.
-    fn submit_common(&self, waiting: &mut Waiting) {
+    /// Submits kernels until one of the replicas that are awaited has none that waits: what it dispatches next may come first.
+    fn submit_common(&self, waiting: &mut Waiting, awaited: Awaited) {
         let mut recorded: Option<(Vec<u32>, Recording)> = None;
+        let is_awaited = |queue: &Option<VecDeque<Dispatch>>| match awaited {
+            Awaited::All => queue.is_some(),
+            Awaited::WhoeverWaits => queue.as_ref().is_some_and(|queue| !queue.is_empty()),
+        };
+        let awaited: Vec<bool> = waiting.dispatches.iter().map(is_awaited).collect();
         loop {
-            let present = (0..).zip(&waiting.dispatches).filter_map(|(number, queue)| Some((number, queue.as_ref()?)));
+            let present = (0..).zip(waiting.dispatches.iter().zip(&awaited));
+            let present =
+                present.filter_map(|(number, (queue, awaited))| Some((number, queue.as_ref().filter(|_| *awaited)?)));
             let next: Option<Vec<(u32, Dispatch)>> =
                 present.map(|(number, queue)| Some((number, *queue.front()?))).collect();
             let Some(next) = next else { break };
@@ -224,7 +250,7 @@ impl Drop for Replica {
         let mut waiting = self.group.waiting();
         waiting.dispatches[self.number as usize] = None;
         // Those that have waited for it alone go on.
-        self.group.submit_common(&mut waiting);
+        self.group.submit_common(&mut waiting, Awaited::All);
         self.group.arrival.notify_all();
     }
 }

@@ -15,7 +15,7 @@ use super::settling;
 use super::tally::Carried;
 use super::team::team;
 use super::views::Views;
-use crate::engine::{Engine, EngineError, RankReport, Sample, Shown, Stepper};
+use crate::engine::{Engine, EngineError, RankReport, Replica, Replicas, Sample, Shown, Stepper};
 use crate::families::pictures::MeshPictures;
 use crate::families::{self, Checked, Instability, PictureKind};
 use crate::gpu::{AdapterChoice, AdapterDescription, ConstantsIn, Gpu};
@@ -30,6 +30,7 @@ use crate::state::State;
 use crate::table::Table;
 use crate::tessellation::Tessellation;
 use image::RgbaImage;
+use std::iter;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::Arc;
@@ -164,7 +165,7 @@ impl Simulation {
     /// [`RunError::Unshared`] and [`RunError::Undividable`] if the ranks cannot share the scene, and as [`Self::new`].
     pub fn on_ranks(scene: &Checked, choice: &AdapterChoice, ranks: u32) -> Result<Self, RunError> {
         let place = Place::new(&Sight::Frames.planned(scene), choice, ranks)?;
-        Self::at_start(Sight::Frames, place, scene)
+        Self::at_start(Sight::Frames, place, scene, None)
     }
 
     /// A simulation of a scene at its start, on a device that is open, which several simulations may share.
@@ -172,18 +173,38 @@ impl Simulation {
     /// # Errors
     /// As [`Self::new`].
     pub fn on(gpu: &Gpu, scene: &Checked) -> Result<Self, RunError> {
-        Self::seeing(Sight::Frames, gpu, scene)
+        Self::at_start(Sight::Frames, Place { gpu: gpu.clone(), shared: None }, scene, None)
     }
 
-    /// The same, of which only this can be seen.
-    pub(crate) fn seeing(sight: Sight, gpu: &Gpu, scene: &Checked) -> Result<Self, RunError> {
-        Self::at_start(sight, Place { gpu: gpu.clone(), shared: None }, scene)
+    /// Simulations of scenes that differ in their seeds, of which only this can be seen; the device advances up to `most` of them together.
+    pub(crate) fn side_by_side(
+        sight: Sight,
+        gpu: &Gpu,
+        scenes: &[Checked],
+        most: usize,
+    ) -> Result<Vec<Self>, RunError> {
+        let mut replicas = Vec::new();
+        if let [first, _, ..] = scenes {
+            let plan = plan_for(&sight.planned(first), gpu, Options::default());
+            let fitting = Replicas::fitting(&plan, gpu, most.min(scenes.len()));
+            if fitting > 1 {
+                // Where the device has too little memory for them together, each tries for itself.
+                replicas = Replicas::new(gpu, plan, fitting as u32).unwrap_or_default();
+            }
+        }
+        let replicas = replicas.into_iter().map(Some).chain(iter::repeat_with(|| None));
+        let each = scenes.iter().zip(replicas);
+        each.map(|(scene, replica)| {
+            let place = Place { gpu: gpu.clone(), shared: None };
+            Self::at_start(sight, place, scene, replica)
+        })
+        .collect()
     }
 
-    fn at_start(sight: Sight, place: Place, scene: &Checked) -> Result<Self, RunError> {
+    fn at_start(sight: Sight, place: Place, scene: &Checked, replica: Option<Replica>) -> Result<Self, RunError> {
         let state = families::initial_state(scene);
         families::check_start(scene, &state)?;
-        Self::from_state(sight, place, scene, state, Carried::default(), Vec::new())
+        Self::from_state(sight, place, scene, replica, state, Carried::default(), Vec::new())
     }
 
     /// A simulation that goes on from a checkpoint: of another one, or of a run. Rows of the table of energies begin there.
@@ -216,13 +237,14 @@ impl Simulation {
         }
         let carried = Carried::new(scene.model(), &Sections::new(path, state.step, &sections))?;
         let changes = Change::from_sections(&sections);
-        Self::from_state(Sight::Frames, place, &scene, state, carried, changes)
+        Self::from_state(Sight::Frames, place, &scene, None, state, carried, changes)
     }
 
     fn from_state(
         sight: Sight,
         place: Place,
         scene: &Checked,
+        replica: Option<Replica>,
         state: State,
         carried: Carried,
         changes: Vec<Change>,
@@ -232,7 +254,14 @@ impl Simulation {
         let is_changed = changes.iter().any(Change::is_of_number);
         let constants_in = if is_changed { ConstantsIn::Buffer } else { ConstantsIn::Code };
         let options = Options { part: place.part(), constants_in, ..Options::default() };
-        let (engine, options) = place.open(&planned, &state, options)?;
+        let together = replica.and_then(|replica| {
+            let plan = plan_for(&planned, &place.gpu, options);
+            replica.suits(&plan).then(|| Engine::of_replica(replica, plan, &state).ok())?
+        });
+        let (engine, options) = match together {
+            Some(engine) => (Box::new(engine) as Box<dyn Stepper>, options),
+            None => place.open(&planned, &state, options)?,
+        };
         let (particles, operations) = (scene.model().particle_count(), engine.plan().operations_per_particle);
         let pace = match sight {
             Sight::Frames => Pace::for_looking(particles, operations),

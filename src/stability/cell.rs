@@ -12,6 +12,8 @@ use crate::table::Table;
 use crate::tradeoff::{self, Deviation, Measured, References, errors_in_words};
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::panic::resume_unwind;
+use std::thread;
 
 /// Parts of the averaged time after which a verdict that is certain ends a run.
 const PARTS: [f64; 3] = [0.25, 0.5, 1.0];
@@ -98,7 +100,8 @@ pub(super) fn is_of_the_scene(error: &RunError) -> bool {
     }
 }
 
-/// Runs a scene, with each seed, and compares measures with what they should be; none if it was asked to stop.
+/// Runs a scene, with each seed, of which the device advances up to `together` at once, and compares measures with what they should be; none if
+/// it was asked to stop.
 ///
 /// # Errors
 /// [`RunError`], also for what says something about the scene.
@@ -107,20 +110,23 @@ pub(super) fn evaluate(
     scenes: &[Checked],
     measures: &[String],
     arguments: &Arguments,
+    together: usize,
     adapter: &AdapterChoice,
     interrupt: &Interrupt,
 ) -> Result<Option<Cell>, RunError> {
     let Some(scene) = scenes.first() else { return Ok(None) };
     let gpu = run::adapter_for(scene, adapter)?;
-    let trials = scenes.iter().map(|scene| Ok(Simulation::seeing(Sight::EnergiesAlone, &gpu, scene)?.until(interrupt)));
-    let mut trials = trials.collect::<Result<Vec<Simulation>, RunError>>()?;
+    let trials = Simulation::side_by_side(Sight::EnergiesAlone, &gpu, scenes, together)?.into_iter();
+    let mut trials: Vec<Simulation> = trials.map(|trial| trial.until(interrupt)).collect();
     let (equilibration, every) = (scene.time.equilibration, scene.output.energies.every.max(1));
     let averaged = scene.time.steps.saturating_sub(equilibration);
     let mut cell = Cell { value, time_step: Some(scene.time.step), ..Cell::default() };
     for part in PARTS {
         let more = ((part * averaged as f64 / every as f64).ceil() as u64).saturating_mul(every);
+        let last = equilibration.saturating_add(more);
+        let mut ended = advance_together(&mut trials, last, together).into_iter();
         for trial in &mut trials {
-            let ended = trial.advance_to(equilibration.saturating_add(more), None);
+            let ended = ended.next().unwrap_or_else(|| trial.advance_to(last, None));
             cell.steps = trial.step();
             match ended {
                 Ok(Stop::Reached) => {}
@@ -154,6 +160,19 @@ pub(super) fn evaluate(
         }
     }
     Ok(Some(cell))
+}
+
+/// Advances simulations that wait for each other, if the device advances several together; none of those that it advances in turns, so
+/// that no other need follow one that fails.
+fn advance_together(trials: &mut [Simulation], last: u64, together: usize) -> Vec<Result<Stop, RunError>> {
+    if together < 2 || trials.len() < 2 {
+        return Vec::new();
+    }
+    thread::scope(|scope| {
+        let advanced: Vec<_> =
+            trials.iter_mut().map(|trial| scope.spawn(move || trial.advance_to(last, None))).collect();
+        advanced.into_iter().map(|ended| ended.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
+    })
 }
 
 /// Why a simulation became unstable, if it did.

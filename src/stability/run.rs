@@ -64,9 +64,10 @@ impl StudyRun<StabilitySummary> {
         // Seeds are side by side already.
         let at_once = if self.request.seeds() > 1 { 1 } else { self.request.cell_count() };
         let jobs = self.jobs_for(largest, at_once, &gpu);
+        let together = self.replicas_for(largest, self.request.seeds() as usize, &gpu);
         observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds });
         while !waiting.is_empty() {
-            self.run_all(&waiting, jobs, adapter, observer)?;
+            self.run_all(&waiting, jobs, together, adapter, observer)?;
             waiting = self.waiting();
             if !waiting.is_empty() {
                 observer(StudyEvent::Phase { phase: &Bisecting(waiting.len()), runs: waiting.len() });
@@ -120,6 +121,7 @@ impl StudyRun<StabilitySummary> {
         &mut self,
         places: &[Place],
         jobs: usize,
+        together: usize,
         adapter: &AdapterChoice,
         observer: &mut Observer<'_, StabilitySummary>,
     ) -> Result<(), StudyError> {
@@ -130,7 +132,9 @@ impl StudyRun<StabilitySummary> {
             let arguments = &request.arguments;
             let ended = request.scenes(*row, *value).map_err(RunError::from);
             report(
-                match ended.and_then(|scenes| evaluate(*value, &scenes, &measures, arguments, adapter, &interrupt)) {
+                match ended
+                    .and_then(|scenes| evaluate(*value, &scenes, &measures, arguments, together, adapter, &interrupt))
+                {
                     Err(error) if is_of_the_scene(&error) => Ok(Some(Cell::refused(*value, error.to_string()))),
                     ended => ended,
                 },

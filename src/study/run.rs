@@ -255,9 +255,15 @@ impl<R: Record> StudyRun<R> {
         }
         // A run that opens an adapter says what is wrong with it.
         let Ok(gpu) = run::adapter_for(largest, choice) else { return alone() };
-        let default = default_replicas(gpu.description(), largest.model().particle_count(), members.len());
+        let most = self.replicas_for(largest, members.len(), &gpu);
         let alike = if self.replicas.is_some() { Alike::ButForNumbers } else { Alike::InConstants };
-        Group::of_alike(members, self.replicas.unwrap_or(default), alike, &gpu)
+        Group::of_alike(members, most, alike, &gpu)
+    }
+
+    /// The number of so many runs of a scene that the device advances together.
+    pub(crate) fn replicas_for(&self, scene: &Checked, runs: usize, gpu: &Gpu) -> usize {
+        let default = || default_replicas(gpu.description(), scene.model().particle_count(), runs);
+        self.replicas.unwrap_or_else(default)
     }
 
     /// How many of so many runs are under way at once, of which this scene is the largest.
