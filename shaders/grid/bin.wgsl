@@ -41,7 +41,9 @@ fn note_place(slot: u32, place: Fraction) {}
 fn scatter_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index < CELLS) { counts[index] = 0u; }
-    if (index >= stored_count()) { return; }
+    if (index < stored_count()) { scatter_particle(index); }
+}
+fn scatter_particle(index: u32) {
     let rank = rank_of(index);
     if (has_no_rank(rank)) { return; }
     let particle = copied(index);
@@ -63,6 +65,17 @@ fn scatter_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
         }
         put_sorted(copy, particle);
     }
+}
+
+// Begins the step and sorts all particles. One workgroup, for so few that further dispatches would take longer than their turns; reads
+// `particles`, `ranks` and `counts`, writes `cells` and the sorted array, and clears `counts` for the next step.
+@compute @workgroup_size(SCAN_LANES)
+fn sort_in_one_workgroup(@builtin(local_invocation_index) lane: u32) {
+    if (lane == 0u) { begin_step(); }
+    scan_all_rows(lane);
+    storageBarrier();
+    for (var cell = lane; cell < CELLS; cell += SCAN_LANES) { counts[cell] = 0u; }
+    for (var index = lane; index < stored_count(); index += SCAN_LANES) { scatter_particle(index); }
 }
 
 // Puts every particle into its cell without frames, and notes what neighbour lists need to know of its place. One invocation a

@@ -366,11 +366,15 @@ impl<'a> Builder<'a> {
 
     /// Counting sort by cell.
     fn sorting(&mut self, choices: &Choices) -> Vec<usize> {
+        let copied = self.sorted.copied(self.splits());
+        if self.sorted.in_one_workgroup {
+            return vec![self.kernel("sort", Entry::SortInOneWorkgroup, choices.clone().with(copied), 1)];
+        }
         let sum = PrefixSum { choices, rows: self.grid.rows(), cells: self.grid.count() };
         let mut kernels: Vec<usize> =
             sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)).collect();
-        let copied = self.choices().with(self.sorted.copied(self.splits()));
-        kernels.push(self.kernel("scatter", Entry::ScatterParticles, copied, self.slots.max(self.grid.count())));
+        let choices = self.choices().with(copied);
+        kernels.push(self.kernel("scatter", Entry::ScatterParticles, choices, self.slots.max(self.grid.count())));
         kernels
     }
 

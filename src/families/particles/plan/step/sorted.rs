@@ -17,6 +17,10 @@ impl Builder<'_> {
 /// (3 000 particles) this saves a tenth of a step; with 3 000 it saves nothing any more.
 const SCAN_AT_END_CELLS: u64 = 1 << 11;
 
+/// Particles up to which one workgroup sums the cells and sorts them, where lanes are taken together: four turns of 256 lanes, each some
+/// microsecond of latency, where a dispatch and its barrier are assumed to take two or three. A card has measured neither.
+const SORTED_BY_ONE_WORKGROUP: u64 = 1 << 10;
+
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sorted {
     /// Positions and momenta lie in textures, whose texels are loaded whole.
@@ -25,6 +29,8 @@ pub(super) struct Sorted {
     probes: bool,
     /// A step ends with the prefix sum over cells for the next one.
     pub scans_at_end: bool,
+    /// One workgroup sums cells and sorts particles.
+    pub in_one_workgroup: bool,
 }
 
 impl Sorted {
@@ -46,6 +52,10 @@ impl Sorted {
                 && !needs_levels(cells, options)
                 && options.part.is_none()
                 && !builder.visits_once(),
+            in_one_workgroup: !serial
+                && builder.slots <= SORTED_BY_ONE_WORKGROUP
+                && !needs_levels(cells, options)
+                && options.part.is_none(),
         }
     }
 
