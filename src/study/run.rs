@@ -266,8 +266,16 @@ impl<R: Record> StudyRun<R> {
         self.replicas.unwrap_or_else(default)
     }
 
-    /// How many of so many runs are under way at once, of which this scene is the largest.
+    /// The number of so many runs that are under way at once where `jobs` groups of them are, of which this scene is the largest.
+    pub(crate) fn under_way(&self, jobs: usize, scene: &Checked, runs: usize, gpu: &Gpu) -> usize {
+        (jobs * self.replicas_for(scene, runs, gpu)).clamp(1, runs.max(1))
+    }
+
+    /// How many of so many runs, or groups of runs that are advanced together, are under way at once, of which this scene is the largest.
     pub(crate) fn jobs_for(&self, scene: &Checked, runs: usize, gpu: &Gpu) -> usize {
+        if self.jobs.is_none() && self.replicas_for(scene, runs, gpu) > 1 {
+            return 1;
+        }
         let largest = || {
             let plan = run::plan(scene, Hardware::from(gpu), Options::default());
             plan.particles as f64 * plan.operations_per_particle

@@ -1,12 +1,14 @@
 //! Systems that a device advances together, each of which is advanced as it is alone: the same bytes.
 
-use std::thread;
+use std::{fs, thread};
 
 use mesoscope::engine::{Engine, Replicas};
 use mesoscope::gpu::{ConstantsIn, Gpu, Requirements};
 use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
 use mesoscope::scene::Checked;
+use mesoscope::study::Sweep;
+use mesoscope::sweep::SweepRun;
 
 use crate::support::bytes::{Bytes, harvest};
 use crate::support::{
@@ -111,4 +113,33 @@ fn plans_of_which_a_dispatch_depends_on_the_step_have_no_replicas() {
     assert!(!replicas[0].suits(&plan(&large, gpu(), ConstantsIn::Code)));
     let stiff = edited(&small, |scene| scene.time.step *= 0.5);
     assert!(!replicas[0].suits(&plan(&stiff, gpu(), ConstantsIn::Code)), "constants are in the code of kernels");
+}
+
+#[test]
+fn a_sweep_of_replicas_leaves_the_files_of_runs_alone() {
+    let place = tempfile::tempdir().unwrap();
+    let set = ["space.box=[4,4,4]", r#"output={"energies":{"every":5}}"#, GROOT_WARREN].map(str::to_owned);
+    // One time step is so long that its runs become unstable, which ends no other.
+    let vary = ["time.step=0.02,0.15", "seed=1,2,3"].map(str::to_owned);
+    let sweep = |name: &str, replicas: usize| {
+        let request = Sweep::load("dpd-fluid", &set, Some(120), &vary, &[]).unwrap();
+        let run = SweepRun::start(request, place.path().join(name)).with_replicas(Some(replicas)).with_jobs(Some(1));
+        run.execute(&adapter(), &mut |_| {}).unwrap()
+    };
+    let [alone, together] = [sweep("alone", 1), sweep("together", 3)];
+    let failed = |outcome: &mesoscope::sweep::SweepOutcome| {
+        outcome
+            .failures
+            .iter()
+            .map(|(number, error)| (*number, error.to_string().split(';').count()))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!((failed(&alone).len(), failed(&together)), (3, failed(&alone)));
+    for seed in 1..=3 {
+        for file in ["energies.csv", "checkpoint.bin"] {
+            let read =
+                |name: &str| fs::read(place.path().join(format!("{name}/step=0.02,seed={seed}/{file}"))).unwrap();
+            assert!(read("alone") == read("together"), "{file}, seed {seed}");
+        }
+    }
 }
