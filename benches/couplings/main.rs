@@ -70,9 +70,9 @@ fn fluids() -> Vec<Variant> {
             options: Options { listed: true, ..Options::default() },
             ..variant("the same, Gaussian noise", &[r#"noise={"distribution":"gaussian"}"#])
         },
-        variant("memory, margin .3", &[memory]),
     ];
     for (name, skin) in [
+        ("memory, margin .3", 0.3),
         ("memory, margin .15", 0.15),
         ("memory, margin .2", 0.2),
         ("memory, margin .4", 0.4),

@@ -10,7 +10,7 @@ struct Control {
     failures: atomic<u32>,       // FAILURE_ bits
     failure_elapsed: atomic<u32>,// `elapsed` when the first of them was raised
     failure_place: atomic<u32>,  // the first mesh node, bond or cell with a failure
-    demand: atomic<u32>,        // 1 when the list of neighbours has to be rebuilt
+    demand: atomic<u32>,        // LIST_ bits
     limited: atomic<u32>,       // exchanges between Voronoi cells that a limit has cut, low and high word
     limited_high: atomic<u32>,
 }
@@ -83,20 +83,25 @@ fn begin_step() {
 @compute @workgroup_size(1)
 fn begin_plain_step() { begin_step(); }
 
+// Bits of `demand`.
+const LIST_DEMANDED: u32 = 1u; // the list of neighbours has to be rebuilt
+const LIST_SECOND: u32 = 2u;   // the second of two lists is the current one
+
 override CONDITIONAL: u32; // kernels that depend on it
 
 // Begins a step of a scene with a list of neighbours, and decides whether it is rebuilt. One workgroup; a lane copies every
 // 64th word. `demands` holds the workgroups (x, y, z) of each kernel of the list: first as they are when it runs, then as they
-// are in this step, which are none if no particle has demanded a new list and none is due.
+// are in this step, which are none if no particle has demanded a new list and none is due. Of two lists the new one is the other.
 @compute @workgroup_size(64)
 fn begin_listed_step(@builtin(local_invocation_index) lane: u32) {
-    let demanded = atomicLoad(&control.demand) != 0u || is_outdated(control.next);
+    let word = atomicLoad(&control.demand);
+    let demanded = (word & LIST_DEMANDED) != 0u || is_outdated(control.next);
     for (var word = lane; word < 3u * CONDITIONAL; word += 64u) {
         demands[3u * CONDITIONAL + word] = select(0u, demands[word], demanded);
     }
     storageBarrier();
     if (lane == 0u) {
-        atomicStore(&control.demand, 0u);
+        atomicStore(&control.demand, select(word, ~word & LIST_SECOND, demanded));
         begin_step();
     }
 }

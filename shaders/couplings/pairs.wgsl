@@ -9,29 +9,30 @@ fn visit_pairs_of(slot: u32) {
     prepare_pair_noise();
     let me = stored_particle(slot);
     begin_visit(0u, me);
-    let count = neighbour_word(slot);
+    let list = current_list();
+    let count = neighbour_word(place_in_list(list, 0u, slot));
     var kick = Steps(0);
     var sound = true;
     for (var base = 0u; base < count; base += 32u) {
         let end = min(32u, count - base);
         var mask = 0u;
         for (var bit = 0u; bit < end; bit++) {
-            let neighbour = neighbour_word((base + bit + 1u) * PARTICLES + slot);
+            let neighbour = neighbour_word(place_in_list(list, base + bit + 1u, slot));
             let d = separation(me.position, stored_position(neighbour & NEIGHBOUR_MASK));
             mask |= select(0u, 1u << bit, dot(d, d) < CUTOFF * CUTOFF);
         }
         // Ends: every turn clears a bit.
         while (mask != 0u) {
-            let entry = base + firstTrailingBit(mask);
+            let entry = base + firstTrailingBit(mask) + 1u;
             mask &= mask - 1u;
-            let neighbour = neighbour_word((entry + 1u) * PARTICLES + slot);
+            let neighbour = neighbour_word(place_in_list(list, entry, slot));
             let other_slot = neighbour & NEIGHBOUR_MASK;
             let other = stored_particle(other_slot);
             let contact = contact_of(separation(me.position, other.position));
             let c = unless_excluded(neighbour, coefficients_of(species_of(me), species_of(other)));
             let root = root_weight(contact.w);
             let push = repulsion_impulse(c, contact.w);
-            let magnitude = impulse_of_pair(push, c, contact, root, me, other, entry * PARTICLES + slot);
+            let magnitude = impulse_of_pair(push, c, contact, root, me, other, place_of_memory(list, entry, slot));
             let impulse = Steps(round(magnitude * contact.direction));
             sound = sound && is_within(magnitude, IMPULSE_LIMIT);
             kick += impulse;

@@ -18,13 +18,18 @@ fn is_own(position: vec4<u32>) -> bool { return true; }
 fn forgets(index: u32) -> bool { return false; }
 fn has_no_rank(rank: u32) -> bool { return false; }
 
-// Counts newly uploaded particles into cells; every later step counts as it advances. One invocation a stored particle; reads its
-// position, adds to `counts`, writes `ranks`.
+// Slot grid/aside: keeps a particle as it is stored, so that it can be put into its cell in the same array. Default: off,
+// particles are put into another array. The plan chooses `kept` for lists.
+fn keep_aside(index: u32) {}
+
+// Counts particles into cells that are newly uploaded, or whose neighbours are listed; where every step sorts, the one before counts as it
+// advances. One invocation a stored particle; reads its position, adds to `counts`, writes `ranks`, and `sorted` if it is kept aside.
 @compute @workgroup_size(WORKGROUP)
 fn bin_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index >= stored_count() || forgets(index)) { return; }
     count_into_cell(index, fraction_of(stored_position(index)));
+    keep_aside(index);
 }
 fn count_into_cell(slot: u32, place: Fraction) {
     put_rank(slot, atomicAdd(&counts[row_of(place) * CELLS_X + column_of(place)], 1u));
@@ -79,7 +84,8 @@ fn sort_in_one_workgroup(@builtin(local_invocation_index) lane: u32) {
 }
 
 // Puts every particle into its cell without frames, and notes what neighbour lists need to know of its place. One invocation a
-// stored particle; reads `particles`, `ranks` and `cells`, writes `sorted`, and clears `counts` for the next time.
+// stored particle; reads `particles`, `ranks` and `cells`, writes `sorted`, and clears `counts` for the next time. For a list the plan
+// exchanges the two arrays: particles come from where they were kept aside, and are stored in the new order.
 @compute @workgroup_size(WORKGROUP)
 fn arrange_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
@@ -90,18 +96,13 @@ fn arrange_particles(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local
     let fraction = fraction_of(position);
     let slot = cell_at(cell_index(row_of(fraction), column_of(fraction))) + rank_of(index);
     sort_particle(slot, particle);
-    note_anchor(slot, position);
-    note_origin(slot, index);
+    note_anchor(slot, position, index);
     note_slot(position.w, slot);
 }
 
-// Slot couplings/anchors: keeps where a particle was when neighbours were listed. Default: off, no neighbours are
-// listed. The plan chooses `kept` for lists.
-fn note_anchor(slot: u32, position: vec4<u32>) {}
-
-// Slot couplings/origins: keeps where a particle was stored before the sort. Default: off. The plan chooses `kept` for pairs
-// whose bath has memory.
-fn note_origin(slot: u32, before: u32) {}
+// Slot couplings/anchors: keeps where a particle was when neighbours were listed, and where it was stored before. Default: off, no
+// neighbours are listed. The plan chooses `kept` for lists.
+fn note_anchor(slot: u32, position: vec4<u32>, before: u32) {}
 
 // Slot couplings/slots: keeps where a particle is stored or sorted, by id, until it is forgotten. Default: off. Plans choose `kept` for bonds
 // and angles, `of_rank` if several ranks share them.

@@ -38,7 +38,7 @@ pub struct StudyArguments {
     /// Runs that a device advances together, in the dispatches of one, where they differ in numbers only [default: on a card as
     /// many as have 131,072 particles, up to 64, of those that differ in their seeds; on a software adapter 1]. Results do not depend
     /// on it but for rounding, where other numbers than seeds differ: kernels then load them
-    #[arg(long, help_heading = heading::RUNNING, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    #[arg(long, help_heading = heading::RUNNING, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
     replicas: Option<u16>,
 
     /// Independent runs of each scene, with its own seed and those that follow: means are taken over them, with errors

@@ -16,6 +16,7 @@ mod timing;
 pub use error::EngineError;
 pub use exchange::{Movable, Swap, Traffic};
 pub(crate) use readback::read as read_back;
+pub(crate) use replicas::MOST as MOST_REPLICAS;
 pub use replicas::{Replica, Replicas};
 pub(crate) use shown::Sampling;
 pub use shown::Shown;

@@ -10,11 +10,14 @@ use super::pipeline::{self, SideBySide, Stage};
 use super::recording::Recording;
 use super::stored::Stored;
 use super::texels::Texels;
-use crate::gpu::{ConstantsIn, Gpu, GpuError, Portions};
+use crate::gpu::{ConstantsIn, Gpu, GpuError, spacing};
 use crate::plan::{self, Plan, Texture};
 use crate::shaders::Array;
 
-/// Where in a step a kernel runs: of several that wait, the first is dispatched first, so that replicas that are apart meet again.
+/// Systems that are advanced together at most: 256 constants of each fit into the uniform buffer of any adapter.
+pub(crate) const MOST: u64 = 64;
+
+/// The place of a kernel among those of a run: of several that wait, the first is dispatched first, so that replicas that are apart meet again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Moment {
     pub step: u64,
@@ -53,7 +56,7 @@ pub struct Replicas {
     arrival: Condvar,
 }
 
-/// What replicas wait for.
+/// Kernels that wait.
 struct Waiting {
     /// Kernels that each is to dispatch; none for a replica that has left.
     dispatches: Vec<Option<VecDeque<Dispatch>>>,
@@ -71,19 +74,14 @@ enum Awaited {
 }
 
 /// Time for which replicas wait for one that does something else, such as drawing a picture: it catches up with them later, as kernels
-/// of earlier steps come first.
-const PATIENCE: Duration = Duration::from_millis(20);
+/// of earlier steps come first. Batches, for whose results a replica waits, are half as long.
+const PATIENCE: Duration = Duration::from_millis(300);
 
 /// One of several systems that are advanced together; the others no longer wait for it once it is dropped.
 #[doc(hidden)]
 pub struct Replica {
     pub(super) group: Arc<Replicas>,
     pub(super) number: u32,
-}
-
-/// Bytes from an array of one replica to that of the next.
-fn spacing(bytes: u64) -> u64 {
-    bytes.next_multiple_of(Portions::UNIT)
 }
 
 impl Replicas {
@@ -95,9 +93,11 @@ impl Replicas {
         if is_alone || plan.kernels.iter().any(|kernel| kernel.demand.is_some()) {
             return 1;
         }
-        let buffers = plan.buffers.iter().map(|buffer| gpu.largest_binding() / spacing(buffer.bytes));
+        let limits = gpu.device.limits();
+        let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let buffers = plan.buffers.iter().map(|buffer| largest / spacing(buffer.bytes));
         let textures = plan.textures.iter().map(|texture| Texture::ROWS / u64::from(texture.size[1]));
-        buffers.chain(textures).fold(wanted as u64, u64::min) as usize
+        buffers.chain(textures).fold(MOST.min(wanted as u64), u64::min) as usize
     }
 
     /// Makes room for systems that are to be advanced together by a plan, and compiles its kernels.
@@ -105,27 +105,26 @@ impl Replicas {
     /// # Errors
     /// [`GpuError`] if the device has too little memory, or a kernel cannot be one of several systems.
     pub fn new(gpu: &Gpu, plan: Plan, count: u32) -> Result<Vec<Replica>, GpuError> {
-        let spaced = |buffer: &plan::Buffer| {
-            let bytes = spacing(buffer.bytes) * u64::from(count);
-            let planned = plan::Buffer { array: buffer.array, bytes, contents: plan::Contents::Zeros };
-            Ok((buffer.array, Stored::new(gpu, &planned, None)?))
-        };
-        let buffers = plan.buffers.iter().map(spaced).collect::<Result<HashMap<_, _>, GpuError>>()?;
+        let mut buffers = HashMap::new();
+        for &plan::Buffer { array, bytes, .. } in &plan.buffers {
+            let bytes = spacing(bytes) * u64::from(count);
+            let planned = plan::Buffer { array, bytes, contents: plan::Contents::Zeros };
+            buffers.insert(array, Stored::new(gpu, &planned, None)?);
+        }
         let rows = plan.textures.iter().map(|texture| texture.size[1]).max().unwrap_or(0);
-        let stacked = |texture: &Texture| {
+        let mut textures = HashMap::new();
+        for texture in &plan.textures {
             let size = [texture.size[0], rows * count];
             let planned = Texture { size, contents: plan::Contents::Zeros, ..texture.clone() };
-            Ok((texture.array, Texels::new(gpu, &planned)?))
-        };
-        let textures = plan.textures.iter().map(stacked).collect::<Result<HashMap<_, _>, GpuError>>()?;
+            textures.insert(texture.array, Texels::new(gpu, &planned)?);
+        }
         let numbers = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("replicas"),
             size: 16 * u64::from(count.div_ceil(4)),
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let sizes: BTreeMap<Array, u64> =
-            plan.buffers.iter().map(|buffer| (buffer.array, spacing(buffer.bytes))).collect();
+        let sizes: BTreeMap<Array, u64> = plan.buffers.iter().map(|buffer| (buffer.array, buffer.bytes)).collect();
         let side = SideBySide { count, sizes: &sizes, rows, numbers: &numbers };
         let stages = pipeline::stages(gpu, &plan, &buffers, &textures, Some(&side))?.into();
         let dispatches = vec![Some(VecDeque::new()); count as usize];
@@ -164,17 +163,20 @@ impl Replicas {
     /// Submits kernels until one of the replicas that are awaited has none that waits: what it dispatches next may come first.
     fn submit_common(&self, waiting: &mut Waiting, awaited: Awaited) {
         let mut recorded: Option<(Vec<u32>, Recording)> = None;
-        let is_awaited = |queue: &Option<VecDeque<Dispatch>>| match awaited {
-            Awaited::All => queue.is_some(),
-            Awaited::WhoeverWaits => queue.as_ref().is_some_and(|queue| !queue.is_empty()),
-        };
-        let awaited: Vec<bool> = waiting.dispatches.iter().map(is_awaited).collect();
+        let each = waiting.dispatches.iter().zip(0_u32..);
+        let present: Vec<u32> = each
+            .filter(|(queue, _)| match awaited {
+                Awaited::All => queue.is_some(),
+                Awaited::WhoeverWaits => queue.as_ref().is_some_and(|queue| !queue.is_empty()),
+            })
+            .map(|(_, number)| number)
+            .collect();
         loop {
-            let present = (0..).zip(waiting.dispatches.iter().zip(&awaited));
-            let present =
-                present.filter_map(|(number, (queue, awaited))| Some((number, queue.as_ref().filter(|_| *awaited)?)));
-            let next: Option<Vec<(u32, Dispatch)>> =
-                present.map(|(number, queue)| Some((number, *queue.front()?))).collect();
+            let front = |number: &u32| {
+                let queue = waiting.dispatches[*number as usize].as_ref()?;
+                Some((*number, *queue.front()?))
+            };
+            let next: Option<Vec<(u32, Dispatch)>> = present.iter().map(front).collect();
             let Some(next) = next else { break };
             let Some(first) = next.iter().map(|(_, dispatch)| *dispatch).min() else { break };
             let together: Vec<u32> =
@@ -223,21 +225,20 @@ impl Replica {
     /// Its part of the arrays, with what a plan has in them.
     pub(super) fn arrays(&self, plan: &Plan) -> Result<(HashMap<Array, Stored>, HashMap<Array, Texels>), GpuError> {
         let (group, number) = (&self.group, self.number);
-        let own = |planned: &plan::Buffer| {
-            let whole = &group.buffers[&planned.array];
-            let own = whole.stretch(spacing(planned.bytes) * u64::from(number), planned.bytes);
+        let (mut buffers, mut textures) = (HashMap::new(), HashMap::new());
+        for planned in &plan.buffers {
+            let begin = spacing(planned.bytes) * u64::from(number);
+            let own = group.buffers[&planned.array].stretch(begin, planned.bytes);
             if let Some(bytes) = planned.contents.bytes() {
                 own.write(&group.gpu, 0, &bytes)?;
             }
-            Ok((planned.array, own))
-        };
-        let buffers = plan.buffers.iter().map(own).collect::<Result<_, GpuError>>()?;
-        let own = |planned: &Texture| {
+            buffers.insert(planned.array, own);
+        }
+        for planned in &plan.textures {
             let own = group.textures[&planned.array].from_row(group.rows * number, planned);
             own.fill(&group.gpu);
-            (planned.array, own)
-        };
-        let textures = plan.textures.iter().map(own).collect();
+            textures.insert(planned.array, own);
+        }
         for (stage, kernel) in group.stages.iter().zip(&plan.kernels) {
             stage.load(&group.gpu, kernel, plan, number);
         }

@@ -1,7 +1,7 @@
 //! All families of models.
 
 use super::{Model, Particles, Physics, ShallowWater, Species, Voronoi, particles, shallow_water, voronoi};
-use crate::document::{Integrator, Problems, Scene, SnapshotColor, SpeciesNames, System, SystemKind};
+use crate::document::{Integrator, Interaction, Problems, Scene, SnapshotColor, SpeciesNames, System, SystemKind};
 
 /// A family, with what a model of it has.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,14 +72,33 @@ pub(crate) fn complete(scene: &mut Scene, integrator: bool, colour: bool) {
     }
 }
 
-/// Completes what depends on how all else of a scene without mistakes acts together: the rule by which pairs relax.
+/// Completes what depends on how all else of a scene without mistakes acts together: the rule by which pairs relax, or in steps that
+/// are not split, which alone list neighbours, the margin of the list.
 pub(crate) fn settle(scene: &mut Scene) {
-    if scene.system.particle_integrator() != Some(&Integrator::Splitting { relaxation: None }) {
-        return;
+    match scene.system.particle_integrator() {
+        Some(Integrator::Splitting { relaxation: None }) => settle_relaxation(scene),
+        Some(Integrator::GrootWarren { .. } | Integrator::CotterReich {}) => settle_margin(scene),
+        Some(Integrator::Splitting { relaxation: Some(_) }) | None => {}
     }
+}
+
+fn settle_relaxation(scene: &mut Scene) {
     let model = Model::new(scene);
     let relaxation = model.particles().relaxes_pairs().then(|| model.advisable_relaxation());
     if let Some(Integrator::Splitting { relaxation: rule }) = scene.system.particle_integrator_mut() {
         *rule = relaxation;
+    }
+}
+
+fn settle_margin(scene: &mut Scene) {
+    let margins: Vec<Option<f64>> = scene.pair_interactions().map(|(_, dpd)| dpd.skin).collect();
+    if margins.is_empty() || margins.iter().any(Option::is_some) {
+        return;
+    }
+    let margin = Model::new(scene).advisable_margin();
+    for interaction in scene.system.interactions_mut().into_iter().flatten() {
+        if let Interaction::Dpd(dpd) = interaction {
+            dpd.skin = margin;
+        }
     }
 }

@@ -26,14 +26,14 @@ pub(super) fn load(text: &str, stays: impl Fn(Constant) -> bool) -> (String, Vec
     let mut made = format!("@group(0) @binding({BINDING}) var<uniform> {NAME}: array<vec4<f32>, {rows}>;\n");
     for line in text.lines().filter(|line| declared(line).is_none()) {
         let component = |place: &usize| format!("{NAME}[{}].{}", place / 4, ["x", "y", "z", "w"][place % 4]);
-        made.push_str(&with_words(line, |word, _| places.get(word).map(component)));
+        made.push_str(&with_words(line, |word, _, _| places.get(word).map(component)));
         made.push('\n');
     }
     (made, loaded)
 }
 
-/// A line with others in place of its words, given each of them and what stands before it.
-pub(super) fn with_words(line: &str, replaced: impl Fn(&str, &str) -> Option<String>) -> String {
+/// A line with others in place of its words, given each of them and the text before and after it.
+pub(super) fn with_words(line: &str, replaced: impl Fn(&str, &str, &str) -> Option<String>) -> String {
     let is_of_word = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
     let mut made = String::with_capacity(line.len());
     let mut end = 0;
@@ -41,7 +41,7 @@ pub(super) fn with_words(line: &str, replaced: impl Fn(&str, &str) -> Option<Str
         made.push_str(&line[end..begin]);
         end = begin + line[begin..].find(|letter| !is_of_word(letter)).unwrap_or(line.len() - begin);
         let word = &line[begin..end];
-        made.push_str(&replaced(word, &line[..begin]).unwrap_or_else(|| word.to_owned()));
+        made.push_str(&replaced(word, &line[..begin], &line[end..]).unwrap_or_else(|| word.to_owned()));
     }
     made + &line[end..]
 }

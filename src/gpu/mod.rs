@@ -23,7 +23,7 @@ pub use environment::driver_environment;
 pub use error::GpuError;
 pub(crate) use loaded::{BINDING as LOADED_CONSTANTS, bytes as constants_in_bytes};
 pub use portions::{Portions, Undivided};
-pub(crate) use replicas::{NUMBERS as REPLICA_NUMBERS, Replicas};
+pub(crate) use replicas::{NUMBERS as REPLICA_NUMBERS, Replicas, spacing};
 pub(crate) use shader::link_once;
 pub use shader::{Binding, LinkedShader, Switched, link, link_loading, storage_buffers, validate};
 pub use unseen::unseen_card;

@@ -17,10 +17,15 @@ pub(crate) const NUMBERS: u32 = loaded::BINDING - 1;
 pub(crate) struct Replicas<'a> {
     /// Number of systems.
     pub count: u32,
-    /// Bytes from the beginning of an array of one system to that of the next, in a buffer.
+    /// Bytes of an array of one system in a buffer.
     pub bytes_of: &'a dyn Fn(Array) -> Option<u64>,
     /// Rows of a texture that each system has.
     pub rows: u32,
+}
+
+/// Bytes from the beginning of an array of one system to that of the next, in a buffer.
+pub(crate) fn spacing(bytes: u64) -> u64 {
+    bytes.next_multiple_of(Portions::UNIT)
 }
 
 /// The text of a kernel of replicas, given that of one system and what it binds there.
@@ -33,13 +38,17 @@ pub(super) fn replicate(
     entry: Entry,
     replicas: &Replicas<'_>,
 ) -> Result<String, Undivided> {
-    let (mut kept, mut closed) = (Vec::new(), HashMap::new());
+    let (mut kept, mut lengths, mut closed) = (Vec::new(), Vec::new(), HashMap::new());
     for Binding { number, array, .. } in alone.bindings.iter().filter(|binding| !binding.texture) {
         // Arrays that the plan does not have are those of branches that it does not take.
-        let bytes = (replicas.bytes_of)(*array).unwrap_or(Portions::UNIT);
+        let used = (replicas.bytes_of)(*array).unwrap_or(Portions::UNIT);
+        let bytes = spacing(used);
         let whole = |part: u64| bytes.checked_div(part).filter(|_| bytes.is_multiple_of(part));
         let (count, listed) = match contents(&alone.module, *number).ok_or(Undivided::whole(*array))? {
-            Contents::List { stride } => (whole(stride), true),
+            Contents::List { stride } => {
+                lengths.push((format!("arrayLength(&{})", array.name()), format!("{}u", used / stride)));
+                (whole(stride), true)
+            }
             Contents::Whole { bytes } => (whole(bytes), false),
             Contents::Open { structure, member, before, stride } => {
                 let count = (bytes - before).checked_div(stride).filter(|_| (bytes - before).is_multiple_of(stride));
@@ -78,13 +87,15 @@ pub(super) fn replicate(
             let _ = writeln!(made, "    {member}: array<{of}, {count}>,");
             continue;
         }
-        let replaced = |word: &str, before: &str| match of_buffer(word) {
-            _ if before.ends_with('.') => None,
+        let line = lengths.iter().fold(line.to_owned(), |line, (length, known)| line.replace(length, known));
+        let in_part = |word: &str, before: &str, after: &str| match of_buffer(word) {
+            // Members of structures.
+            _ if before.ends_with('.') || after.starts_with(':') => None,
             Some((_, _, true)) => Some(format!("{word}[replica]")),
             Some((_, _, false)) => Some(format!("{word}[replica][0]")),
             None => (word == loaded::NAME).then(|| format!("{word}[replica]")),
         };
-        let mut line = with_words(line, replaced);
+        let mut line = with_words(&line, in_part);
         for texture in alone.bindings.iter().filter(|binding| binding.texture) {
             for action in ["textureLoad", "textureStore"] {
                 let call = format!("{action}({}, ", texture.array.name());

@@ -261,9 +261,15 @@ impl Run {
         let asked = interrupt.clone();
         let proceed = move || if is_new && asked.is_asked() { Err(RunError::NotBegun) } else { Ok(()) };
         let keep_alive = || processes.iter().for_each(|processes| processes.channel().keep_alive());
-        let (mut gpu, mut plan) = match &replica {
-            Some(replica) => plan_on(&scene, replica.gpu(), options)?,
-            None => open_adapter(&scene, choice, options)?,
+        let planned = replica.as_ref().map(|replica| plan_on(&scene, replica.gpu(), options)).transpose()?;
+        let suited = planned.filter(|(_, plan)| replica.as_ref().is_some_and(|replica| replica.suits(plan)));
+        let (mut gpu, mut plan) = match suited {
+            Some(suited) => suited,
+            None => {
+                replica = None;
+                options.constants_in = ConstantsIn::Code;
+                open_adapter(&scene, choice, options)?
+            }
         };
         keep_alive();
         proceed()?;
@@ -289,7 +295,7 @@ impl Run {
         let mut begun = false;
         loop {
             observer(Event::Compiling { kernels: plan.kernels.len() });
-            let opened = match replica.take().filter(|replica| replica.suits(&plan)) {
+            let opened = match replica.take() {
                 Some(replica) => {
                     let engine = Engine::of_replica(replica, plan, &start.state).map_err(RunError::from);
                     engine.map(|engine| -> Box<dyn Stepper> { Box::new(engine) })
@@ -346,7 +352,7 @@ impl Run {
     }
 }
 
-/// What advances a run.
+/// The company in which a run advances.
 enum Company<'a> {
     /// The run itself.
     Alone,

@@ -32,8 +32,10 @@ use crate::tessellation::Tessellation;
 use image::RgbaImage;
 use std::iter;
 use std::ops::ControlFlow;
+use std::panic::resume_unwind;
 use std::path::Path;
 use std::sync::Arc;
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// Steps that are repeated at most where an array turns out too small.
@@ -183,22 +185,29 @@ impl Simulation {
         scenes: &[Checked],
         most: usize,
     ) -> Result<Vec<Self>, RunError> {
-        let mut replicas = Vec::new();
-        if let [first, _, ..] = scenes {
-            let plan = plan_for(&sight.planned(first), gpu, Options::default());
-            let fitting = Replicas::fitting(&plan, gpu, most.min(scenes.len()));
-            if fitting > 1 {
-                // Where the device has too little memory for them together, each tries for itself.
-                replicas = Replicas::new(gpu, plan, fitting as u32).unwrap_or_default();
-            }
+        let begin = |scene: &Checked, replica: Option<Replica>| {
+            Self::at_start(sight, Place { gpu: gpu.clone(), shared: None }, scene, replica)
+        };
+        let alone = || scenes.iter().map(|scene| begin(scene, None)).collect();
+        let [first, _, ..] = scenes else { return alone() };
+        let plan = plan_for(&sight.planned(first), gpu, Options::default());
+        let fitting = Replicas::fitting(&plan, gpu, most);
+        if fitting < 2 {
+            return alone();
         }
-        let replicas = replicas.into_iter().map(Some).chain(iter::repeat_with(|| None));
-        let each = scenes.iter().zip(replicas);
-        each.map(|(scene, replica)| {
-            let place = Place { gpu: gpu.clone(), shared: None };
-            Self::at_start(sight, place, scene, replica)
+        thread::scope(|scope| {
+            let mut begun = Vec::new();
+            for group in scenes.chunks(fitting) {
+                // Where the device has too little memory for them together, each tries for itself.
+                let replicas = Replicas::new(gpu, plan.clone(), group.len() as u32).unwrap_or_default();
+                let replicas = replicas.into_iter().map(Some).chain(iter::repeat_with(|| None));
+                // Replicas wait for each other where they begin, too.
+                begun.extend(
+                    group.iter().zip(replicas).map(|(scene, replica)| scope.spawn(move || begin(scene, replica))),
+                );
+            }
+            begun.into_iter().map(|begun| begun.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
         })
-        .collect()
     }
 
     fn at_start(sight: Sight, place: Place, scene: &Checked, replica: Option<Replica>) -> Result<Self, RunError> {

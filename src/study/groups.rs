@@ -1,17 +1,13 @@
 //! Runs of a study that a device advances together: those of plans that differ in numbers only.
 
 use super::members::Member;
-use crate::engine::{Replica, Replicas};
+use crate::engine::{MOST_REPLICAS, Replica, Replicas};
 use crate::gpu::{AdapterDescription, AdapterKind, ConstantsIn, Gpu};
 use crate::plan::{Hardware, Options, Plan};
 use crate::run;
-use std::iter;
 
 /// Particles that a card needs to be busy: some ten thousands of invocations at once, twice over.
 const BUSY: u64 = 1 << 17;
-
-/// Runs that a card advances together at most, where the user does not say: a thread of the host attends to each.
-const MOST: u64 = 64;
 
 /// The number of `runs` of `particles` each that an adapter advances together, where the user does not say.
 ///
@@ -32,7 +28,7 @@ const MOST: u64 = 64;
 pub fn default_replicas(adapter: &AdapterDescription, particles: u64, runs: usize) -> usize {
     let busy = match adapter.kind {
         AdapterKind::Software => 1,
-        _ => BUSY.div_ceil(particles.max(1)).min(MOST),
+        _ => BUSY.div_ceil(particles.max(1)).min(MOST_REPLICAS),
     };
     busy.min(runs.max(1) as u64) as usize
 }
@@ -63,39 +59,81 @@ impl Group {
 
     /// Runs by their order, each together with the first ones that are alike, up to `most` of them.
     pub(super) fn of_alike(members: &[Member], most: usize, alike: Alike, gpu: &Gpu) -> Vec<Self> {
-        let mut groups: Vec<(Vec<usize>, Plan, ConstantsIn)> = Vec::new();
+        let mut groups: Vec<Self> = Vec::new();
         for (number, member) in members.iter().enumerate() {
             let plan = run::plan(&member.scene, Hardware::from(gpu), Options::default());
             let fitting = Replicas::fitting(&plan, gpu, most);
-            let is_alike = |first: &Plan| match alike {
-                Alike::InConstants => first.differs_in_numbers(&plan) && first.has_constants_of(&plan),
-                Alike::ButForNumbers => first.differs_in_numbers(&plan),
-            };
-            let with = groups.iter_mut().find(|(all, first, _)| all.len() < fitting && is_alike(first));
-            match with {
-                Some((all, first, constants_in)) => {
-                    all.push(number);
-                    if !first.has_constants_of(&plan) {
-                        *constants_in = ConstantsIn::Buffer;
-                    }
+            let with = groups.iter_mut().find_map(|group| {
+                let (_, first) = group.together.as_mut().filter(|_| group.members.len() < fitting)?;
+                let same = first.has_constants_of(&plan);
+                let joins = Plan { constants_in: first.constants_in, ..plan.clone() };
+                if !first.differs_in_numbers(&joins) || alike == Alike::InConstants && !same {
+                    return None;
                 }
-                None => groups.push((vec![number], plan, ConstantsIn::Code)),
+                if !same {
+                    first.constants_in = ConstantsIn::Buffer;
+                }
+                Some(&mut group.members)
+            });
+            match with {
+                Some(members) => members.push(number),
+                None => groups.push(Self { members: vec![number], together: Some((gpu.clone(), Box::new(plan))) }),
             }
         }
-        let group = |(all, plan, constants_in): (Vec<usize>, Plan, _)| Self {
-            together: (all.len() > 1).then(|| (gpu.clone(), Box::new(Plan { constants_in, ..plan }))),
-            members: all,
-        };
-        groups.into_iter().map(group).collect()
+        groups
     }
 
-    /// Each run with its place among those that are advanced together. Where the device has too little memory for all of them,
-    /// they run on their own.
-    pub(super) fn replicas(&self) -> impl Iterator<Item = (usize, Option<Replica>)> {
-        let together = self.together.as_ref();
-        let made =
-            together.and_then(|(gpu, plan)| Replicas::new(gpu, (**plan).clone(), self.members.len() as u32).ok());
-        let replicas = made.into_iter().flatten().map(Some).chain(iter::repeat_with(|| None));
-        self.members.iter().copied().zip(replicas)
+    /// Their places among all runs.
+    pub(super) fn members(&self) -> &[usize] {
+        &self.members
+    }
+
+    /// A replica for each run, in their order; none of a single one, nor where the device has no memory for all of them together.
+    pub(super) fn replicas(&self) -> Option<Vec<Replica>> {
+        let (gpu, plan) = self.together.as_ref().filter(|_| self.members.len() > 1)?;
+        Replicas::new(gpu, (**plan).clone(), self.members.len() as u32).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::{Alike, Group};
+    use crate::gpu::{AdapterChoice, ConstantsIn, Gpu, Requirements};
+    use crate::output::Id;
+    use crate::scene;
+    use crate::study::Member;
+
+    #[test]
+    fn runs_are_grouped_by_their_plans() {
+        let gpu = Gpu::open(&AdapterChoice::Best, Requirements::default()).unwrap();
+        let member = |entry: usize, name: &str, changes: &[&str]| {
+            let set: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+            let scene = scene::load(name, &set).unwrap();
+            Member { entry, name: entry.to_string(), id: Id::of_run(&scene), scene }
+        };
+        let fluid = |entry, change: &str| member(entry, "dpd-fluid", &["space.box=[4,4,4]", "output={}", change]);
+        let members = [
+            fluid(0, "seed=1"),
+            fluid(1, "time.step=0.03"),
+            fluid(2, "seed=2"),
+            fluid(3, "space.box=[4,4,5]"),
+            fluid(4, "seed=3"),
+            member(5, "voronoi-dpd", &["particles.0.count=400"]),
+            member(6, "voronoi-dpd", &["particles.0.count=400", "seed=7"]),
+        ];
+        let of = |alike, most| {
+            let groups = Group::of_alike(&members, most, alike, &gpu);
+            groups.into_iter().map(|group| (group.members, group.together.unwrap().1.constants_in)).collect::<Vec<_>>()
+        };
+        let (code, buffer) = (ConstantsIn::Code, ConstantsIn::Buffer);
+        // Friction of Voronoi cells takes dispatches that depend on the step.
+        let cells = [(vec![5], code), (vec![6], code)];
+        let expected = [&[(vec![0, 2, 4], code), (vec![1], code), (vec![3], code)], &cells[..]].concat();
+        assert_eq!(of(Alike::InConstants, 8), expected);
+        let expected = [&[(vec![0, 1, 2, 4], buffer), (vec![3], code)], &cells[..]].concat();
+        assert_eq!(of(Alike::ButForNumbers, 8), expected);
+        let expected = [&[(vec![0, 2], code), (vec![1], code), (vec![3], code), (vec![4], code)], &cells[..]].concat();
+        assert_eq!(of(Alike::InConstants, 2), expected);
     }
 }

@@ -111,9 +111,16 @@ impl<R: Record> StudyRun<R> {
         };
         let groups = self.groups(members, adapter);
         let together = |group: &Group, report: &(dyn Fn((usize, Message)) + Sync)| {
+            let attend = |number: usize, replica| work(&members[number], replica, &|message| report((number, message)));
+            let Some(replicas) = group.replicas() else {
+                for number in group.members().iter().take_while(|_| !interrupt.is_asked()) {
+                    attend(*number, None);
+                }
+                return;
+            };
             thread::scope(|scope| {
-                for (number, replica) in group.replicas() {
-                    scope.spawn(move || work(&members[number], replica, &|message| report((number, message))));
+                for (number, replica) in group.members().iter().zip(replicas) {
+                    scope.spawn(move || attend(*number, Some(replica)));
                 }
             });
         };

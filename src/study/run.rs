@@ -45,7 +45,7 @@ pub enum StudyEvent<'a, E, P> {
         adapter: &'a AdapterDescription,
         /// Runs that are not finished yet.
         runs: usize,
-        /// How many of them run at once.
+        /// How many of them, or groups of them that are advanced together, run at once.
         jobs: usize,
         /// Seconds that they are expected to take, where that is known.
         seconds: Option<f64>,
@@ -256,6 +256,9 @@ impl<R: Record> StudyRun<R> {
         // A run that opens an adapter says what is wrong with it.
         let Ok(gpu) = run::adapter_for(largest, choice) else { return alone() };
         let most = self.replicas_for(largest, members.len(), &gpu);
+        if most < 2 {
+            return alone();
+        }
         let alike = if self.replicas.is_some() { Alike::ButForNumbers } else { Alike::InConstants };
         Group::of_alike(members, most, alike, &gpu)
     }
@@ -266,12 +269,8 @@ impl<R: Record> StudyRun<R> {
         self.replicas.unwrap_or_else(default)
     }
 
-    /// The number of so many runs that are under way at once where `jobs` groups of them are, of which this scene is the largest.
-    pub(crate) fn under_way(&self, jobs: usize, scene: &Checked, runs: usize, gpu: &Gpu) -> usize {
-        (jobs * self.replicas_for(scene, runs, gpu)).clamp(1, runs.max(1))
-    }
-
-    /// How many of so many runs, or groups of runs that are advanced together, are under way at once, of which this scene is the largest.
+    /// The number of runs, or of groups of runs that are advanced together, that are under way at once, of so many runs of which this scene is the
+    /// largest.
     pub(crate) fn jobs_for(&self, scene: &Checked, runs: usize, gpu: &Gpu) -> usize {
         if self.jobs.is_none() && self.replicas_for(scene, runs, gpu) > 1 {
             return 1;

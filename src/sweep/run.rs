@@ -58,8 +58,7 @@ impl StudyRun<SweepSummary> {
             self.summary.adapter = Some(gpu.description().into());
         }
         self.summarise()?;
-        let at_once = self.runs_of(jobs, &waiting, &gpu);
-        observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs: at_once, seconds });
+        observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds });
         let failures = self.run_all(&waiting, jobs, adapter, observer, &Self::summarise)?;
         let StudyOutcome { summary, files } = self.finish(&place, &gpu, observer)?;
         Ok(SweepOutcome { summary, failures, files })
@@ -80,11 +79,6 @@ impl StudyRun<SweepSummary> {
     /// How many of these variants are to run at once.
     pub(super) fn jobs_of(&self, waiting: &[usize], gpu: &Gpu) -> usize {
         self.largest(waiting).map_or(1, |variant| self.jobs_for(&variant.scene, waiting.len(), gpu))
-    }
-
-    /// How many of them are under way at once, where `jobs` groups are.
-    pub(super) fn runs_of(&self, jobs: usize, waiting: &[usize], gpu: &Gpu) -> usize {
-        self.largest(waiting).map_or(1, |variant| self.under_way(jobs, &variant.scene, waiting.len(), gpu))
     }
 
     /// The variant of the most particles of some.

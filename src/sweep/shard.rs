@@ -61,10 +61,9 @@ impl StudyRun<SweepSummary> {
         let is_waiting = |number: &&usize| self.summary.variants[**number].state != VariantState::Finished;
         let waiting: Vec<usize> = own.iter().filter(is_waiting).copied().collect();
         let jobs = self.jobs_of(&waiting, &gpu);
-        let at_once = self.runs_of(jobs, &waiting, &gpu);
         self.summary.adapter = Some(gpu.description().into());
         self.note(&place, shard, &own)?;
-        observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs: at_once, seconds: None });
+        observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds: None });
         let ended = self.run_all(&waiting, jobs, adapter, observer, &|sweep| sweep.note(&place, shard, &own));
         let mut failures = match ended {
             Err(StudyError::Interrupted { .. }) => {

@@ -93,13 +93,12 @@ impl StudyRun<TradeoffSummary> {
         let gpu = Gpu::open(adapter, Requirements::default())?;
         let largest = study::largest(waiting.iter().map(|member| &member.scene)).unwrap_or(&self.request.base);
         let jobs = self.jobs_for(largest, waiting.len(), &gpu);
-        let at_once = self.under_way(jobs, largest, waiting.len(), &gpu);
         // Steps follow from the stretch, which may be shorter now; all else stays.
         let place = self.open_place()?;
         self.summary.adapter = Some(gpu.description().into());
         self.save()?;
         let (count, seconds) = (waiting.len(), (!waiting.is_empty()).then_some(seconds));
-        observer(StudyEvent::Started { adapter: gpu.description(), runs: count, jobs: at_once, seconds });
+        observer(StudyEvent::Started { adapter: gpu.description(), runs: count, jobs, seconds });
         loop {
             self.advance(&runs, jobs, adapter, observer)?;
             self.save()?;

@@ -1,12 +1,13 @@
 //! Systems that a device advances together, each of which is advanced as it is alone: the same bytes.
 
+use std::collections::BTreeMap;
 use std::{fs, thread};
 
 use mesoscope::engine::{Engine, Replicas};
 use mesoscope::gpu::{ConstantsIn, Gpu, Requirements};
 use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
-use mesoscope::scene::Checked;
+use mesoscope::scene::{self, Checked};
 use mesoscope::study::Sweep;
 use mesoscope::sweep::SweepRun;
 
@@ -115,31 +116,46 @@ fn plans_of_which_a_dispatch_depends_on_the_step_have_no_replicas() {
     assert!(!replicas[0].suits(&plan(&stiff, gpu(), ConstantsIn::Code)), "constants are in the code of kernels");
 }
 
-#[test]
-fn a_sweep_of_replicas_leaves_the_files_of_runs_alone() {
+/// Files of a sweep of a small fluid, and how many of its runs failed.
+fn sweep(vary: &[&str], replicas: usize) -> (BTreeMap<String, Vec<u8>>, usize) {
     let place = tempfile::tempdir().unwrap();
     let set = ["space.box=[4,4,4]", r#"output={"energies":{"every":5}}"#, GROOT_WARREN].map(str::to_owned);
-    // One time step is so long that its runs become unstable, which ends no other.
-    let vary = ["time.step=0.02,0.15", "seed=1,2,3"].map(str::to_owned);
-    let sweep = |name: &str, replicas: usize| {
-        let request = Sweep::load("dpd-fluid", &set, Some(120), &vary, &[]).unwrap();
-        let run = SweepRun::start(request, place.path().join(name)).with_replicas(Some(replicas)).with_jobs(Some(1));
-        run.execute(&adapter(), &mut |_| {}).unwrap()
-    };
-    let [alone, together] = [sweep("alone", 1), sweep("together", 3)];
-    let failed = |outcome: &mesoscope::sweep::SweepOutcome| {
-        outcome
-            .failures
-            .iter()
-            .map(|(number, error)| (*number, error.to_string().split(';').count()))
-            .collect::<Vec<_>>()
-    };
-    assert_eq!((failed(&alone).len(), failed(&together)), (3, failed(&alone)));
-    for seed in 1..=3 {
-        for file in ["energies.csv", "checkpoint.bin"] {
-            let read =
-                |name: &str| fs::read(place.path().join(format!("{name}/step=0.02,seed={seed}/{file}"))).unwrap();
-            assert!(read("alone") == read("together"), "{file}, seed {seed}");
+    let vary: Vec<String> = vary.iter().map(|key| (*key).to_owned()).collect();
+    let request = Sweep::load("dpd-fluid", &set, Some(120), &vary, &[]).unwrap();
+    let names: Vec<String> = request.variants().iter().map(|variant| variant.name.clone()).collect();
+    let out = place.path().join("sweep");
+    let run = SweepRun::start(request, &out).with_replicas(Some(replicas)).with_jobs(Some(1));
+    let failed = run.execute(&adapter(), &mut |_| {}).unwrap().failures.len();
+    let files = names.iter().flat_map(|name| ["energies.csv", "checkpoint.bin"].map(|file| format!("{name}/{file}")));
+    (files.map(|file| (file.clone(), fs::read(out.join(file)).unwrap())).collect(), failed)
+}
+
+#[test]
+fn a_sweep_of_replicas_leaves_the_files_of_runs_alone() {
+    let seeds = ["seed=1,2,3,4,5"];
+    let (alone, together) = (sweep(&seeds, 1), sweep(&seeds, 5));
+    assert_eq!((alone.0.len(), alone.1), (10, 0));
+    assert!(alone == together);
+    // Some time steps are so long that runs become unstable, which ends no other of their group.
+    let both = ["seed=1,2,3", "time.step=0.02,0.15"];
+    let (in_pairs, together) = (sweep(&both, 2), sweep(&both, 6));
+    assert_eq!(in_pairs.1, 3);
+    assert!(in_pairs == together);
+}
+
+#[test]
+fn every_shipped_scene_has_replicas_but_where_dispatches_depend_on_the_step() {
+    let mut without = Vec::new();
+    for builtin in scene::builtin() {
+        let scene = scene::load(builtin.name, &[]).unwrap();
+        for constants_in in [ConstantsIn::Code, ConstantsIn::Buffer] {
+            let plan = plan(&scene, gpu(), constants_in);
+            match Replicas::fitting(&plan, gpu(), 2) {
+                2 => drop(Replicas::new(gpu(), plan, 2).unwrap_or_else(|error| panic!("{}: {error}", builtin.name))),
+                _ => without.push(builtin.name),
+            }
         }
     }
+    without.dedup();
+    assert_eq!(without, ["jet-instability", "edpd-fluid", "voronoi-dpd", "voronoi-energy", "voronoi-shear"]);
 }

@@ -1017,6 +1017,7 @@ fn a_fluid_with_memory_does_not_know_of_its_list() {
 #[test]
 fn every_step_of_the_device_is_one_of_the_reference() {
     for (changes, steps) in [
+        (vec!["interactions.0.skin=0", "space.box=[4,4,4]"], 60),
         (vec!["interactions.0.skin=0.05", "space.box=[4,4,4]"], 60),
         (vec!["interactions.0.skin=0.6", "space.box=[6,6,6]"], 200),
         (vec!["interactions.0.skin=0.3", "space.box=[12,9]"], 100),

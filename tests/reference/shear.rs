@@ -134,6 +134,7 @@ fn lists_that_last_across_boundaries_agree_with_the_reference() {
         let mut document = fluid(&edges, &shear, COTTER_REICH, true);
         document["time"]["step"] = json!(0.005);
         document["temperature"] = json!(2);
+        document["interactions"][0]["skin"] = json!(0.3);
         if remembers {
             document["interactions"][0]["bath"] = json!({"type": "memory", "rate": 4});
         } else {

@@ -122,7 +122,9 @@ fn structure_plans() -> Vec<(String, Plan)> {
         json!([]),
         json!([{"type": "dpd", "repulsion": 25}]),
         json!([{"type": "dpd", "repulsion": 25, "friction": 4.5}]),
-        json!([{"type": "dpd", "repulsion": 25, "friction": 4.5, "bath": {"type": "memory", "rate": 3}}]),
+        json!([{"type": "dpd", "repulsion": 25, "friction": 4.5, "skin": 0}]),
+        json!([{"type": "dpd", "repulsion": 25, "friction": 4.5, "skin": 0.3, "bath": {"type": "memory", "rate": 3}}]),
+        json!([{"type": "dpd", "repulsion": 25, "friction": 4.5, "skin": 0, "bath": {"type": "memory", "rate": 3}}]),
         json!([{"type": "dpd", "repulsion": -40, "friction": 4.5, "many_body": {"repulsion": 25}}]),
     ];
     let mut grounds = Vec::new();

@@ -37,11 +37,13 @@ pub struct DpdInteraction {
     #[serde(default, skip_serializing_if = "is_default")]
     pub bath: Bath,
     /// Margin of the neighbour list beyond the cutoff, where the scene needs a list: with memory, beside a coloured
-    /// noise, or on a line. With a wide margin the list is rebuilt less often and holds more pairs; no result but the
-    /// noise depends on it. Of several `dpd` the largest holds.
-    #[serde(default = "hundredths::<30>")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub skin: f64,
+    /// noise, or on a line. With a wide margin the list is rebuilt less often and holds more pairs, with none in every
+    /// step; no result but the noise depends on it. Of several `dpd` the largest holds. Left out, the one at which a
+    /// step is expected to cost least, by the number of particles, their speeds and the time step. The scene in run.json has
+    /// the choice.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0.0))]
+    pub skin: Option<f64>,
 }
 
 impl DpdInteraction {

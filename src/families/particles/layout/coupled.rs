@@ -110,12 +110,12 @@ impl StateLayout for CoupledLayout {
             let particles = content(contents, 0).chunks_exact(WORDS);
             let numbers: Vec<u32> = particles.take(count).map(|particle| particle[3]).collect();
             let first = self.particles.buffer_count();
-            let [anchors, neighbours, memories] = [0, 1, 2].map(|place| content(contents, first + place));
+            let list_contents = [0, 1, 2].map(|place| content(contents, first + place));
             state.anchors = vec![[0; 3]; count];
-            for (number, anchor) in numbers.iter().zip(anchors.chunks_exact(4)) {
+            for (number, anchor) in numbers.iter().zip(list_contents[0].chunks_exact(4)) {
                 state.anchors[*number as usize] = [anchor[0], anchor[1], anchor[2]];
             }
-            state.pair_baths = list.unpack(neighbours, memories, &numbers);
+            state.pair_baths = list.unpack(list_contents, &numbers);
         }
         self.unpack_kept(contents, &mut state)?;
         Ok(state)

@@ -1,4 +1,4 @@
-//! How a list of neighbours lies in buffers, with what its pairs remember.
+//! How a list of neighbours lies in buffers, with what its pairs remember: then two lists do by turns.
 
 use crate::plan::Misfit;
 use crate::state::{PairBath, State};
@@ -16,8 +16,8 @@ pub struct ListLayout {
 }
 
 impl ListLayout {
-    /// Where the particles were when they were listed, the list, and what its pairs remember if they do. A state without a
-    /// list gets an empty one, made so far away that a new one is asked for.
+    /// Where the particles were when they were listed, the list, and what its pairs remember if they do: the first of two
+    /// lists. A state without a list gets an empty one, made so far away that a new one is asked for.
     pub(super) fn pack(&self, state: &State, order: &[usize]) -> Result<Vec<Vec<u32>>, Misfit> {
         let count = state.len();
         if !state.anchors.is_empty() && state.anchors.len() != count {
@@ -26,7 +26,7 @@ impl ListLayout {
         let away = |position: [u32; 3]| position.map(|component| component.wrapping_add(1 << 31));
         let anchors = order.iter().flat_map(|&id| {
             let [x, y, z] = state.anchors.get(id).copied().unwrap_or_else(|| away(state.positions[id]));
-            [x, y, z, id as u32]
+            [x, y, z, 0]
         });
         let mut contents = vec![anchors.collect()];
         let mut neighbours = vec![0_u32; count * (self.capacity + 1)];
@@ -60,9 +60,12 @@ impl ListLayout {
         Ok(contents)
     }
 
-    /// The pairs of a list, in order of their numbers.
-    pub(super) fn unpack(&self, neighbours: &[u32], memories: &[u32], numbers: &[u32]) -> Vec<PairBath> {
+    /// The pairs of the current of two lists, in order of their numbers. The highest bit of every anchor says which it is.
+    pub(super) fn unpack(&self, [anchors, neighbours, memories]: [&[u32]; 3], numbers: &[u32]) -> Vec<PairBath> {
         let count = numbers.len();
+        let lists_before = anchors.get(3).map_or(0, |word| (word >> 31) as usize);
+        let neighbours = &neighbours[lists_before * (self.capacity + 1) * count..];
+        let memories = &memories[lists_before * 2 * self.capacity * count..];
         let mut pairs = Vec::new();
         for slot in 0..count {
             for entry in 0..(neighbours[slot] as usize).min(self.capacity) {

@@ -22,16 +22,8 @@ fn predicted(model: &Model) -> bool {
 
 /// Buffers that may be held in textures.
 fn texture_candidates(plan: &Plan) -> Vec<Array> {
-    let mut candidates = vec![
-        Array::Cells,
-        Array::Ranks,
-        Array::Coefficients,
-        Array::Sorted,
-        Array::Neighbours,
-        Array::NeighboursNext,
-        Array::Memories,
-        Array::MemoriesNext,
-    ];
+    let mut candidates =
+        vec![Array::Cells, Array::Ranks, Array::Coefficients, Array::Sorted, Array::Neighbours, Array::Memories];
     // Where the hits of a split step share the buffer of the particles, it stays one; so it does where a split step has
     // none, because its kernels are the same.
     let splits = |kernel: &Kernel| kernel.choices.has(pairs::Hits::Keep) || kernel.choices.has(pairs::Pass::Kick);

@@ -156,8 +156,8 @@ impl Builder<'_> {
 
     /// Where each particle is stored, for bonds and angles: noted when the state is there, and by lists whenever they
     /// are made.
-    pub(super) fn take_stock(&mut self, noted: &Choices) -> usize {
-        let choices = self.choices().with_if(self.is_bonded(), couplings::Slots::Kept).and(noted);
+    pub(super) fn take_stock(&mut self) -> usize {
+        let choices = self.choices().with_if(self.is_bonded(), couplings::Slots::Kept);
         self.kernel("take_stock", Entry::TakeStock, choices, self.particles)
     }
 }

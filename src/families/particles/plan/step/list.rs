@@ -1,4 +1,5 @@
-//! The list of neighbours: who is within the cutoff and a margin, listed again when a particle has come too far.
+//! The list of neighbours: who is within the cutoff and a margin, listed again when a particle has come too far; without
+//! a margin in every step.
 
 use super::{Builder, Order};
 use crate::families::particles::layout::PARTICLE;
@@ -6,7 +7,7 @@ use crate::families::particles::space::shear::plan as shear;
 use crate::families::{Model, PairForce};
 use crate::noise::{self, stream};
 use crate::plan::prefix_sum::PrefixSum;
-use crate::plan::{Options, folded};
+use crate::plan::{Options, folded, switch};
 use crate::shaders::{Array, Choices, Constant, Entry, arrays, core, couplings, grid};
 use std::f64::consts::PI;
 
@@ -26,13 +27,21 @@ pub(super) fn capacity(model: &Model, force: &PairForce, options: Options) -> u6
 }
 
 impl Builder<'_> {
-    /// Begins steps in which neighbours are listed when they are demanded, and makes the kernels that list them.
+    /// Makes the kernels that list neighbours: in every step, or when it is demanded.
     pub(super) fn order_with_list(&mut self) {
         self.list_constants();
-        let noted = Choices::new().with(grid::Next::Anchors);
-        self.plan.prepare = vec![self.take_stock(&noted)];
+        self.list_buffers();
+        if self.lists_always() {
+            self.plan.constants.push(switch(Constant::ListsAlways, true));
+            if self.is_bonded() {
+                self.plan.prepare = vec![self.take_stock()];
+            }
+            self.plan.sort = self.listing();
+            return;
+        }
+        self.plan.prepare = vec![self.take_stock()];
         let begin = self.kernel("begin", Entry::BeginListedStep, self.choices(), 1);
-        let rebuild = self.rebuild();
+        let rebuild = self.listing();
         let sizes: Vec<u32> = rebuild
             .iter()
             .flat_map(|kernel| {
@@ -47,7 +56,12 @@ impl Builder<'_> {
         let bytes: Vec<u8> = bytemuck::cast_slice(&[&sizes[..], &vec![0; sizes.len()]].concat()).to_vec();
         self.plan.add_table(Array::Demands, bytes);
         self.plan.sort = [&[begin][..], &rebuild].concat();
-        self.list_buffers();
+    }
+
+    /// Whether every step lists neighbours. Without a margin they would be listed anew as soon as a particle has moved:
+    /// no kernel has to find out, and none depends on it.
+    pub(super) fn lists_always(&self) -> bool {
+        self.force.skin == 0.0
     }
 
     fn list_constants(&mut self) {
@@ -79,40 +93,32 @@ impl Builder<'_> {
         self.choices().with(arrays::Sorted::Buffer)
     }
 
-    /// The kernels that count the particles into cells and find where each cell begins.
-    fn binning(&mut self) -> Vec<usize> {
-        let choices = self.sorted_beside().with(core::Step::Same);
-        let sum = PrefixSum { choices: &choices, rows: self.grid.rows(), cells: self.grid.count() };
-        let mut kernels = vec![self.kernel("bin", Entry::BinParticles, self.sorted_beside(), self.particles)];
+    /// The kernels that count the particles into cells and find where each cell begins, as chosen for either.
+    fn binning(&mut self, counting: Choices, summing: &Choices) -> Vec<usize> {
+        let sum = PrefixSum { choices: summing, rows: self.grid.rows(), cells: self.grid.count() };
+        let mut kernels = vec![self.kernel("bin", Entry::BinParticles, counting, self.particles)];
         kernels.extend(sum.kernels(self.options).into_iter().map(|kernel| self.plan.add_kernel(kernel)));
         kernels
     }
 
-    /// The kernels that order the particles and list their neighbours.
-    fn rebuild(&mut self) -> Vec<usize> {
-        let mut kernels = self.binning();
+    /// The kernels that order the particles and list their neighbours. Where every step does, the prefix sum begins it.
+    fn listing(&mut self) -> Vec<usize> {
         let sorted = self.sorted_beside();
-        let arrange = sorted
-            .clone()
-            .with(couplings::Anchors::Kept)
-            .with_if(self.force.remembers(), couplings::Origins::Kept)
-            .with_if(self.is_bonded(), couplings::Slots::Kept);
-        kernels.push(self.arrangement("arrange", arrange));
-        let exclusions = self.exclusions();
-        let choices = sorted.clone().with_any(exclusions).and(&shear::of_visits(self.model));
+        let summing = if self.lists_always() { sorted.clone() } else { sorted.clone().with(core::Step::Same) };
+        let mut kernels = self.binning(sorted.clone().with(grid::Aside::Kept), &summing);
+        let arranged = sorted.with(couplings::Anchors::Kept).with_if(self.is_bonded(), couplings::Slots::Kept);
+        let arrange = self.arrangement("arrange", arranged);
+        // From where they were kept aside, to where they are stored.
+        self.plan.kernels[arrange].renamed = vec![(Array::Particles, Array::Sorted), (Array::Sorted, Array::Particles)];
+        kernels.push(arrange);
+        let choices = self.choices().with_any(self.exclusions()).and(&shear::of_visits(self.model));
         let list = self.kernel("list", Entry::ListNeighbours, choices, self.particles);
-        kernels.push(list);
         if self.force.remembers() {
-            let carry = self.kernel("carry", Entry::CarryMemories, sorted.clone(), self.particles);
             let key = noise::seed_key(self.model.seed, stream::PAIR_START);
-            self.plan.kernels[carry].constants =
+            self.plan.kernels[list].constants =
                 vec![(Constant::StartStreamX, f64::from(key[0])), (Constant::StartStreamY, f64::from(key[1]))];
-            kernels.push(carry);
-            kernels.push(self.kernel("settle_list", Entry::SettleList, sorted.clone(), self.particles));
-        } else {
-            self.plan.kernels[list].renamed = vec![(Array::NeighboursNext, Array::Neighbours)];
         }
-        kernels.push(self.kernel("settle", Entry::SettleParticles, sorted, self.particles));
+        kernels.push(list);
         kernels
     }
 
@@ -124,8 +130,8 @@ impl Builder<'_> {
     /// Kernels that order particles by cell on the side, for an analysis: the list and what it has noted stay as they
     /// are.
     pub(super) fn order_aside(&mut self) -> Vec<usize> {
-        let mut kernels = self.binning();
         let choices = self.sorted_beside();
+        let mut kernels = self.binning(choices.clone(), &choices.clone().with(core::Step::Same));
         kernels.push(self.arrangement("arrange_by_cell", choices));
         if self.order == Order::Never {
             self.ordering_buffers();
@@ -148,12 +154,47 @@ impl Builder<'_> {
         let particles = self.particles;
         self.plan.add_buffer(Array::Anchors, 16 * particles);
         let pairs = self.list_capacity() * particles;
-        self.plan.add_buffer(Array::Neighbours, 4 * (pairs + particles));
+        let lists = if self.force.remembers() { 2 } else { 1 };
+        self.plan.add_buffer(Array::Neighbours, 4 * lists * (pairs + particles));
         if self.force.remembers() {
-            self.plan.add_buffer(Array::CameFrom, 4 * particles);
-            self.plan.add_buffer(Array::NeighboursNext, 4 * (pairs + particles));
-            self.plan.add_buffer(Array::Memories, 8 * pairs);
-            self.plan.add_buffer(Array::MemoriesNext, 8 * pairs);
+            self.plan.add_buffer(Array::Memories, 8 * lists * pairs);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::plan::{Hardware, Options, Plan};
+    use crate::scene;
+    use crate::shaders::Array;
+
+    fn plan(changes: &[&str], options: Options) -> Plan {
+        let changes: Vec<String> = changes.iter().copied().map(str::to_owned).collect();
+        crate::run::plan(&scene::load("edpd-fluid", &changes).unwrap(), Hardware::default(), options)
+    }
+
+    /// Kernels that begin a step, and those of them that depend on it.
+    fn counts(plan: &Plan) -> [usize; 2] {
+        [plan.sort.len(), plan.sort.iter().filter(|kernel| plan.kernels[**kernel].demand.is_some()).count()]
+    }
+
+    #[test]
+    fn four_kernels_depend_on_the_step_and_none_where_every_step_lists() {
+        let levels = Options { many_level_scan: true, ..Options::default() };
+        for (options, more) in [(Options::default(), 0), (levels, 2)] {
+            assert_eq!(counts(&plan(&[], options)), [5 + more, 4 + more]);
+            let always = plan(&["interactions.0.skin=0"], options);
+            assert_eq!(counts(&always), [4 + more, 0]);
+            assert!(!always.has_buffer(Array::Demands) && always.prepare.is_empty());
+        }
+    }
+
+    #[test]
+    fn two_lists_by_turns_are_for_pairs_that_remember() {
+        let bytes = |plan: &Plan| plan.buffers.iter().find(|buffer| buffer.array == Array::Neighbours).unwrap().bytes;
+        let listed = Options { listed: true, ..Options::default() };
+        let forgetting = plan(&[r#"interactions.0.bath={"type":"white"}"#, "interactions.0.skin=0.3"], listed);
+        assert_eq!(bytes(&plan(&[], Options::default())), 2 * bytes(&forgetting));
+        assert!(!forgetting.has_buffer(Array::Memories));
     }
 }

@@ -335,7 +335,8 @@ impl<'a> Builder<'a> {
             .with(grid::Rows::Plain)
             .with(arrays::Sorted::Stored)
             .with(pairs::Reporting::Aside)
-            .with_if(self.order == Order::WithList, grid::Next::Anchors)
+            .with_if(self.order == Order::WithList && !self.lists_always(), grid::Next::Anchors)
+            .with_if(self.order == Order::WithList && self.force.remembers(), couplings::Lists::ByTurns)
     }
 
     fn ordering(&mut self) {
@@ -345,7 +346,7 @@ impl<'a> Builder<'a> {
             Order::Never => {
                 self.plan.sort = vec![self.kernel("tick", Entry::BeginPlainStep, self.choices(), 1)];
                 if self.is_bonded() {
-                    self.plan.prepare = vec![self.take_stock(&Choices::new())];
+                    self.plan.prepare = vec![self.take_stock()];
                 }
             }
         }

@@ -5,6 +5,7 @@ pub(crate) mod law;
 mod leapfrog;
 mod list_reference;
 mod many_body;
+mod margin;
 mod memory_reference;
 mod plan;
 mod relaxation;
@@ -23,6 +24,12 @@ use crate::families::particles::reference::{Configuration, Kicks, Moment};
 use crate::families::{BathStep, Model, Species};
 use std::f64::consts::PI;
 
+/// Margin of lists that no scene asks for, and of those of runs from before margins were chosen.
+const MARGIN: f64 = 0.3;
+
+/// Parts of a margin of which copies across a boundary that shears may move by one: a quarter of it is for them, in three parts.
+const PARTS_FOR_COPIES: f64 = 4.0 * 3.0;
+
 /// The soft repulsions, friction and noise between all pairs of species.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairForce {
@@ -32,7 +39,7 @@ pub struct PairForce {
     pub temperature: f64,
     /// The bath of every pair.
     pub bath: Bath,
-    /// Margin of a neighbour list beyond the cutoff.
+    /// Margin of a neighbour list beyond the cutoff; without one every step makes a list.
     pub skin: f64,
     /// The repulsion between all pairs that depends on the local density, if there is one.
     pub many_body: Option<ManyBodyForce>,
@@ -163,7 +170,7 @@ impl PairForce {
             cutoff: interactions.iter().map(|interaction| interaction.cutoff).fold(0.0, f64::max),
             temperature: bathed.bath.temperature(temperature),
             bath: bathed.bath.clone(),
-            skin: interactions.iter().map(|interaction| interaction.skin).fold(0.0, f64::max),
+            skin: interactions.iter().filter_map(|interaction| interaction.skin).reduce(f64::max).unwrap_or(MARGIN),
             many_body: many_body.map(|many_body| ManyBodyForce::new(many_body, dimension)),
             species: count,
             repulsions: Vec::new(),
@@ -222,7 +229,7 @@ impl PairForce {
     /// Listed copies across a boundary go on by that much without their particles. A quarter of the margin is kept for
     /// it, in three parts: pairs move with their copies, and either particle is followed from a copy of where it was.
     pub(crate) fn margin_of_copies(&self, model: &Model) -> u32 {
-        let part = self.skin / (4.0 * 3.0) / model.units.lengths[0];
+        let part = self.skin / PARTS_FOR_COPIES / model.units.lengths[0];
         ((part * 4_294_967_296.0) as u32).max(1)
     }
 
