@@ -119,21 +119,21 @@ mod tests {
             fluid(2, "seed=2"),
             fluid(3, "space.box=[4,4,5]"),
             fluid(4, "seed=3"),
-            member(5, "voronoi-dpd", &["particles.0.count=400"]),
-            member(6, "voronoi-dpd", &["particles.0.count=400", "seed=7"]),
+            member(5, "edpd-fluid", &["space.box=[4,4,4]", "output={}"]),
+            member(6, "edpd-fluid", &["space.box=[4,4,4]", "output={}", "seed=7"]),
         ];
         let of = |alike, most| {
             let groups = Group::of_alike(&members, most, alike, &gpu);
             groups.into_iter().map(|group| (group.members, group.together.unwrap().1.constants_in)).collect::<Vec<_>>()
         };
         let (code, buffer) = (ConstantsIn::Code, ConstantsIn::Buffer);
-        // Friction of Voronoi cells takes dispatches that depend on the step.
-        let cells = [(vec![5], code), (vec![6], code)];
-        let expected = [&[(vec![0, 2, 4], code), (vec![1], code), (vec![3], code)], &cells[..]].concat();
+        // A list that holds takes dispatches that depend on the step.
+        let lists = [(vec![5], code), (vec![6], code)];
+        let expected = [&[(vec![0, 2, 4], code), (vec![1], code), (vec![3], code)], &lists[..]].concat();
         assert_eq!(of(Alike::InConstants, 8), expected);
-        let expected = [&[(vec![0, 1, 2, 4], buffer), (vec![3], code)], &cells[..]].concat();
+        let expected = [&[(vec![0, 1, 2, 4], buffer), (vec![3], code)], &lists[..]].concat();
         assert_eq!(of(Alike::ButForNumbers, 8), expected);
-        let expected = [&[(vec![0, 2], code), (vec![1], code), (vec![3], code), (vec![4], code)], &cells[..]].concat();
+        let expected = [&[(vec![0, 2], code), (vec![1], code), (vec![3], code), (vec![4], code)], &lists[..]].concat();
         assert_eq!(of(Alike::InConstants, 2), expected);
     }
 }

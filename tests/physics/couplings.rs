@@ -822,7 +822,7 @@ fn touching_pairs(count: usize, changes: &[&str]) -> (Checked, State) {
         r#"{{
         "title": "test", "space": {{"box": [{}]}}, "time": {{"step": 0.1, "steps": 1}}, "temperature": 1.5,
         "particles": [{{"species": "A", "count": {}, "mass": 2}}],
-        "interactions": [{{"type": "dpd", "cutoff": 4, "weight_exponent": 0}},
+        "interactions": [{{"type": "dpd", "cutoff": 4, "weight_exponent": 0, "skin": 0.3}},
             {{"type": "bonds", "pairs": {pairs:?}, "potential": {{"type": "harmonic", "stiffness": 50, "length": 2}}}}],
         "noise": {{"distribution": "gaussian"}}, "output": {{"energies": {{"every": 1000000}}}}
     }}"#,

@@ -266,6 +266,7 @@ fn couplings_beside_layers_agree_with_the_reference() {
         let mut document = layered_fluid(channel, COTTER_REICH, std::slice::from_ref(coupling));
         if number % 2 == 0 {
             document["interactions"][0]["bath"] = memory();
+            document["interactions"][0]["skin"] = json!(0.3);
         }
         agree_beside(document, coupling);
     }

@@ -10,7 +10,7 @@ pub const KNOWN: [&str; 5] = ["CELLS_X", "CELLS_Y", "CELLS_Z", "CLOSES", "QUARTE
 
 /// Laws and reports that a scene has or not: one module stands for all of them, and constants of its pipelines say which
 /// it is. What is not chosen is taken out with what it binds.
-pub const LAWS: [&str; 36] = [
+pub const LAWS: [&str; 37] = [
     "AS_PRINTED",
     "BATHS_REMEMBER",
     "BOND_BATHS_NOISY",
@@ -33,6 +33,7 @@ pub const LAWS: [&str; 36] = [
     "JUMP_ENTRIES",
     "KEEPS_FORCES",
     "KEEPS_MOMENTA",
+    "LISTS_ALWAYS",
     "MANY_BODY",
     "ONE_MASS",
     "OSCILLATES",

@@ -21,12 +21,12 @@ use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
 use mesoscope::scene::{self, Checked, Integrator, PairRelaxation};
 use mesoscope::shaders::Entry;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::variants::{plans, report, shader};
 use differences::{differences, linked};
 use features::{Feature, features};
-use scenes::{interaction, shipped, ways_to_say_off};
+use scenes::{interaction, set, shipped, ways_to_say_off};
 
 const ANY: Hardware =
     Hardware { subgroup_size: None, serial_memory: false, queues_pairs: false, largest_binding: None };
@@ -77,6 +77,8 @@ fn pairs_of_plans(feature: &Feature) -> Vec<(&'static str, Plan, Plan)> {
     let mut pairs = Vec::new();
     for (number, (_, mut ground)) in shipped().into_iter().enumerate() {
         (feature.ground)(&mut ground);
+        // Else it is chosen by all that moves particles, and with it what lists them.
+        set(&mut ground, "dpd", "skin", json!(0.3));
         let [mut on, mut off] = [ground.clone(), ground];
         (feature.with)(&mut on);
         (feature.without)(&mut off);
