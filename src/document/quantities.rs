@@ -98,6 +98,7 @@ pub enum Axis {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::document::BathScheme;
     use crate::scene;

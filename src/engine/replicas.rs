@@ -104,7 +104,7 @@ impl Replicas {
     ///
     /// # Errors
     /// [`GpuError`] if the device has too little memory, or a kernel cannot be one of several systems.
-    pub fn new(gpu: &Gpu, plan: Plan, count: u32) -> Result<Vec<Replica>, GpuError> {
+    pub fn side_by_side(gpu: &Gpu, plan: Plan, count: u32) -> Result<Vec<Replica>, GpuError> {
         let mut buffers = HashMap::new();
         for &plan::Buffer { array, bytes, .. } in &plan.buffers {
             let bytes = spacing(bytes) * u64::from(count);
@@ -205,6 +205,9 @@ impl Replicas {
     }
 }
 
+/// Buffers and textures by their arrays.
+type Arrays = (HashMap<Array, Stored>, HashMap<Array, Texels>);
+
 impl Replica {
     /// The device.
     pub(crate) fn gpu(&self) -> &Gpu {
@@ -223,7 +226,7 @@ impl Replica {
     }
 
     /// Its part of the arrays, with what a plan has in them.
-    pub(super) fn arrays(&self, plan: &Plan) -> Result<(HashMap<Array, Stored>, HashMap<Array, Texels>), GpuError> {
+    pub(super) fn arrays(&self, plan: &Plan) -> Result<Arrays, GpuError> {
         let (group, number) = (&self.group, self.number);
         let (mut buffers, mut textures) = (HashMap::new(), HashMap::new());
         for planned in &plan.buffers {
@@ -235,7 +238,7 @@ impl Replica {
             buffers.insert(planned.array, own);
         }
         for planned in &plan.textures {
-            let own = group.textures[&planned.array].from_row(group.rows * number, planned);
+            let own = group.textures[&planned.array].rows_from(group.rows * number, planned);
             own.fill(&group.gpu);
             textures.insert(planned.array, own);
         }

@@ -41,7 +41,7 @@ impl Texels {
     }
 
     /// The rows from one on as a texture of a plan.
-    pub(super) fn from_row(&self, row: u32, planned: &Texture) -> Self {
+    pub(super) fn rows_from(&self, row: u32, planned: &Texture) -> Self {
         Self { planned: planned.clone(), texture: self.texture.clone(), view: self.view.clone(), row: self.row + row }
     }
 

@@ -162,12 +162,11 @@ fn with_number(text: &str, entry: &str) -> String {
     });
     let end = begin + parameters.map_or(0, |(end, _)| end);
     let given = text[begin..end].split_once("@builtin(workgroup_id)").and_then(|(_, rest)| rest.split_once(':'));
-    let (added, name) = match given {
-        Some((name, _)) => (String::new(), name.trim()),
-        None => {
-            let comma = if text[begin..end].trim().is_empty() { "" } else { ", " };
-            (format!("{comma}@builtin(workgroup_id) workgroup_of_replica: vec3<u32>"), "workgroup_of_replica")
-        }
+    let (added, name) = if let Some((name, _)) = given {
+        (String::new(), name.trim())
+    } else {
+        let comma = if text[begin..end].trim().is_empty() { "" } else { ", " };
+        (format!("{comma}@builtin(workgroup_id) workgroup_of_replica: vec3<u32>"), "workgroup_of_replica")
     };
     let body = end + text[end..].find('{').map_or(0, |brace| brace + 1);
     format!(

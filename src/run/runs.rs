@@ -255,7 +255,7 @@ impl Run {
         let Self { scene, beginning, interrupt, notices, id, division, mixed, draws } = self;
         let part = division.map(|division| Part { division, rank: 0 });
         let constants_in = replica.as_ref().map_or(ConstantsIn::Code, Replica::constants_in);
-        let mut options = Options { part, constants_in, ..Options::default() };
+        let mut options = Options { constants_in, part, ..Options::default() };
         // Whatever takes long before the first step can be left; until then nothing is written, or there is a checkpoint already.
         let is_new = matches!(beginning, Beginning::New { .. });
         let asked = interrupt.clone();
@@ -263,13 +263,12 @@ impl Run {
         let keep_alive = || processes.iter().for_each(|processes| processes.channel().keep_alive());
         let planned = replica.as_ref().map(|replica| plan_on(&scene, replica.gpu(), options)).transpose()?;
         let suited = planned.filter(|(_, plan)| replica.as_ref().is_some_and(|replica| replica.suits(plan)));
-        let (mut gpu, mut plan) = match suited {
-            Some(suited) => suited,
-            None => {
-                replica = None;
-                options.constants_in = ConstantsIn::Code;
-                open_adapter(&scene, choice, options)?
-            }
+        let (mut gpu, mut plan) = if let Some(suited) = suited {
+            suited
+        } else {
+            replica = None;
+            options.constants_in = ConstantsIn::Code;
+            open_adapter(&scene, choice, options)?
         };
         keep_alive();
         proceed()?;

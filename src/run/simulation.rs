@@ -199,7 +199,7 @@ impl Simulation {
             let mut begun = Vec::new();
             for group in scenes.chunks(fitting) {
                 // Where the device has too little memory for them together, each tries for itself.
-                let replicas = Replicas::new(gpu, plan.clone(), group.len() as u32).unwrap_or_default();
+                let replicas = Replicas::side_by_side(gpu, plan.clone(), group.len() as u32).unwrap_or_default();
                 let replicas = replicas.into_iter().map(Some).chain(iter::repeat_with(|| None));
                 // Replicas wait for each other where they begin, too.
                 begun.extend(

@@ -91,7 +91,7 @@ impl Group {
     /// A replica for each run, in their order; none of a single one, nor where the device has no memory for all of them together.
     pub(super) fn replicas(&self) -> Option<Vec<Replica>> {
         let (gpu, plan) = self.together.as_ref().filter(|_| self.members.len() > 1)?;
-        Replicas::new(gpu, (**plan).clone(), self.members.len() as u32).ok()
+        Replicas::side_by_side(gpu, (**plan).clone(), self.members.len() as u32).ok()
     }
 }
 

@@ -44,7 +44,7 @@ fn alone(gpu: &Gpu, scenes: &[Checked], constants_in: ConstantsIn) -> Vec<Bytes>
 fn together(gpu: &Gpu, scenes: &[Checked], constants_in: ConstantsIn) -> Vec<Bytes> {
     let first = plan(&scenes[0], gpu, constants_in);
     assert_eq!(Replicas::fitting(&first, gpu, 4), 4, "{}", scenes[0].title);
-    let replicas = Replicas::new(gpu, first, scenes.len() as u32).unwrap();
+    let replicas = Replicas::side_by_side(gpu, first, scenes.len() as u32).unwrap();
     thread::scope(|scope| {
         let runs = replicas.into_iter().zip(scenes).enumerate().map(|(number, (replica, scene))| {
             scope.spawn(move || {
@@ -109,7 +109,7 @@ fn plans_of_which_a_dispatch_depends_on_the_step_have_no_replicas() {
         built_in("dpd-fluid", &["space.box=[5,5,5]", "output={}"]),
         built_in("dpd-fluid", &["space.box=[5,5,6]", "output={}"]),
     );
-    let replicas = Replicas::new(gpu(), plan(&small, gpu(), ConstantsIn::Code), 2).unwrap();
+    let replicas = Replicas::side_by_side(gpu(), plan(&small, gpu(), ConstantsIn::Code), 2).unwrap();
     assert!(replicas[0].suits(&plan(&small, gpu(), ConstantsIn::Code)));
     assert!(!replicas[0].suits(&plan(&large, gpu(), ConstantsIn::Code)));
     let stiff = edited(&small, |scene| scene.time.step *= 0.5);
@@ -151,7 +151,9 @@ fn every_shipped_scene_has_replicas_but_where_dispatches_depend_on_the_step() {
         for constants_in in [ConstantsIn::Code, ConstantsIn::Buffer] {
             let plan = plan(&scene, gpu(), constants_in);
             match Replicas::fitting(&plan, gpu(), 2) {
-                2 => drop(Replicas::new(gpu(), plan, 2).unwrap_or_else(|error| panic!("{}: {error}", builtin.name))),
+                2 => drop(
+                    Replicas::side_by_side(gpu(), plan, 2).unwrap_or_else(|error| panic!("{}: {error}", builtin.name)),
+                ),
                 _ => without.push(builtin.name),
             }
         }

@@ -164,6 +164,7 @@ impl Builder<'_> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use crate::plan::{Hardware, Options, Plan};
     use crate::scene;
     use crate::shaders::Array;

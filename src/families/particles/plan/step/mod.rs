@@ -357,7 +357,7 @@ impl<'a> Builder<'a> {
         self.plan.prepare.push(bin);
         self.plan.sort = self.sorting(&self.choices());
         self.exchange(bin);
-        if self.sorted.scans_at_end {
+        if self.sorted.scans_at_end() {
             // Every step is begun by the one before, but for the first.
             let scatter = self.plan.sort.split_off(self.plan.sort.len() - 1);
             self.scan = std::mem::replace(&mut self.plan.sort, scatter);
@@ -368,7 +368,7 @@ impl<'a> Builder<'a> {
     /// Counting sort by cell.
     fn sorting(&mut self, choices: &Choices) -> Vec<usize> {
         let copied = self.sorted.copied(self.splits());
-        if self.sorted.in_one_workgroup {
+        if self.sorted.is_in_one_workgroup() {
             return vec![self.kernel("sort", Entry::SortInOneWorkgroup, choices.clone().with(copied), 1)];
         }
         let sum = PrefixSum { choices, rows: self.grid.rows(), cells: self.grid.count() };

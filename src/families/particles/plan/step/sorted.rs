@@ -27,10 +27,19 @@ pub(super) struct Sorted {
     in_textures: bool,
     /// The prefilter of pairs reads a word of each particle and not its position.
     probes: bool,
-    /// A step ends with the prefix sum over cells for the next one.
-    pub scans_at_end: bool,
-    /// One workgroup sums cells and sorts particles.
-    pub in_one_workgroup: bool,
+    cells: CellSums,
+}
+
+/// Kernels that sum up cells.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+enum CellSums {
+    /// Kernels of their own.
+    #[default]
+    Apart,
+    /// The last one of a step, for the next one.
+    AtEndOfStep,
+    /// One workgroup, which sorts particles too.
+    WithSort,
 }
 
 impl Sorted {
@@ -42,21 +51,35 @@ impl Sorted {
         // Probes are not read from textures. Beside two more they would be one buffer too many, and beside one where several ranks tell what
         // is stored.
         let beside = builder.more_buffers() + u32::from(options.part.is_some());
+        let one_kernel = !needs_levels(cells, options) && options.part.is_none();
+        // What ends a step that visits pairs once is no traversal.
+        let at_end = serial
+            && one_kernel
+            && builder.traversal == Traversal::Clusters
+            && cells <= SCAN_AT_END_CELLS
+            && !builder.visits_once();
+        let with_sort = !serial && one_kernel && builder.slots <= SORTED_BY_ONE_WORKGROUP;
         Self {
             in_textures,
             probes: builder.traversal != Traversal::Alone && !in_textures && beside < 2 && !builder.is_sheared(),
-            // What ends a step that visits pairs once is no traversal.
-            scans_at_end: builder.traversal == Traversal::Clusters
-                && serial
-                && cells <= SCAN_AT_END_CELLS
-                && !needs_levels(cells, options)
-                && options.part.is_none()
-                && !builder.visits_once(),
-            in_one_workgroup: !serial
-                && builder.slots <= SORTED_BY_ONE_WORKGROUP
-                && !needs_levels(cells, options)
-                && options.part.is_none(),
+            cells: if at_end {
+                CellSums::AtEndOfStep
+            } else if with_sort {
+                CellSums::WithSort
+            } else {
+                CellSums::Apart
+            },
         }
+    }
+
+    /// True if a step ends with the prefix sum over cells for the next one.
+    pub(super) fn scans_at_end(self) -> bool {
+        self.cells == CellSums::AtEndOfStep
+    }
+
+    /// True if one workgroup sums up cells and sorts particles.
+    pub(super) fn is_in_one_workgroup(self) -> bool {
+        self.cells == CellSums::WithSort
     }
 
     /// The choices of all kernels.
@@ -70,9 +93,9 @@ impl Sorted {
     /// The choices of the kernel that ends a step.
     pub(crate) fn end_of_step(self) -> Choices {
         Choices::new()
-            .with_if(self.scans_at_end, grid::EndOfStep::LastWorkgroup)
-            .with_if(self.scans_at_end, grid::ScanWidth::Narrow)
-            .with_if(self.scans_at_end, grid::ScanLanes::Eight)
+            .with_if(self.scans_at_end(), grid::EndOfStep::LastWorkgroup)
+            .with_if(self.scans_at_end(), grid::ScanWidth::Narrow)
+            .with_if(self.scans_at_end(), grid::ScanLanes::Eight)
     }
 
     /// The form in which particles are sorted; the first pass of a split step keeps its hits in the buffer of the particles.
@@ -112,7 +135,7 @@ impl Sorted {
         if self.probes {
             plan.add_buffer(Array::Probes, 4 * count);
         }
-        if self.scans_at_end {
+        if self.scans_at_end() {
             plan.add_buffer(Array::WorkgroupsDone, 4);
         }
     }

@@ -93,6 +93,7 @@ fn fastest_of(particles: u64, dimension: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::{Motion, fastest_of};
     use crate::scene;
 
