@@ -15,22 +15,8 @@ use std::time::{Duration, Instant};
 /// The number of a particle that is forgotten: shaders/ranks/domain.wgsl.
 const NOBODY: u32 = u32::MAX;
 
-/// A part of an engine that moves to another thread with it.
-#[cfg(not(feature = "mpi"))]
-pub trait Movable: Send {}
-
-#[cfg(not(feature = "mpi"))]
-impl<T: Send> Movable for T {}
-
-/// A part of an engine, which with MPI stays in its thread: communicators belong to the thread that made them.
-#[cfg(feature = "mpi")]
-pub trait Movable {}
-
-#[cfg(feature = "mpi")]
-impl<T> Movable for T {}
-
 /// How a rank passes on what its peers need, and learns what it needs of them.
-pub trait Swap: Movable {
+pub trait Swap: Send {
     /// Gives every peer its bytes, and returns theirs in the same order.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ mod texels;
 mod timing;
 
 pub use error::EngineError;
-pub use exchange::{Movable, Swap, Traffic};
+pub use exchange::{Swap, Traffic};
 pub(crate) use readback::read as read_back;
 pub(crate) use replicas::MOST as MOST_REPLICAS;
 pub use replicas::{Replica, Replicas};

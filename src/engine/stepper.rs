@@ -1,6 +1,6 @@
 //! What advances a state step by step: an engine, or several that share a run.
 
-use super::{Control, Engine, EngineError, Movable, Sample, Shown, Traffic};
+use super::{Control, Engine, EngineError, Sample, Shown, Traffic};
 use crate::plan::Plan;
 use crate::shaders::Array;
 use crate::state::{Reported, State};
@@ -24,7 +24,7 @@ pub struct RankReport {
 
 /// What advances a state and samples it; [`Engine`] says what each of these does.
 #[allow(missing_docs, clippy::missing_errors_doc)]
-pub trait Stepper: Movable {
+pub trait Stepper: Send {
     fn plan(&self) -> &Plan;
     fn step(&self) -> u64;
     fn upload(&mut self, state: &State) -> Result<(), EngineError>;

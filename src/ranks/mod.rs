@@ -17,7 +17,7 @@ pub use member::{decline, serve};
 pub(crate) use team::remedy;
 pub use team::{Team, computes_alike, sharing, sharing_anywhere};
 
-use crate::engine::{Movable, Swap};
+use crate::engine::Swap;
 use std::time::Duration;
 
 /// A rank that has not answered by then counts as lost.
@@ -25,7 +25,7 @@ pub const PATIENCE: Duration = Duration::from_mins(10);
 
 /// How the first rank tells the others what to do, and they answer. None of these waits longer than [`PATIENCE`] for a rank that may be
 /// lost without notice, as a process may.
-pub trait Channel: Movable {
+pub trait Channel: Send {
     /// Number of ranks.
     fn count(&self) -> u32;
 

@@ -71,7 +71,7 @@ impl World {
     }
 
     fn line(&self) -> Line {
-        Line { world: self.universe.world(), patience: self.patience, alarm: self.alarm, round: self.rounds.get() }
+        Line { patience: self.patience, alarm: self.alarm, round: self.rounds.get() }
     }
 }
 
@@ -95,9 +95,8 @@ impl Processes for World {
     }
 }
 
-/// What a rank talks with.
+/// What a rank talks with. It holds no communicator, which could not move to another thread.
 struct Line {
-    world: SimpleCommunicator,
     patience: Duration,
     alarm: fn(&str),
     round: u64,
@@ -138,22 +137,23 @@ fn head_of(message: Message) -> [u64; 2] {
 impl Line {
     /// Ends all ranks: who does not answer would not hear of anything else.
     fn lose(&self, rank: u32) -> ! {
-        let turn = TURN * self.world.rank().cast_unsigned().min(TURNS);
+        let turn = TURN * SimpleCommunicator::world().rank().cast_unsigned().min(TURNS);
         let _: Option<()> = wait_for(turn, || {
             self.answer_questions();
             None
         });
         (self.alarm)(&format!("rank {rank} has not answered for {} s", self.patience.as_secs()));
-        self.world.abort(LOST)
+        SimpleCommunicator::world().abort(LOST)
     }
 
     /// Sends something to some ranks, each its own, while `meanwhile` receives.
     fn send<T>(&self, parcels: &[(u32, &[u8])], tag: i32, meanwhile: impl FnOnce() -> T) -> T {
         let heads: Vec<[u64; 2]> = parcels.iter().map(|(_, bytes)| [bytes.len() as u64, self.round]).collect();
+        let world = SimpleCommunicator::world();
         mpi::request::scope(|scope: &LocalScope<'_>| {
             let mut requests = Vec::new();
             for ((rank, bytes), head) in parcels.iter().zip(&heads) {
-                let process = self.world.process_at_rank(rank.cast_signed());
+                let process = world.process_at_rank(rank.cast_signed());
                 let pieces = std::iter::once(bytemuck::bytes_of(head)).chain(bytes.chunks(PIECE));
                 requests.extend(pieces.map(|piece| (*rank, process.immediate_send_with_tag(scope, piece, tag))));
             }
@@ -179,7 +179,8 @@ impl Line {
         };
         let found = wait_for(self.patience, &mut attempt).or_else(|| {
             self.send_head(rank.cast_signed(), 0, ASKED);
-            let process = self.world.process_at_rank(rank.cast_signed());
+            let world = SimpleCommunicator::world();
+            let process = world.process_at_rank(rank.cast_signed());
             let waits = || process.immediate_matched_probe_with_tag(WAITING);
             let answer = wait_for(GRACE, || attempt().map(Ok).or_else(|| waits().map(Err)))?;
             answer.map_or_else(
@@ -195,11 +196,12 @@ impl Line {
 
     /// Sends what is so short that nobody waits until it is received.
     fn send_head(&self, rank: i32, length: u64, tag: i32) {
-        self.world.process_at_rank(rank).send_with_tag(bytemuck::bytes_of(&[length, self.round]), tag);
+        SimpleCommunicator::world().process_at_rank(rank).send_with_tag(bytemuck::bytes_of(&[length, self.round]), tag);
     }
 
     fn answer_questions(&self) {
-        while let Some((message, status)) = self.world.any_process().immediate_matched_probe_with_tag(ASKED) {
+        let world = SimpleCommunicator::world();
+        while let Some((message, status)) = world.any_process().immediate_matched_probe_with_tag(ASKED) {
             let _ = head_of(message);
             self.send_head(status.source_rank(), 0, WAITING);
         }
@@ -207,7 +209,8 @@ impl Line {
 
     /// The next message of some kinds from a rank.
     fn next(&self, rank: u32, tags: &[i32]) -> (Message, Status) {
-        let process = self.world.process_at_rank(rank.cast_signed());
+        let world = SimpleCommunicator::world();
+        let process = world.process_at_rank(rank.cast_signed());
         self.wait_for(rank, || tags.iter().find_map(|tag| process.immediate_matched_probe_with_tag(*tag)))
     }
 
@@ -233,7 +236,7 @@ impl Line {
     }
 
     fn others(&self) -> std::ops::Range<u32> {
-        1..self.world.size().cast_unsigned()
+        1..SimpleCommunicator::world().size().cast_unsigned()
     }
 }
 
@@ -243,7 +246,7 @@ fn gone(rank: u32) -> String {
 
 impl Channel for Line {
     fn count(&self) -> u32 {
-        self.world.size().cast_unsigned()
+        SimpleCommunicator::world().size().cast_unsigned()
     }
 
     fn tell(&mut self, message: &[u8]) -> Result<(), String> {
