@@ -266,7 +266,7 @@ fn couplings_beside_layers_agree_with_the_reference() {
         let mut document = layered_fluid(channel, COTTER_REICH, std::slice::from_ref(coupling));
         if number % 2 == 0 {
             document["interactions"][0]["bath"] = memory();
-            document["interactions"][0]["skin"] = json!(0.3);
+            document["interactions"][0]["skin"] = json!([0.05, 0.3, 0.1][number / 2]);
         }
         agree_beside(document, coupling);
     }

@@ -35,13 +35,15 @@ fn quanta_without_memory(model: &Model) -> Quanta {
     let cutoff = model.particles().pair_force.as_ref().map_or(1.0, |force| force.cutoff);
     let repulsive = model.particles().pair_force.as_ref().map_or(0.0, PairForce::largest_energy);
     let strongest = kinetic.max(repulsive);
+    // Soft repulsion has a largest force, however fast the particles are that meet: those that a strong noise heats.
+    let squared = if repulsive > 0.0 { kinetic.min(repulsive) * repulsive } else { kinetic * kinetic };
     let power_of_two = |value: f64| value.log2().ceil().exp2();
     let energy = power_of_two(kinetic) * 2_f64.powi(-32);
     let stiffness = stiffest_spring(model).log2().ceil().exp2() * 2_f64.powi(-32);
     Quanta {
         energy,
         pair_energy: power_of_two(strongest) * 2_f64.powi(-32),
-        force_squared: (power_of_two(kinetic * strongest) * 2_f64.powi(-24) / (cutoff * cutoff))
+        force_squared: (power_of_two(squared) * 2_f64.powi(-24) / (cutoff * cutoff))
             .max(energy * 2_f64.powi(32) * stiffness),
         curvature: (power_of_two(strongest) * 2_f64.powi(-24) / (cutoff * cutoff)).max(stiffness),
         length_squared: cutoff * cutoff * 2_f64.powi(-32),
