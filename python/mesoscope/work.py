@@ -128,7 +128,7 @@ class _Study:
 
     def __init__(
         self, kind: str, scene: Any, settings: Mapping[str, Any] | None, out: Any, vary: Mapping[str, Any], also: Iterable[Mapping[str, Any]],
-        *, seeds: int | None, steps: int | None, jobs: int | None, force: bool, adapter: str | None, progress: Any,
+        *, seeds: int | None, steps: int | None, jobs: int | None, replicas: int | None, force: bool, adapter: str | None, progress: Any,
     ) -> None:  # fmt: skip
         name, self.text = source(scene)
         stem = _directory(name, None).name
@@ -136,7 +136,11 @@ class _Study:
         self.settings = overrides(settings)
         self.vary = [f"{key}={_values(values)}" for key, values in vary.items()]
         self.also = [",".join(f"{key}={text(value)}" for key, value in one.items()) for one in also]
-        self.seeds, self.steps, self.jobs, self.force, self.adapter = seeds, steps, jobs, force, adapter
+        if jobs is not None and jobs < 1:
+            raise SceneError(f"jobs is {jobs}; accepted: at least 1")
+        if replicas is not None and not 1 <= replicas <= 64:
+            raise SceneError(f"replicas is {replicas}; accepted: 1 to 64")
+        self.seeds, self.steps, self.jobs, self.replicas, self.force, self.adapter = seeds, steps, jobs, replicas, force, adapter
         self.out = _directory(f"{stem}-{kind}", out)
         self.report, self.close = _reporter(progress)
 
@@ -167,6 +171,7 @@ def sweep(
     seeds: int | Iterable[int] | None = None,
     steps: int | None = None,
     jobs: int | None = None,
+    replicas: int | None = None,
     force: bool = False,
     adapter: str | None = None,
     progress: Any = True,
@@ -174,6 +179,7 @@ def sweep(
     """Runs all combinations of the values in ``vary``, and the settings in ``also`` besides. ``seeds`` makes independent runs of each: a number of
     them, with the seed of the scene and those that follow, or the seeds themselves; ``averages`` of the result are means over them.
 
+    ``jobs`` are runs at once, and ``replicas`` runs that a device advances together in the dispatches of one, as with ``--replicas``.
     Variants that fail do not stop the others: ``failures`` of the result says why.
 
     >>> import mesoscope as ms
@@ -190,7 +196,7 @@ def sweep(
         varied["seed"] = list(seeds)
     study = _Study(
         "sweep", scene, settings, out, varied, also,
-        seeds=count, steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress,
+        seeds=count, steps=steps, jobs=jobs, replicas=replicas, force=force, adapter=adapter, progress=progress,
     )  # fmt: skip
     if not varied and not study.also and count is None:
         raise SceneError("nothing is varied; accepted: keys with their values, or seeds")
@@ -217,6 +223,7 @@ def tradeoff(
     seeds: int | None = None,
     steps: int | None = None,
     jobs: int | None = None,
+    replicas: int | None = None,
     force: bool = False,
     adapter: str | None = None,
     progress: Any = True,
@@ -230,7 +237,7 @@ def tradeoff(
     """
     study = _Study(
         "tradeoff", scene, settings, out, vary, also,
-        seeds=seeds, steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress,
+        seeds=seeds, steps=steps, jobs=jobs, replicas=replicas, force=force, adapter=adapter, progress=progress,
     )  # fmt: skip
     more = ",".join(f"{key}={text(value)}" for key, value in (finer or {}).items()) or None
     try:
@@ -255,6 +262,7 @@ def stability(
     seeds: int | None = None,
     steps: int | None = None,
     jobs: int | None = None,
+    replicas: int | None = None,
     force: bool = False,
     adapter: str | None = None,
     progress: Any = True,
@@ -264,7 +272,7 @@ def stability(
     """
     study = _Study(
         "stability", scene, settings, out, vary or {}, (),
-        seeds=seeds, steps=steps, jobs=jobs, force=force, adapter=adapter, progress=progress,
+        seeds=seeds, steps=steps, jobs=jobs, replicas=replicas, force=force, adapter=adapter, progress=progress,
     )  # fmt: skip
     try:
         rows, findings = _mesoscope.stability(

@@ -246,6 +246,7 @@ pub struct Study {
     out: PathBuf,
     force: bool,
     jobs: Option<usize>,
+    replicas: Option<usize>,
     adapter: Option<String>,
     report: Option<Py<PyAny>>,
 }
@@ -267,10 +268,11 @@ where
     let written = study.text.as_ref().map(|text| written(py, &study.name, text)).transpose()?;
     let source = written.as_ref().map_or_else(|| study.name.clone(), |(_, path)| path.display().to_string());
     let request = request(&source).map_err(|error| errors::of_study(py, &error))?;
-    let (choice, out, force, jobs) = (choice(study.adapter.as_deref()), study.out.clone(), study.force, study.jobs);
+    let (choice, out, force) = (choice(study.adapter.as_deref()), study.out.clone(), study.force);
+    let (jobs, replicas) = (study.jobs, study.replicas);
     let (ended, heard) = watched(py, study.report.as_ref(), move |interrupt, sender| {
         let run = if force { StudyRun::<R>::replace(request, out) } else { StudyRun::start(request, out) };
-        let run = run.until(interrupt).with_jobs(jobs);
+        let run = run.until(interrupt).with_jobs(jobs).with_replicas(replicas);
         execute(run, &choice, &mut |event| {
             if let Some(line) = line_of_study(&event) {
                 drop(sender.send(line));

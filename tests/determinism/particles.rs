@@ -7,6 +7,7 @@ use mesoscope::engine::{Engine, EngineError, Sample};
 use mesoscope::noise;
 use mesoscope::plan::Options;
 use mesoscope::scene::Checked;
+use mesoscope::shaders::Entry;
 use mesoscope::state::State;
 use rand::SeedableRng as _;
 
@@ -113,6 +114,24 @@ fn traversals_segments_scans_and_workgroup_sizes_give_the_same_bytes() {
 fn all_traversals_segments_scans_and_workgroup_sizes_together_give_the_same_bytes() {
     for scene in scenes() {
         gives_the_bytes_of(&run(&scene, Options::default(), 8), &scene, all_ways());
+    }
+}
+
+/// Up to 1 024 particles a card sorts in one workgroup, and more of them in a scan and a scatter.
+#[test]
+fn few_particles_are_sorted_as_many_are() {
+    for (count, in_one_workgroup) in [(1023, true), (1024, true), (1025, false)] {
+        let particles = format!(r#"particles=[{{"species":"A","count":{count}}}]"#);
+        let scene = sampled(&[GROOT_WARREN, "space.box=[7,7,7]", &particles]);
+        let expected = run(&scene, Options::default(), 8);
+        for many_level_scan in [false, true] {
+            let options = Options { serial_memory: Some(false), many_level_scan, ..Options::default() };
+            let (model, state) = start(&scene);
+            let engine = engine(&scene, &state, options);
+            let one = engine.plan().kernels.iter().any(|kernel| kernel.entry == Entry::SortInOneWorkgroup);
+            assert_eq!(one, in_one_workgroup && !many_level_scan, "{} {options:?}", model.particle_count());
+            assert!(run(&scene, options, 8) == expected, "{count} {options:?}");
+        }
     }
 }
 

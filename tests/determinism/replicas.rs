@@ -8,6 +8,7 @@ use mesoscope::gpu::{ConstantsIn, Gpu, Requirements};
 use mesoscope::plan::{Hardware, Options, Plan};
 use mesoscope::run;
 use mesoscope::scene::{self, Checked};
+use mesoscope::stability::{self, StabilityRun};
 use mesoscope::study::Sweep;
 use mesoscope::sweep::SweepRun;
 
@@ -141,6 +142,25 @@ fn a_sweep_of_replicas_leaves_the_files_of_runs_alone() {
     let (in_pairs, together) = (sweep(&both, 2), sweep(&both, 6));
     assert_eq!(in_pairs.1, 3);
     assert!(in_pairs == together);
+}
+
+#[test]
+fn a_map_of_stability_of_replicas_is_that_of_runs_alone() {
+    let map = |replicas: usize| {
+        let place = tempfile::tempdir().unwrap();
+        let set = ["space.box=[4,4,4]", "time.equilibration=100", "output={}", GROOT_WARREN].map(str::to_owned);
+        let request = stability::Request::load("dpd-fluid", &set, Some(400), &["time.step=0.02,0.15".to_owned()]);
+        let request = request.unwrap().with_bisections(1).with_seeds(3).unwrap();
+        let out = place.path().join("map");
+        let run = StabilityRun::start(request, &out).with_replicas(Some(replicas)).with_jobs(Some(1));
+        run.execute(&adapter(), &mut |_| {}).unwrap();
+        fs::read_to_string(out.join(stability::files::TABLE)).unwrap()
+    };
+    let (alone, together) = (map(1), map(3));
+    for verdict in ["right", "unstable"] {
+        assert!(alone.contains(verdict), "{alone}");
+    }
+    assert_eq!(alone, together);
 }
 
 #[test]
