@@ -221,8 +221,8 @@ pub fn check(
 /// A line of progress of a study.
 fn line_of_study<E: Display, P: Display>(event: &StudyEvent<'_, E, P>) -> Option<String> {
     let value = match event {
-        StudyEvent::Started { adapter, runs, jobs, .. } => {
-            json!({"event": "started", "adapter": adapter.name, "runs": runs, "jobs": jobs})
+        StudyEvent::Started { adapter, runs, at_once, .. } => {
+            json!({"event": "started", "adapter": adapter.name, "runs": runs, "at_once": at_once})
         }
         StudyEvent::Ended { run, ended } => json!({"event": "ended", "run": run, "text": ended.to_string()}),
         StudyEvent::Phase { phase, runs } => json!({"event": "phase", "text": phase.to_string(), "runs": runs}),

@@ -35,12 +35,12 @@ impl Reporter {
 
     pub fn show<E: Display, P: Display>(&mut self, event: &StudyEvent<'_, E, P>, in_words: &dyn Fn(usize) -> String) {
         match *event {
-            StudyEvent::Started { adapter, runs, jobs, seconds } => {
+            StudyEvent::Started { adapter, runs, at_once, seconds } => {
                 let estimate = self.kind.estimate;
                 let time = seconds.map(|seconds| format!(", {estimate} {}", duration(seconds.ceil() as u64)));
                 // A closed standard output will be noticed when the results are printed.
                 let _ = print(&format!(
-                    "{}: {}, {jobs} at a time, on {}{}\n",
+                    "{}: {}, {at_once} at a time, on {}{}\n",
                     self.title,
                     in_words(runs),
                     adapter.in_words(),

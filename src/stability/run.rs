@@ -65,7 +65,7 @@ impl StudyRun<StabilitySummary> {
         let at_once = if self.request.seeds() > 1 { 1 } else { self.request.cell_count() };
         let jobs = self.jobs_for(largest, at_once, &gpu);
         let together = self.replicas_for(largest, self.request.seeds() as usize, &gpu);
-        observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds });
+        observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), at_once: jobs, seconds });
         while !waiting.is_empty() {
             self.run_all(&waiting, jobs, together, adapter, observer)?;
             waiting = self.waiting();

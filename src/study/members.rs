@@ -110,21 +110,21 @@ impl<R: Record> StudyRun<R> {
             report(Message::Ended(Box::new(ended)));
         };
         let groups = self.groups(members, adapter);
-        let together = |group: &Group, report: &(dyn Fn((usize, Message)) + Sync)| {
-            let attend = |number: usize, replica| work(&members[number], replica, &|message| report((number, message)));
+        let work_on_group = |group: &Group, report: &(dyn Fn((usize, Message)) + Sync)| {
+            let simulate = |number: usize, replica| work(&members[number], replica, &|message| report((number, message)));
             let Some(replicas) = group.replicas() else {
                 for number in group.members().iter().take_while(|_| !interrupt.is_asked()) {
-                    attend(*number, None);
+                    simulate(*number, None);
                 }
                 return;
             };
             thread::scope(|scope| {
                 for (number, replica) in group.members().iter().zip(replicas) {
-                    scope.spawn(move || attend(*number, Some(replica)));
+                    scope.spawn(move || simulate(*number, Some(replica)));
                 }
             });
         };
-        at_once(&groups, jobs, &interrupt, together, |_, (number, message)| {
+        at_once(&groups, jobs, &interrupt, work_on_group, |_, (number, message)| {
             let run = members[number].name.as_str();
             match message {
                 Message::Begun(first_step) => observer(StudyEvent::Begun { run, first_step }),

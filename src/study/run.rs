@@ -45,8 +45,8 @@ pub enum StudyEvent<'a, E, P> {
         adapter: &'a AdapterDescription,
         /// Runs that are not finished yet.
         runs: usize,
-        /// How many of them, or groups of them that are advanced together, run at once.
-        jobs: usize,
+        /// How many of them run at once, at most.
+        at_once: usize,
         /// Seconds that they are expected to take, where that is known.
         seconds: Option<f64>,
     },
@@ -267,6 +267,11 @@ impl<R: Record> StudyRun<R> {
     pub(crate) fn replicas_for(&self, scene: &Checked, runs: usize, gpu: &Gpu) -> usize {
         let default = || default_replicas(gpu.description(), scene.model().particle_count(), runs);
         self.replicas.unwrap_or_else(default)
+    }
+
+    /// The number of runs that are under way at once, at most, in so many jobs.
+    pub(crate) fn under_way(&self, jobs: usize, scene: &Checked, runs: usize, gpu: &Gpu) -> usize {
+        (jobs * self.replicas_for(scene, runs, gpu)).clamp(1, runs.max(1))
     }
 
     /// The number of runs, or of groups of runs that are advanced together, that are under way at once, of so many runs of which this scene is the

@@ -3,10 +3,12 @@
 use super::averages::averages;
 use super::look::Look;
 use super::summary::SweepSummary;
+use super::variant::VariantSummary;
 use crate::families::Checked;
 use crate::gpu::{AdapterChoice, Gpu, Requirements};
 use crate::run::{self, RunError};
 use crate::study::{Member, Observer, StudyError, StudyEvent, StudyOutcome, StudyRun, Variant};
+use std::convert::Infallible;
 
 /// Particles times steps that no adapter takes more than some minutes for.
 const WORTH_TIMING: f64 = 1e8;
@@ -58,7 +60,7 @@ impl StudyRun<SweepSummary> {
             self.summary.adapter = Some(gpu.description().into());
         }
         self.summarise()?;
-        observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds });
+        observer(self.started(&waiting, jobs, &gpu, seconds));
         let failures = self.run_all(&waiting, jobs, adapter, observer, &Self::summarise)?;
         let StudyOutcome { summary, files } = self.finish(&place, &gpu, observer)?;
         Ok(SweepOutcome { summary, failures, files })
@@ -79,6 +81,19 @@ impl StudyRun<SweepSummary> {
     /// How many of these variants are to run at once.
     pub(super) fn jobs_of(&self, waiting: &[usize], gpu: &Gpu) -> usize {
         self.largest(waiting).map_or(1, |variant| self.jobs_for(&variant.scene, waiting.len(), gpu))
+    }
+
+    /// The event of a start with these variants.
+    pub(super) fn started<'g>(
+        &self,
+        waiting: &[usize],
+        jobs: usize,
+        gpu: &'g Gpu,
+        seconds: Option<f64>,
+    ) -> StudyEvent<'g, VariantSummary, Infallible> {
+        let runs = waiting.len();
+        let at_once = self.largest(waiting).map_or(1, |variant| self.under_way(jobs, &variant.scene, runs, gpu));
+        StudyEvent::Started { adapter: gpu.description(), runs, at_once, seconds }
     }
 
     /// The variant of the most particles of some.

@@ -63,7 +63,7 @@ impl StudyRun<SweepSummary> {
         let jobs = self.jobs_of(&waiting, &gpu);
         self.summary.adapter = Some(gpu.description().into());
         self.note(&place, shard, &own)?;
-        observer(StudyEvent::Started { adapter: gpu.description(), runs: waiting.len(), jobs, seconds: None });
+        observer(self.started(&waiting, jobs, &gpu, None));
         let ended = self.run_all(&waiting, jobs, adapter, observer, &|sweep| sweep.note(&place, shard, &own));
         let mut failures = match ended {
             Err(StudyError::Interrupted { .. }) => {

@@ -98,7 +98,8 @@ impl StudyRun<TradeoffSummary> {
         self.summary.adapter = Some(gpu.description().into());
         self.save()?;
         let (count, seconds) = (waiting.len(), (!waiting.is_empty()).then_some(seconds));
-        observer(StudyEvent::Started { adapter: gpu.description(), runs: count, jobs, seconds });
+        let at_once = self.under_way(jobs, largest, waiting.len(), &gpu);
+        observer(StudyEvent::Started { adapter: gpu.description(), runs: count, at_once, seconds });
         loop {
             self.advance(&runs, jobs, adapter, observer)?;
             self.save()?;
