@@ -69,8 +69,9 @@ impl Engine<'_> {
         let kernels = [self.plan.sort.as_slice(), &self.plan.before_report, &self.plan.advance].concat();
         let mut times = vec![Vec::new(); kernels.len()];
         for _ in 0..steps {
-            if self.step == u64::MAX || self.tidies() || self.plan.samplers.iter().any(|sampler| sampler.due(self.step))
-            {
+            let samples = self.plan.samplers.iter().any(|sampler| sampler.due(self.step));
+            // A dispatch of a replica is one of others, too.
+            if self.replica.is_some() || self.step == u64::MAX || self.tidies() || samples {
                 self.advance(1, 1)?;
                 continue;
             }
