@@ -13,7 +13,7 @@ pub struct Column {
 /// The value of a column in a row.
 #[derive(Debug, Clone, Copy)]
 enum Value {
-    /// A number, given the time step.
+    /// A number, given the time.
     Number(fn(&Observables, f64) -> f64),
     /// A component of a vector.
     Component(fn(&Observables) -> [f64; 3], usize),
@@ -22,10 +22,10 @@ enum Value {
 }
 
 impl Column {
-    /// Its value in a row, given the time step.
-    pub(crate) fn value(&self, row: &Observables, time_step: f64) -> f64 {
+    /// Its value in a row, given the time of that.
+    pub(crate) fn value(&self, row: &Observables, time: f64) -> f64 {
         match self.value {
-            Value::Number(number) => number(row, time_step),
+            Value::Number(number) => number(row, time),
             Value::Component(vector, axis) => vector(row)[axis],
             Value::OnWall(wall, axis) => row.on_walls.momentum[wall][axis],
         }
@@ -44,7 +44,7 @@ fn components(names: [&'static str; 3], dimension: usize, vector: fn(&Observable
 }
 
 /// Time.
-pub(crate) const TIME: Column = column("time", |row, step| row.step as f64 * step);
+pub(crate) const TIME: Column = column("time", |_, time| time);
 /// Kinetic energy.
 pub(crate) const KINETIC_ENERGY: Column = column("kinetic_energy", |row, _| row.kinetic_energy);
 /// Potential energy.

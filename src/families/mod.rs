@@ -23,6 +23,7 @@ pub mod shallow_water;
 mod speeds;
 mod start;
 mod tally;
+mod time_axis;
 mod units;
 pub mod voronoi;
 mod warnings;
@@ -65,6 +66,7 @@ pub(crate) use shallow_water::model::{LARGEST_DEPTH, chebyshev_iterations};
 pub use shallow_water::model::{ShallowWater, Tracers};
 pub use start::{initial_state, start_in_words};
 pub(crate) use tally::{Counted, Tally};
+pub use time_axis::TimeAxis;
 pub use voronoi::model::Voronoi;
 pub use warnings::warnings;
 

@@ -1,6 +1,6 @@
 //! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
 
-use super::{Family, Particles, Physics, PictureKind, ShallowWater, Voronoi, particles, speeds};
+use super::{Family, Particles, Physics, PictureKind, ShallowWater, TimeAxis, Voronoi, particles, speeds};
 use crate::document::{Distribution, Generator, Output, Scene};
 use crate::noise;
 use crate::plan::{Plan, Quanta, StateLayout};
@@ -50,6 +50,8 @@ pub struct Model {
     pub temperature: f64,
     /// Time step.
     pub time_step: f64,
+    /// The times of its steps.
+    pub time: TimeAxis,
     /// Seed of all random numbers.
     pub seed: u64,
     /// Steps of an earlier run before the first, where it goes on with one.
@@ -111,6 +113,7 @@ impl Model {
             species,
             temperature: scene.temperature,
             time_step: scene.time.step,
+            time: TimeAxis { step: 0, time: 0.0, interval: scene.time.step },
             seed: scene.noise_seed(),
             steps_before: earlier.map_or(0, |earlier| earlier.steps),
             generator: scene.noise.generator,

@@ -1,7 +1,7 @@
 //! The rows of the table of energies, and the means of its columns.
 
 use super::settling;
-use crate::families::{Checked, Column, column};
+use crate::families::{Checked, Column, TimeAxis, column};
 use crate::measure::Observables;
 use crate::measure::statistics::{Estimate, estimate};
 use crate::output::{Summary, files};
@@ -13,7 +13,7 @@ pub(super) struct EnergyRows {
     rows: Vec<Vec<f64>>,
     /// Σ|∇V|² and Σ∇²V of every row after equilibration: an average of the configurational temperature needs both.
     pub configuration: Vec<[f64; 2]>,
-    time_step: f64,
+    time: TimeAxis,
     pub equilibration: u64,
 }
 
@@ -27,7 +27,7 @@ impl EnergyRows {
     pub(super) fn continued(scene: &Checked, rows: Vec<Vec<f64>>, configuration: Vec<[f64; 2]>) -> Self {
         let model = scene.model();
         let columns = model.physics().columns(model);
-        Self { columns, rows, configuration, time_step: scene.time.step, equilibration: scene.time.equilibration }
+        Self { columns, rows, configuration, time: model.time, equilibration: scene.time.equilibration }
     }
 
     /// Leaves the rows before a step out of means, as those before equilibration: something else was measured there.
@@ -38,7 +38,8 @@ impl EnergyRows {
 
     /// Adds a row, and gives its numbers without the step.
     pub(super) fn add(&mut self, observables: &Observables) -> Vec<f64> {
-        let cells: Vec<f64> = self.columns.iter().map(|column| column.value(observables, self.time_step)).collect();
+        let time = self.time.at(observables.step);
+        let cells: Vec<f64> = self.columns.iter().map(|column| column.value(observables, time)).collect();
         self.rows.push(std::iter::once(observables.step as f64).chain(cells.iter().copied()).collect());
         if observables.step >= self.equilibration {
             self.configuration.push([observables.gradient_squared, observables.laplacian]);

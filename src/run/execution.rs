@@ -322,7 +322,7 @@ impl<'a> Execution<'a> {
             _ => self.directory.file(&files::snapshot(number)).exists(),
         };
         let numbered = self.schedule.numbered().filter(|(number, _)| is_there(*number));
-        let frame = |(number, step)| NumberedFrame { number, step, time: step as f64 * model.time_step };
+        let frame = |(number, step)| NumberedFrame { number, step, time: model.time.at(step) };
         summary.numbered = numbered.map(frame).collect();
         if let Some((nodes, quantities)) = model.physics().fields(self.scene) {
             for (name, held) in files::field_arrays(&fields, None) {

@@ -12,12 +12,13 @@ pub(super) fn write(
     pictures: &MeshPictures,
     scene: &Scene,
     step: u64,
+    time: f64,
 ) -> Result<(), OutputError> {
     let format = scene.output.fields.as_ref().map(|asked| asked.format).unwrap_or_default();
     let mut fields = pictures.fields.iter().filter(|shown| held.contains(&shown.quantity));
     match format {
         FieldFormat::Netcdf => {
-            let file = netcdf(&fields.collect::<Vec<_>>(), pictures, scene, step);
+            let file = netcdf(&fields.collect::<Vec<_>>(), pictures, scene, step, time);
             write_atomically(path, |writer| file.write_to(writer))
         }
         FieldFormat::Npy => {
@@ -32,7 +33,7 @@ fn texts(all: &[(&str, &str)]) -> Vec<(String, NetcdfValue)> {
 }
 
 /// A file of the fields of one time, by the CF conventions. All numbers are in units of the scene, which have no dimension.
-fn netcdf(fields: &[&ShownField], pictures: &MeshPictures, scene: &Scene, step: u64) -> NetcdfFile {
+fn netcdf(fields: &[&ShownField], pictures: &MeshPictures, scene: &Scene, step: u64, time: f64) -> NetcdfFile {
     let (nodes, lengths) = fields.first().map_or(([0; 2], [0.0; 2]), |shown| (shown.field.nodes, shown.field.lengths));
     let [columns, rows] = nodes;
     let program = format!("mesoscope {}", env!("CARGO_PKG_VERSION"));
@@ -57,7 +58,7 @@ fn netcdf(fields: &[&ShownField], pictures: &MeshPictures, scene: &Scene, step: 
         (0..nodes[axis]).map(|node| node as f64 * spacing).collect()
     };
     let mut variables = vec![
-        coordinate("time", 0, "T", "time in units of the scene", vec![step as f64 * scene.time.step]),
+        coordinate("time", 0, "T", "time in units of the scene", vec![time]),
         coordinate("y", 1, "Y", "y in length units", nodes_along(1)),
         coordinate("x", 2, "X", "x in length units", nodes_along(0)),
     ];

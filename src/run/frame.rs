@@ -66,7 +66,7 @@ impl Frame {
         });
         Self {
             step,
-            time: step as f64 * model.time_step,
+            time: model.time.at(step),
             lengths: edges[..units.dimension].to_vec(),
             periodic: units.gaps[..units.dimension].iter().map(|gap| *gap == 0.0).collect(),
             displacement,

@@ -241,7 +241,7 @@ impl<'a> Pictures<'a> {
             let path = self.directory.file(&name);
             // Those that are there are the run's.
             if self.arrays.is_some() || !path.exists() {
-                field_arrays::write(&path, &held, &pictures, self.scene, state.step)?;
+                field_arrays::write(&path, &held, &pictures, self.scene, state.step, model.time.at(state.step))?;
                 if let Some(arrays) = &mut self.arrays {
                     arrays.push((name.clone(), Extent::of(&path)?));
                 }

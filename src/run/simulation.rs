@@ -343,7 +343,7 @@ impl Simulation {
     /// The time of the current step, in units of the scene.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.step() as f64 * self.scene.time.step
+        self.scene.model().time.at(self.step())
     }
 
     /// Takes steps, and returns when the device has done them. It may go beyond the steps of the scene.
@@ -538,7 +538,7 @@ impl Simulation {
         let Some(sample) = self.sampled.iter().find(|sample| sample.sampler == 0) else { return Ok(Vec::new()) };
         let (row, model) = (self.observables_in(sample), self.scene.model());
         let columns = model.physics().columns(model);
-        Ok(columns.iter().map(|column| (column.name, column.value(&row, self.scene.time.step))).collect())
+        Ok(columns.iter().map(|column| (column.name, column.value(&row, self.time()))).collect())
     }
 
     /// One of these numbers; none of a name that no column has.

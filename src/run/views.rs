@@ -205,7 +205,7 @@ impl<'a> Views<'a> {
 
 /// The time of a state.
 fn at_time(state: &Reported, model: &Model) -> String {
-    format!("t = {} time units", rounded(state.step as f64 * model.time_step))
+    format!("t = {} time units", rounded(model.time.at(state.step)))
 }
 
 /// Mass of the lightest species that has particles.

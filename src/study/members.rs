@@ -111,7 +111,8 @@ impl<R: Record> StudyRun<R> {
         };
         let groups = self.groups(members, adapter);
         let work_on_group = |group: &Group, report: &(dyn Fn((usize, Message)) + Sync)| {
-            let simulate = |number: usize, replica| work(&members[number], replica, &|message| report((number, message)));
+            let simulate =
+                |number: usize, replica| work(&members[number], replica, &|message| report((number, message)));
             let Some(replicas) = group.replicas() else {
                 for number in group.members().iter().take_while(|_| !interrupt.is_asked()) {
                     simulate(*number, None);

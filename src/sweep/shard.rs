@@ -5,7 +5,7 @@ use super::summary::SweepSummary;
 use super::variant::{VariantState, VariantSummary};
 use crate::gpu::AdapterChoice;
 use crate::output::RunDirectory;
-use crate::study::{self, Observer, Record, SHARD_RECORD, Shard, StudyError, StudyEvent, StudyRun};
+use crate::study::{self, Observer, Record, SHARD_RECORD, Shard, StudyError, StudyRun};
 use serde_json::json;
 
 impl StudyRun<SweepSummary> {

@@ -77,7 +77,7 @@ fn write_frame(text: &mut Vec<u8>, description: &Description, state: &Reported) 
     let [x, y, z] = description.units.edges();
     let is_periodic = |axis: usize| axis < description.units.dimension.max(1) && description.units.gaps[axis] == 0.0;
     let periodic = [0, 1, 2].map(|axis| if is_periodic(axis) { "T" } else { "F" }).join(" ");
-    let time = state.step as f64 * description.time_step;
+    let time = description.time.at(state.step);
     let is_bad = |character: char| character.is_whitespace() || character.is_control();
     // Each as one word of the format.
     let word = |name: &str| if name.is_empty() { "_".to_owned() } else { name.replace(is_bad, "_") };

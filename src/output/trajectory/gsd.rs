@@ -124,7 +124,7 @@ impl Frames for GsdTrajectory {
                 frame.scalars("particles/mass", masses)?;
             }
             frame.scalars("configuration/step", [state.step])?;
-            frame.scalars("log/time", [state.step as f64 * description.time_step])?;
+            frame.scalars("log/time", [description.time.at(state.step)])?;
             let lean = description.displaced(state.step);
             let positions = state.positions.iter().map(|position| match lean {
                 Some(lean) => leaning(description, *position, lean),
@@ -397,7 +397,7 @@ fn refused(attempted: &'static str, path: &Path, error: GsdError) -> OutputError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::families::Kinematics;
+    use crate::families::{Kinematics, TimeAxis};
     use crate::state::Units;
 
     #[test]
@@ -414,7 +414,7 @@ mod tests {
         let description = Description {
             run: Id::of_sweep([]),
             units,
-            time_step: 0.1,
+            time: TimeAxis { step: 0, time: 0.0, interval: 0.1 },
             species: Vec::new(),
             kinematics: Kinematics::default(),
             changing_masses: false,

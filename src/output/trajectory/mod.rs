@@ -4,7 +4,7 @@ mod extended_xyz;
 mod gsd;
 
 use super::{Extent, Id, OutputError, files, own_file};
-use crate::families::{Angles, Bonds, Kinematics, Model, ShearedBox, Species};
+use crate::families::{Angles, Bonds, Kinematics, Model, ShearedBox, Species, TimeAxis};
 use crate::scene::TrajectoryFormat;
 use crate::state::{Reported, Units};
 use std::fmt::Debug;
@@ -96,7 +96,7 @@ trait Frames: Debug + Send {
 struct Description {
     run: Id,
     units: Units,
-    time_step: f64,
+    time: TimeAxis,
     species: Vec<Species>,
     kinematics: Kinematics,
     /// Whether particles exchange mass.
@@ -117,7 +117,7 @@ impl Description {
         Self {
             run,
             units: model.units,
-            time_step: model.time_step,
+            time: model.time,
             species: model.species.clone(),
             kinematics: Kinematics::new(model),
             changing_masses: model.physics().changes_masses(),

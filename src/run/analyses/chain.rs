@@ -1,7 +1,7 @@
 //! What a run of harmonic chains measures and writes.
 
 use super::{Conclusion, Descriptor, Drawn, Gathered, Part, Sampling, Setting};
-use crate::families::{ChainTrios, Checked, Likeness, Strand};
+use crate::families::{ChainTrios, Checked, Likeness, Strand, TimeAxis};
 use crate::measure::harmonic_chain::{MemoryKernel, NormalModes, Pulse, ThermalSeries, equilibrium, half_pulses};
 use crate::measure::statistics::Estimate;
 use crate::plot::{
@@ -72,7 +72,7 @@ impl Descriptor for Chain {
             ThermalSeries::from_parts(momenta, separations, history.as_chunks().0)
         });
         let interval = scene.output.chain.as_ref()?.every as f64 * model.time_step;
-        let pulses = pulses.map(|numbers| PulseSample::new(numbers, &trios, model.time_step)).collect();
+        let pulses = pulses.map(|numbers| PulseSample::new(numbers, &trios, model.time)).collect();
         let chains = Chains { trios: &trios, interval, pulses, thermal };
         let kernels = chains.kernels();
         let pulse = chains.pulse();
@@ -129,8 +129,8 @@ struct PulseSample<'a> {
 }
 
 impl<'a> PulseSample<'a> {
-    fn new(numbers: &'a [f64], trios: &ChainTrios, time_step: f64) -> Self {
-        let time = numbers[0] * time_step;
+    fn new(numbers: &'a [f64], trios: &ChainTrios, time: TimeAxis) -> Self {
+        let time = time.at_sample(numbers[0]);
         Self {
             time,
             reduced_time: time / trios.pulse.cluster_time(),

@@ -67,7 +67,7 @@ impl Descriptor for ChainSizes {
         let columns =
             (0..groups.len()).flat_map(|number| [END_TO_END, GYRATION].map(|quantity| format!("{quantity}_{number}")));
         let rows = gathered.part(0).chunks_exact(1 + 2 * groups.len());
-        let rows = rows.map(|row| [&[row[0] * model.time_step], &row[1..]].concat()).collect();
+        let rows = rows.map(|row| [&[model.time.at_sample(row[0])], &row[1..]].concat()).collect();
         let table = Table::new(std::iter::once("time".to_owned()).chain(columns), rows);
         let sizes = |(number, group): (usize, &ChainGroup)| {
             let [end_to_end, gyration] =

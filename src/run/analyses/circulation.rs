@@ -63,7 +63,7 @@ impl Descriptor for Circulation {
         let model = scene.model();
         let MaterialLoops { rotation, spacing, loops, .. } = model.physics().material_loops(model)?;
         let halves = |word: &i64| [*word as u32, (*word >> 32) as u32];
-        let mut row = vec![sample.step as f64 * model.time_step];
+        let mut row = vec![model.time.at(sample.step)];
         for (_, range) in loops {
             let (mut positions, mut velocities) = (Vec::new(), Vec::new());
             for point in sample.sums.get(2 * range.start..2 * range.end)?.chunks_exact(2) {

@@ -51,7 +51,7 @@ impl Descriptor for Clusters {
     fn conclude(&self, Setting { scene, .. }: &Setting<'_>, gathered: &Gathered) -> Option<Conclusion> {
         let (model, asked) = (scene.model(), scene.output.clusters.as_ref()?);
         let rows = gathered.part(0).chunks_exact(5);
-        let rows = rows.map(|row| [&[row[0] * model.time_step], &row[1..]].concat()).collect();
+        let rows = rows.map(|row| [&[model.time.at_sample(row[0])], &row[1..]].concat()).collect();
         let over_time = Table::new(["time"].into_iter().chain(COLUMNS), rows);
         let samples = gathered.samples();
         let particles = members(asked, model) as f64;

@@ -88,10 +88,11 @@ impl Wave<'_> {
     /// Unit of time of a sample, and of the first.
     fn times(&self) -> [f64; 2] {
         match *self.samples {
-            [[first, _], [second, _], ..] => [second - first, first],
+            [[first, _], [second, _], ..] => {
+                [(second - first) * self.model.time_step, self.model.time.at_sample(first)]
+            }
             _ => [f64::NAN; 2],
         }
-        .map(|steps| steps * self.model.time_step)
     }
 
     fn decay(&self) -> Option<WaveDecay> {
@@ -120,7 +121,7 @@ impl Wave<'_> {
     fn table(&self, decay: Option<&WaveDecay>) -> Table {
         let [_, first] = self.times();
         let row = |[step, amplitude]: &[f64; 2]| {
-            let time = step * self.model.time_step;
+            let time = self.model.time.at_sample(*step);
             vec![time, *amplitude, decay.map_or(f64::NAN, |decay| decay.at(time - first))]
         };
         Table::new(["time", "amplitude", "fit"], self.samples.iter().map(row).collect())

@@ -213,7 +213,7 @@ impl Tensors<'_> {
         let rows = self.samples.iter().map(|sample| {
             let tensors = [whole(sample), part(sample, 0), part(sample, 1), part(sample, 2)];
             let numbers = tensors.iter().flat_map(|tensor| self.components().map(|(_, index)| tensor[index]));
-            std::iter::once(sample[0] * self.model.time_step).chain(numbers).collect()
+            std::iter::once(self.model.time.at_sample(sample[0])).chain(numbers).collect()
         });
         Table::new(std::iter::once("time".to_owned()).chain(columns), rows.collect())
     }
