@@ -112,12 +112,19 @@ def run(
 
 
 def resume(
-    directory: str | os.PathLike[str], *, steps: int | None = None, adapter: str | None = None, progress: Any = True
+    directory: str | os.PathLike[str],
+    settings: Mapping[str, Any] | None = None,
+    *,
+    steps: int | None = None,
+    adapter: str | None = None,
+    progress: Any = True,
 ) -> Run:
-    """Goes on with the run in a directory from its last checkpoint, up to ``steps`` where that is given."""
+    """Goes on with the run in a directory from its last checkpoint, up to ``steps`` where that is given; with ``settings`` in a new stage of the
+    run, in which these numbers of its scene are others.
+    """
     report, close = _reporter(progress)
     try:
-        _mesoscope.resume(Path(directory), steps=steps, adapter=adapter, report=report)
+        _mesoscope.resume(Path(directory), overrides(settings), steps=steps, adapter=adapter, report=report)
     finally:
         close()
     return Run(directory)

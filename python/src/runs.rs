@@ -164,17 +164,20 @@ pub fn run_scene(
     execute(py, run, adapter, report.as_ref())
 }
 
-/// Goes on with the run in a directory.
+/// Goes on with the run in a directory, in a new stage where numbers change.
 #[pyfunction]
-#[pyo3(signature = (directory, *, steps=None, adapter=None, report=None))]
+#[pyo3(signature = (directory, settings, *, steps=None, adapter=None, report=None))]
 pub fn resume(
     py: Python<'_>,
     directory: PathBuf,
+    settings: Vec<String>,
     steps: Option<u64>,
     adapter: Option<&str>,
     report: Option<Py<PyAny>>,
 ) -> PyResult<()> {
-    let run = Run::resume(directory, steps).map_err(|error| errors::of_run(py, &error))?;
+    let run = Run::resume(directory, steps)
+        .and_then(|run| if settings.is_empty() { Ok(run) } else { run.in_new_stage(&settings) });
+    let run = run.map_err(|error| errors::of_run(py, &error))?;
     if run.is_finished() {
         return Ok(());
     }

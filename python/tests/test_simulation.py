@@ -288,6 +288,8 @@ except KeyboardInterrupt as error:
     end = reached + 600  # More than the steps to equilibrium, however soon the signal came.
     run = ms.resume("run", steps=end, progress=False)
     assert run.steps == end
+    run = ms.resume("run", {"temperature": 0.5}, steps=end + 20, progress=False)
+    assert [stage["last_step"] for stage in run.summary["stages"]] == [end, end + 20]
 
 
 ADVANCING = "import threading; threading.Thread(target=sim.advance, args=(10**5,), daemon=True).start(); time.sleep(.5)"

@@ -74,6 +74,7 @@ impl EventLines {
             Event::Repeating { from, reason, with } => {
                 write(&json!({"event": "repeating", "from_step": from, "reason": reason, "with": with}));
             }
+            Event::Stage { number, of } => write(&json!({"event": "stage", "number": number + 1, "of": of})),
             Event::Finishing => write(&json!({"event": "finishing"})),
             _ => {}
         }

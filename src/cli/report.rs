@@ -145,6 +145,7 @@ impl Reporter {
             Event::Repeating { from, reason, with } => {
                 say(&self.bar, &format!("note: {reason}; continuing from step {} with {with}", grouped(from)));
             }
+            Event::Stage { number, of } => say(&self.bar, &format!("stage {} of {of}", number + 1)),
             Event::Warned { warning } => {
                 say(&self.bar, &format!("warning: {warning}"));
                 self.told.push(warning.to_owned());

@@ -17,13 +17,15 @@ use super::{Failure, RanksArgument, guidance, heading, print, processes, whole_n
 #[command(after_help = "\
 Examples:
   mesoscope resume dpd-fluid                 finish a run that was interrupted
-  mesoscope resume dpd-fluid --steps 50000   continue to step 50000")]
+  mesoscope resume dpd-fluid --steps 50000   continue to step 50000
+  mesoscope resume dpd-fluid --steps 60000 --set temperature=0.5
+                                             with another temperature, as a new stage")]
 pub struct Arguments {
     /// Directory of the run
     directory: PathBuf,
 
-    /// A run continues with the scene that it began with.
-    #[arg(long, value_name = "PATH=VALUE", hide = true)]
+    /// Change a number of the scene from here on, in a new stage of the run; may be repeated
+    #[arg(long, help_heading = heading::SCENE, value_name = "PATH=VALUE")]
     set: Vec<String>,
 
     /// Step at which to stop [default: the number of steps in the scene]
@@ -48,12 +50,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 
 fn resume(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<(), Failure> {
     let shown = printable::path(&arguments.directory);
-    if let Some(change) = arguments.set.first() {
-        return Err(Failure::usage(format!(
-            "`--set {change}`: a run continues with the scene that it began with; `--steps N` makes it longer, and a scene with \
-             \"state\": {{\"file\": \"{shown}\"}} starts a run with other values where this one ended"
-        )));
-    }
     guidance::check_directory(&arguments.directory)?;
     let is_run = arguments.directory.join(files::CHECKPOINT).exists();
     if let Some(kind) = Kind::of(&arguments.directory).filter(|_| !is_run) {
@@ -65,6 +61,7 @@ fn resume(arguments: &Arguments, processes: Option<&dyn Processes>) -> Result<()
         )));
     }
     let resumed = Run::resume(&arguments.directory, arguments.steps)?;
+    let resumed = if arguments.set.is_empty() { resumed } else { resumed.in_new_stage(&arguments.set)? };
     if resumed.is_finished() {
         let step = resumed.first_step();
         let state = if step > resumed.scene().time.steps { "has reached" } else { "is finished at" };

@@ -106,6 +106,12 @@ impl Output {
         Self { energies: self.energies.clone(), ..Self::default() }
     }
 
+    /// The same without analyses: with tables, frames, pictures and checkpoints.
+    pub(crate) fn without_analyses(&self) -> Self {
+        let Self { energies, plot, snapshot, checkpoint, trajectory, fields, .. } = self.clone();
+        Self { energies, plot, snapshot, checkpoint, trajectory, fields, ..Self::default() }
+    }
+
     /// The analyses that it asks for by keys of their own, and of a list of quantities in the order of the list.
     pub(crate) fn analyses(&self) -> Vec<AnalysisId> {
         let keys = [

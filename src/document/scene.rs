@@ -3,7 +3,7 @@
 use super::defaults::whole;
 use super::{
     Change, DpdInteraction, EarlierRun, FileStart, Generator, Interaction, KeptStart, MeshFields, Molecule,
-    NumberedGroup, Origin, Output, ParticleGroup, Shear, StateFile, StateVelocities, System, Walls,
+    NumberedGroup, Origin, Output, ParticleGroup, Shear, Stage, StateFile, StateVelocities, System, Walls,
 };
 use crate::noise::seed_from_state;
 use schemars::JsonSchema;
@@ -65,6 +65,11 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 64))]
     pub announced: Vec<Announced>,
+    /// Stages of the run, one after the other, which share its steps among them: `time.steps` is the sum of theirs. Analyses are of the
+    /// last one, and means too; the table of energies, frames and pictures are of all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[schemars(length(max = 256))]
+    pub stages: Vec<Stage>,
     /// What was read of the file of `state`, or follows from `molecules`.
     #[serde(skip)]
     pub kept: KeptStart,
@@ -81,7 +86,15 @@ pub struct Announced {
     pub largest: f64,
 }
 
-/// States in the schema that a scene says how large its box is and how many particles are in a group, or that a file or molecules do.
+/// Takes zero, which is no default of anybody, out of the schema.
+fn without_default(schema: &mut schemars::Schema) {
+    if let Some(steps) = schema.pointer_mut("/properties/steps").and_then(serde_json::Value::as_object_mut) {
+        steps.remove("default");
+    }
+}
+
+/// States in the schema that a scene says how large its box is and how many particles are in a group, or that a file or molecules do; and
+/// how many steps there are, or that stages do.
 fn amounts_or_a_file(schema: &mut schemars::Schema) {
     let listed = serde_json::json!({
         "required": ["placement"],
@@ -103,6 +116,12 @@ fn amounts_or_a_file(schema: &mut schemars::Schema) {
         "else": {"properties": {"particles": {"items": amount}}},
     });
     schema.insert("else".to_owned(), otherwise);
+    // The steps of stages are those of the run.
+    let steps = serde_json::json!({
+        "if": {"required": ["stages"]},
+        "else": {"properties": {"time": {"required": ["steps"]}}},
+    });
+    schema.insert("allOf".to_owned(), serde_json::json!([steps]));
     if let Some(space) = schema.pointer_mut("/properties/space").and_then(serde_json::Value::as_object_mut) {
         // A box of no edges is none.
         space.remove("default");
@@ -241,11 +260,13 @@ pub struct Space {
 /// Time step and duration.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(transform = without_default)]
 pub struct Time {
     /// Time step.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub step: f64,
-    /// Number of steps.
+    /// Number of steps; of a run with stages the sum of theirs, which may be left out.
+    #[serde(default)]
     pub steps: u64,
     /// Steps at the start that averages and correlations leave out.
     #[serde(default)]

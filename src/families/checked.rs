@@ -1,6 +1,6 @@
 //! A scene with its model.
 
-use super::Model;
+use super::{Model, TimeAxis};
 use crate::document::{Scene, Warning};
 use crate::plan::Plan;
 use serde::{Serialize, Serializer};
@@ -48,6 +48,13 @@ impl Checked {
     /// The same with what was done to the scene that somebody wrote.
     pub(crate) fn noting(self, notices: Vec<Warning>) -> Self {
         Self(Arc::new(Content { notices, ..Arc::unwrap_or_clone(self.0) }))
+    }
+
+    /// The same with other times of steps.
+    pub(crate) fn with_times(self, times: TimeAxis) -> Self {
+        let mut content = Arc::unwrap_or_clone(self.0);
+        content.model.time = times;
+        Self(Arc::new(content))
     }
 
     /// The parts of the scene that were shortened to suit its number of steps, and those of its file that are not used.

@@ -1,7 +1,7 @@
 //! What distinguishes the files of one run from those of another.
 
 use super::OutputError;
-use crate::scene::Scene;
+use crate::scene::{Scene, Stage};
 use crate::state_file::checkpoint::Fnv;
 use serde::{Deserialize, Serialize};
 use std::fmt;
@@ -124,11 +124,16 @@ fn sum_of(runs: impl IntoIterator<Item = Id>) -> Fnv {
 
 /// Number of characters of an id.
 pub(super) const LENGTH: usize = 17;
-/// Whether two scenes are those of one run, however many steps they have.
+/// Whether two scenes are those of one run, however many steps they have, and further stages.
 pub(crate) fn of_one_run(one: &Scene, other: &Scene) -> bool {
+    let [mine, theirs] = [one, other].map(Scene::stages_of_run);
+    let common = mine.len().min(theirs.len());
+    // The last that both have may have become longer, or shorter where another one followed.
+    let last = |stages: &[Stage]| Stage { steps: 0, ..stages[common - 1].clone() };
     let mut as_long = one.clone();
     as_long.time.steps = other.time.steps;
-    as_long == *other
+    as_long.stages.clone_from(&other.stages);
+    as_long == *other && mine[..common - 1] == theirs[..common - 1] && last(&mine) == last(&theirs)
 }
 
 /// What files call the id of a run.

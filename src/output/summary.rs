@@ -51,6 +51,9 @@ pub struct Summary {
     /// Changes between its steps, of a simulation that is stepped.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub changes: Vec<Change>,
+    /// The stages of the run, if it has some.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<StageSummary>,
     /// Number of particles.
     pub particles: u64,
     /// What the particles of a file or of molecules are, and what acts on which of them.
@@ -92,6 +95,25 @@ pub struct Summary {
     pub files: Option<Vec<String>>,
     /// The scene with every default filled in.
     pub scene: Scene,
+}
+
+/// A stage of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StageSummary {
+    /// Its first step.
+    pub first_step: u64,
+    /// The step that it ends with, which is the first of the next stage.
+    pub last_step: u64,
+    /// The times of both, in time units.
+    pub times: [f64; 2],
+    /// The numbers that change where it begins, by their paths in the scene.
+    pub set: serde_json::Map<String, serde_json::Value>,
+    /// Those that go along a line, with their first and last values.
+    #[serde(default, skip_serializing_if = "serde_json::Map::is_empty")]
+    pub ramp: serde_json::Map<String, serde_json::Value>,
+    /// Mean of each column of the table of energies over its rows; null where a column has no values. Those of the last stage are the
+    /// means of the run.
+    pub means: serde_json::Map<String, serde_json::Value>,
 }
 
 /// A numbered picture, or the numbered arrays of a mesh.
@@ -320,6 +342,7 @@ impl Summary {
             ranks: None,
             start: None,
             changes: Vec::new(),
+            stages: Vec::new(),
             particles,
             composition: Vec::new(),
             steps: 0,
@@ -397,13 +420,19 @@ impl Summary {
 
     /// Adds the mean of a column; `None` where the column has no values.
     pub fn add_mean(&mut self, column: &str, estimate: Option<&Estimate>) {
+        let value = self.mean_with_unit(column, estimate);
+        self.means.insert(column.to_owned(), value);
+    }
+
+    /// A mean as the summary writes it.
+    pub(crate) fn mean_with_unit(&self, column: &str, estimate: Option<&Estimate>) -> serde_json::Value {
         // Plain numbers and nothing else: this conversion cannot fail.
         let mut value = serde_json::to_value(estimate).unwrap_or_default();
         if let (Some(number), Some(quantity)) = (value.as_object_mut(), Quantity::of_column(column)) {
             let unit = quantity.unit.in_words(Some(self.scene.space.lengths.len()));
             number.insert("unit".to_owned(), unit.into());
         }
-        self.means.insert(column.to_owned(), value);
+        value
     }
 
     /// Writes the summary as JSON for people, keys in the order of the fields.

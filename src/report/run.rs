@@ -1,7 +1,7 @@
 //! The page of a run.
 
 use super::entry::{Difference, Entry, TextTable, WIDTH, in_a_line, inside, pictures};
-use crate::numbers::{grouped, prefixed, with_error};
+use crate::numbers::{counted, grouped, prefixed, with_error};
 use crate::output::{Found, OutputError, Summary, files, read_table};
 use crate::run::printed_results;
 use crate::scene::{self, WrittenScene};
@@ -48,7 +48,14 @@ fn describe(entry: &mut Entry, directory: &Path, summary: &Summary) {
         entry.add_fact("", line.clone());
     }
     let (steps, step) = (summary.steps, scene.time.step);
-    entry.add_fact("steps", format!("{} of {step}, to t = {}", grouped(steps), with_error(steps as f64 * step, None)));
+    if let Some(last) = summary.stages.last() {
+        let stages = counted(summary.stages.len() as u64, "stage");
+        let time = with_error(last.times[1], None);
+        entry.add_fact("steps", format!("{} in {stages}, to t = {time}", grouped(steps)));
+    } else {
+        let time = with_error(steps as f64 * step, None);
+        entry.add_fact("steps", format!("{} of {step}, to t = {time}", grouped(steps)));
+    }
     entry.add_fact("equilibration", format!("{} steps, which means leave out", grouped(scene.time.equilibration)));
     entry.add_fact("temperature", scene.temperature.to_string());
     entry.add_fact("adapter", format!("{}, {}", summary.adapter.name, summary.adapter.driver));

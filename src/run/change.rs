@@ -54,8 +54,11 @@ impl Simulation {
         let old = self.scene.clone();
         let state = self.state()?;
         let mut settings = vec![format!("{key}={new}")];
-        if key == "space.shear.rate" {
-            settings.extend(self.displacement(&new));
+        let mut other = (*old).clone();
+        if let (Some(shear), Some(rate), "space.shear.rate") = (&mut other.space.shear, new.as_f64(), key.as_str()) {
+            shear.rate = rate;
+            let displacement = scene::displacement_at(&old, &other, self.step());
+            settings.extend(displacement.map(|displacement| format!("space.shear.displacement={displacement}")));
         }
         let scene = scene::overridden(&old, &settings)?;
         if !scene::differ_in_numbers(&old, &scene) {
@@ -67,18 +70,6 @@ impl Simulation {
         self.replace(scene, state)?;
         self.changes.push(Change { step: self.step(), key, value: new, rounding });
         Ok(rounding)
-    }
-
-    /// The displacement at the start that keeps the boundaries where they are though they will move at another rate.
-    fn displacement(&self, rate: &Value) -> Option<String> {
-        let model = self.scene.model();
-        let (now, shear) = (model.clock(self.step()).wrapping_mul(2), model.particles().shear?);
-        let mut other = self.scene.clone().into_scene();
-        other.space.shear.as_mut()?.rate = rate.as_f64()?;
-        other.space.shear.as_mut()?.displacement = 0.0;
-        let moved = Checked::presumed(other).model().particles().shear.map_or(0, |other| other.shift(now));
-        let first = f64::from(shear.shift(now).wrapping_sub(moved));
-        Some(format!("space.shear.displacement={}", first / 4_294_967_296.0 * model.units.lengths[0]))
     }
 
     /// Gives all particles other velocities, in units of length over time, in the order of their numbers.
@@ -246,7 +237,7 @@ fn kept_units(scene: &Checked, state: &State) -> Vec<f64> {
 }
 
 /// The state in the units of another scene, which are as large or differ by a power of two.
-fn in_units_of(scene: &Checked, old: &Checked, mut state: State) -> Result<(State, Rounding), RunError> {
+pub(super) fn in_units_of(scene: &Checked, old: &Checked, mut state: State) -> Result<(State, Rounding), RunError> {
     let [from, to] = [old, scene].map(|scene| scene.model().units.momentum);
     let of_velocities = [StateArray::Predicted, StateArray::Images, StateArray::Anchors, StateArray::Tethers];
     let keeps = |array: &StateArray| !of_velocities.contains(array) && !state.words(*array).is_empty();

@@ -6,6 +6,7 @@ use crate::measure::Observables;
 use crate::measure::statistics::{Estimate, estimate};
 use crate::output::{Summary, files};
 use crate::table::Table;
+use std::ops::Range;
 
 /// All rows of a run so far.
 pub(super) struct EnergyRows {
@@ -66,12 +67,24 @@ impl EnergyRows {
                 let mean = if *name == column::CONFIGURATIONAL_TEMPERATURE.name {
                     ratio_of_means(&self.configuration)
                 } else {
-                    let rows = self.rows.iter().filter(|row| row[0] >= self.equilibration as f64);
-                    estimate(&rows.map(|row| row[index + 1]).collect::<Vec<_>>())
+                    self.mean_of(index, &(self.equilibration..u64::MAX))
                 };
                 (*name, mean)
             })
             .collect()
+    }
+
+    /// The means of the columns over the rows of some steps, but for the configurational temperature, whose sums are not kept.
+    pub(super) fn means_of(&self, steps: Range<u64>) -> Vec<(&'static str, Option<Estimate>)> {
+        let is_kept = |name| ![column::TIME.name, column::CONFIGURATIONAL_TEMPERATURE.name].contains(&name);
+        let columns = self.columns.iter().enumerate().filter(|(_, column)| is_kept(column.name));
+        columns.map(|(index, column)| (column.name, self.mean_of(index, &steps))).collect()
+    }
+
+    /// The mean of a column over the rows of some steps.
+    fn mean_of(&self, index: usize, steps: &Range<u64>) -> Option<Estimate> {
+        let rows = self.rows.iter().filter(|row| steps.contains(&(row[0] as u64)));
+        estimate(&rows.map(|row| row[index + 1]).collect::<Vec<_>>())
     }
 
     /// Adds the means after equilibration to a summary, and warns of those that include the way to it where the scene

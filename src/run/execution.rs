@@ -4,7 +4,7 @@ use super::analyses::{Analyses, Setting};
 use super::conservation::{conserved, not_conserved};
 use super::energies::{self, EnergyRecorder};
 use super::frame::with_flow;
-use super::kept_sums::{KeptSums, Sharing};
+use super::kept_sums::{self, KeptSums, Sharing};
 use super::pace::{self, Pace};
 use super::pictures::{Pictures, mesh_depth, most_shown};
 use super::schedule::Schedule;
@@ -16,7 +16,10 @@ use crate::engine::{EngineError, Sample, Shown, Stepper};
 use crate::families::{Checked, KeptQuantity, PictureKind};
 use crate::gpu::Gpu;
 use crate::measure::observables_of;
-use crate::output::summary::{AdapterSummary, ColumnSummary, MeshSummary, NumberedFrame, RanksSummary, StartSummary};
+use crate::measure::statistics::Estimate;
+use crate::output::summary::{
+    AdapterSummary, ColumnSummary, MeshSummary, NumberedFrame, RanksSummary, StageSummary, StartSummary,
+};
 use crate::output::{
     Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files, own_file,
 };
@@ -41,7 +44,10 @@ pub struct Outcome {
 /// A run under way: its open files and what it has gathered.
 pub(super) struct Execution<'a> {
     task: &'a Task,
-    scene: &'a Checked,
+    /// The scene of the part in which all numbers are constant.
+    pub scene: &'a Checked,
+    /// The first step of the stage.
+    first: u64,
     gpu: &'a Gpu,
     directory: &'a RunDirectory,
     schedule: Schedule,
@@ -69,13 +75,18 @@ impl<'a> Execution<'a> {
         engine: &mut dyn Stepper,
         start: &Checkpoint,
     ) -> Result<Self, RunError> {
-        let Task { id, scene, directory, .. } = task;
-        let (model, step) = (scene.model(), start.state.step);
+        let Task { id, directory, .. } = task;
+        let step = start.state.step;
+        let scene = &task.parts[task.part_at(step)];
+        let model = scene.model();
+        let ends = task.scene.ends_of_stages();
+        let first = ends.into_iter().rev().find(|end| *end <= model.time.step).unwrap_or_default();
         let path = directory.file(files::CHECKPOINT);
         let sections = Sections::new(&path, step, &start.sections);
         // What is wrong with the checkpoint is found before a file is touched.
-        let analyses = Analyses::new(&Setting { scene, plan: engine.plan() }, &sections)?;
-        analyses.continue_windows(engine, &sections)?;
+        let of_stage = sections.of_stage(first);
+        let analyses = Analyses::new(&Setting { scene, plan: engine.plan() }, &of_stage)?;
+        analyses.continue_windows(engine, &of_stage)?;
         let carried = Carried::new(model, &sections)?;
         let ranks = engine.ranks();
         let sharing = Sharing { strict: ranks.len() > 1 && !task.mixed, mixed: !computes_alike(ranks) };
@@ -93,7 +104,7 @@ impl<'a> Execution<'a> {
             own_file::check_to_continue(&path).map_err(OutputError::io("continue", &path))?;
         }
         let table = directory.file(files::ENERGIES);
-        let energies = EnergyRecorder::open(&table, scene, written(files::ENERGIES)?, &sections)?;
+        let energies = EnergyRecorder::open(&table, scene, written(files::ENERGIES)?, &of_stage)?;
         let trajectory = match &scene.output.trajectory {
             None => None,
             Some(asked) => {
@@ -111,6 +122,7 @@ impl<'a> Execution<'a> {
         Ok(Self {
             task,
             scene,
+            first,
             gpu,
             directory,
             schedule,
@@ -127,6 +139,7 @@ impl<'a> Execution<'a> {
         })
     }
 
+    /// Advances to the end of the part, whose step belongs to the next one if there is one.
     pub(super) fn advance_to_end(
         &mut self,
         engine: &mut dyn Stepper,
@@ -148,8 +161,10 @@ impl<'a> Execution<'a> {
                 advanced?;
                 observer(Event::Advanced(self.progress(first, begun, pace)));
                 // Here nothing has been added yet of what is due at this step.
-                let interrupted = self.task.interrupt.is_asked() && engine.step() < self.scene.time.steps;
-                if interrupted || self.schedule.checkpoint_after(self.saved_at.elapsed()) {
+                // The end is that of the run or belongs to the next part, which save it.
+                let is_within = engine.step() < self.scene.time.steps;
+                let interrupted = is_within && self.task.interrupt.is_asked();
+                if interrupted || is_within && self.schedule.checkpoint_after(self.saved_at.elapsed()) {
                     self.save(engine, pace)?;
                 }
                 if interrupted {
@@ -157,10 +172,17 @@ impl<'a> Execution<'a> {
                 }
                 Ok::<_, RunError>(ControlFlow::Continue(()))
             })?;
-            self.visit(engine, pace)?;
+            if engine.step() < self.scene.time.steps || self.is_last() {
+                self.visit(engine, pace)?;
+            }
             observer(Event::Advanced(self.progress(first, begun, pace)));
         }
         Ok(())
+    }
+
+    /// True in the last part.
+    fn is_last(&self) -> bool {
+        self.scene.time.steps == self.task.scene.time.steps
     }
 
     /// Stops if the run is asked to. What is not saved is lost.
@@ -171,10 +193,11 @@ impl<'a> Execution<'a> {
     /// Does what is due at the current step: a checkpoint, then the samples, then pictures and frames.
     fn visit(&mut self, engine: &mut dyn Stepper, pace: &mut Pace) -> Result<(), RunError> {
         let step = engine.step();
-        if self.schedule.checkpoint(step) {
+        // Where a stage begins is a checkpoint, as the start is.
+        if self.schedule.checkpoint(step) || step == self.first {
             self.save(engine, pace)?;
         }
-        let last = step == self.scene.time.steps;
+        let last = step == self.task.scene.time.steps;
         if self.saved_step == step {
             // Whatever follows can be done later too.
             self.obey()?;
@@ -226,6 +249,17 @@ impl<'a> Execution<'a> {
 
     /// Saves a checkpoint.
     fn save(&mut self, engine: &mut dyn Stepper, pace: &mut Pace) -> Result<(), RunError> {
+        let Checkpoint { run_id, scene, state, files: written, sections } = self.checkpoint(engine, pace)?;
+        checkpoint::save(&self.directory.file(files::CHECKPOINT), run_id, &scene, &state, &written, &sections)?;
+        engine.keep_alive();
+        self.saved_step = state.step;
+        self.saved_at = Instant::now();
+        pace.begin();
+        Ok(())
+    }
+
+    /// A checkpoint of the current step.
+    pub(super) fn checkpoint(&mut self, engine: &mut dyn Stepper, pace: &mut Pace) -> Result<Checkpoint, RunError> {
         let state = engine.state();
         pace.finished();
         let samples = engine.take_samples();
@@ -252,13 +286,31 @@ impl<'a> Execution<'a> {
             written.push((files::trajectory(asked.format).to_owned(), trajectory.extent()));
         }
         written.extend_from_slice(self.pictures.arrays());
-        let path = self.directory.file(files::CHECKPOINT);
-        checkpoint::save(&path, self.task.id, self.scene, &state, &written, &sections)?;
-        engine.keep_alive();
-        self.saved_step = state.step;
-        self.saved_at = Instant::now();
+        let (run_id, scene) = (self.task.id, self.task.scene.clone());
+        Ok(Checkpoint { run_id, scene, state, files: written, sections })
+    }
+
+    /// The beginning of the part that follows.
+    pub(super) fn hand_over(&mut self, engine: &mut dyn Stepper, pace: &mut Pace) -> Result<Checkpoint, RunError> {
+        let mut next = self.checkpoint(engine, pace)?;
         pace.begin();
-        Ok(())
+        let following = &self.task.parts[self.task.part_at(next.state.step)];
+        // Numbers may decide what is kept.
+        let kept = |scene: &Checked| scene.model().physics().kept(scene.model(), &next.state).len();
+        if kept(self.scene) != kept(following) {
+            let fresh = KeptSums::new(
+                following.model(),
+                &next.state,
+                &Sections::new(Path::new(""), 0, &[]),
+                self.kept_sums.sharing(),
+            )?;
+            next.sections.retain(|(name, _)| name != kept_sums::SECTION);
+            next.sections.extend(fresh.sections());
+        }
+        if following.model().follows_paths(&following.output) && next.state.images.is_empty() {
+            next.state.images = vec![[0; 3]; next.state.len()];
+        }
+        Ok(next)
     }
 
     fn record(&mut self, samples: &[Sample], engine: &dyn Stepper) -> Result<(), RunError> {
@@ -282,7 +334,7 @@ impl<'a> Execution<'a> {
 
     fn progress(&self, first: u64, begun: u64, pace: &Pace) -> Progress {
         let rate = pace.rate().unwrap_or(0.0);
-        let last_step = self.scene.time.steps;
+        let last_step = self.task.scene.time.steps;
         let step = first + pace.done().0 - begun;
         let left = last_step.saturating_sub(step) as f64 / rate;
         Progress {
@@ -308,8 +360,12 @@ impl<'a> Execution<'a> {
             task.obey(saved_step)
         };
         let adapter = AdapterSummary::from(self.gpu.description());
-        let mut summary =
-            Summary::new(self.task.id, self.scene.clone().into_scene(), adapter, self.scene.model().particle_count());
+        let mut summary = Summary::new(
+            self.task.id,
+            self.task.scene.clone().into_scene(),
+            adapter,
+            self.scene.model().particle_count(),
+        );
         summary.start = StartSummary::new(self.scene);
         let model = self.scene.model();
         summary.columns.insert(files::ENERGIES.to_owned(), ColumnSummary::of_energies(model));
@@ -322,7 +378,8 @@ impl<'a> Execution<'a> {
             _ => self.directory.file(&files::snapshot(number)).exists(),
         };
         let numbered = self.schedule.numbered().filter(|(number, _)| is_there(*number));
-        let frame = |(number, step)| NumberedFrame { number, step, time: model.time.at(step) };
+        let time_of = |step| task.time_of(step);
+        let frame = |(number, step)| NumberedFrame { number, step, time: time_of(step) };
         summary.numbered = numbered.map(frame).collect();
         if let Some((nodes, quantities)) = model.physics().fields(self.scene) {
             for (name, held) in files::field_arrays(&fields, None) {
@@ -332,7 +389,7 @@ impl<'a> Execution<'a> {
             }
             summary.mesh = Some(MeshSummary::new(nodes, [model.units.lengths[0], model.units.lengths[1]]));
         }
-        let last_step = self.scene.time.steps;
+        let last_step = self.task.scene.time.steps;
         summary.set_duration(last_step, steps, spent.as_secs_f64());
         if let Some(earlier) = self.task.earlier.as_deref().filter(|earlier| steps == 0 && earlier.steps == last_step) {
             // What is added here took no step.
@@ -344,6 +401,7 @@ impl<'a> Execution<'a> {
         summary.warnings = warnings;
         summary.ranks = self.ranks.take();
         self.energies.summarise(&mut summary);
+        summary.stages = self.stages(&summary);
         let setting = Setting { scene: self.scene, plan: engine.plan() };
         self.analyses.conclude(&setting, self.directory, &mut summary, &go_on)?;
         let changed = self.kept_sums.lost();
@@ -379,6 +437,33 @@ impl<'a> Execution<'a> {
         summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
         summary.save(&path)?;
         Ok(Outcome { summary, files: written, snapshots: self.directory.snapshots()? })
+    }
+}
+
+impl Execution<'_> {
+    /// The stages of the run, if it has some.
+    fn stages(&self, summary: &Summary) -> Vec<StageSummary> {
+        let (task, ends) = (self.task, self.task.scene.ends_of_stages());
+        let stages = task.scene.stages.iter().zip(ends.windows(2));
+        let described = stages.map(|(stage, ends)| {
+            let [first_step, last_step] = [ends[0], ends[1]];
+            let mean =
+                |(name, mean): (&str, Option<Estimate>)| (name.to_owned(), summary.mean_with_unit(name, mean.as_ref()));
+            let means = if last_step == task.scene.time.steps {
+                summary.means.clone()
+            } else {
+                self.energies.rows.means_of(first_step..last_step).into_iter().map(mean).collect()
+            };
+            StageSummary {
+                first_step,
+                last_step,
+                times: [first_step, last_step].map(|step| task.time_of(step)),
+                set: stage.set.clone(),
+                ramp: stage.ramp.clone(),
+                means,
+            }
+        });
+        described.collect()
     }
 }
 

@@ -9,7 +9,7 @@ use crate::output::checkpoint::CheckpointError;
 use crate::state::State;
 
 /// Name of the section of a checkpoint.
-const SECTION: &str = "kept_sums";
+pub(super) const SECTION: &str = "kept_sums";
 /// Name of the section, without content, of a run that was shared by ranks that compute differently.
 const MIXED: &str = "mixed_ranks";
 
@@ -76,6 +76,11 @@ impl KeptSums {
         // What changed before is not the fault of these ranks.
         let strict = sharing.strict && sums.iter().all(|sum| sum.change.is_none());
         Ok(Self { sums, strict, mixed: sharing.mixed || sections.has(MIXED) })
+    }
+
+    /// The ranks that share the run.
+    pub(super) fn sharing(&self) -> Sharing {
+        Sharing { strict: self.strict, mixed: self.mixed }
     }
 
     /// What a checkpoint has to keep.

@@ -120,6 +120,13 @@ pub enum Event<'a> {
         /// With what.
         with: &'a str,
     },
+    /// Another stage begins.
+    Stage {
+        /// Its number, from 0.
+        number: usize,
+        /// The number of stages.
+        of: usize,
+    },
     /// All steps are done; tables and pictures follow.
     Finishing,
 }

@@ -37,7 +37,7 @@ pub fn redraw(
     let summary = Summary::load(&directory.file(files::SUMMARY))?;
     let text = serde_json::to_string(&summary.scene).unwrap_or_default();
     let name = directory.file(files::SUMMARY).display().to_string();
-    let scene = WrittenScene::new(name, text).with(overrides).check_kept(None)?;
+    let scene = WrittenScene::new(name, text).with(overrides).check_kept(None)?.part_of(summary.steps)?;
     // The run's own scene for everything but the look.
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
     summary.check_run(checkpoint.run_id, &checkpoint.scene, &directory.file(files::SUMMARY))?;
@@ -47,14 +47,15 @@ pub fn redraw(
         return Err(OutputError::Continued { directory, finished }.into());
     }
     summary.check_tables(directory)?;
-    let model = checkpoint.scene.model();
-    let (gpu, _) = open_adapter(&checkpoint.scene, choice, Options::default())?;
+    let own = checkpoint.scene.part_of(summary.steps)?;
+    let model = own.model();
+    let (gpu, _) = open_adapter(&own, choice, Options::default())?;
     let mut pictures = Pictures::again(&gpu, directory, &scene, &checkpoint);
-    let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
+    let table = super::energies::read(&directory.file(files::ENERGIES), &own, summary.steps)?;
     pictures.energies(&table, model, &summary)?;
     let mut written = vec![files::ENERGIES_PLOT];
     written.extend(pictures.analyses(model, &summary, &|| Ok(()))?);
-    let plan = plan_for(&checkpoint.scene, &gpu, Options::default().with_room(model.particle_count()));
+    let plan = plan_for(&own, &gpu, Options::default().with_room(model.particle_count()));
     let mut engine = Engine::new(&gpu, plan, &checkpoint.state)?;
     if model.picture() == PictureKind::Fields {
         let state = engine.reported()?;
@@ -157,7 +158,7 @@ impl<'a> Pictures<'a> {
     pub(super) fn energies(&mut self, table: &Table, model: &Model, summary: &Summary) -> Result<(), RunError> {
         let mut of = model.physics().energy_chart(model);
         of.subtitle = format!("{}, time step {}", of.subtitle, model.time_step);
-        let averages = if self.has_means(model) { averages(summary) } else { Averages::default() };
+        let averages = if self.has_means(model) { averages(summary, self.scene, model) } else { Averages::default() };
         let chart = energies_chart(&self.scene.title, table, &of, &averages);
         self.chart(files::ENERGIES_PLOT, &chart)
     }
@@ -309,14 +310,13 @@ pub(crate) fn save(
     Ok(directory.write_picture(name, id, image)?)
 }
 
-/// The means of a summary, as charts take them.
-fn averages(summary: &Summary) -> Averages {
+/// The means of a summary of a scene, or of its last stage, as charts take them.
+fn averages(summary: &Summary, scene: &Scene, model: &Model) -> Averages {
     let means = summary.means.iter().filter_map(|(column, value)| {
         let unequilibrated = summary.unequilibrated.as_ref().is_some_and(|found| found.includes(column));
         Some((column.clone(), Mean { unequilibrated, ..mean(value)? }))
     });
-    let time = &summary.scene.time;
-    let from = (time.equilibration > 0).then_some(time.equilibration as f64 * time.step);
+    let from = Some(scene.time.equilibration).filter(|steps| *steps > 0).map(|step| model.time.at(step));
     Averages { from, means: means.collect() }
 }
 
@@ -347,11 +347,11 @@ mod tests {
     #[test]
     fn means_of_a_summary_stand_in_the_chart() {
         let scene = crate::scene::load("dpd-fluid", &[]).unwrap();
-        let mut summary =
-            Summary::new(Id::of_run(&scene), scene.into_scene(), crate::output::summary::AdapterSummary::default(), 10);
+        let adapter = crate::output::summary::AdapterSummary::default();
+        let mut summary = Summary::new(Id::of_run(&scene), scene.clone().into_scene(), adapter, 10);
         summary.add_mean("temperature", crate::measure::statistics::estimate(&[0.75, 1.25]).as_ref());
         summary.add_mean("pressure", None);
-        let averages = averages(&summary);
+        let averages = averages(&summary, &scene, scene.model());
         assert_eq!(averages.from, Some(20.0));
         let [(column, mean)] = &averages.means[..] else { panic!("{averages:?}") };
         assert_eq!((column.as_str(), mean.value, mean.from_few_samples), ("temperature", 1.0, true));

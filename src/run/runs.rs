@@ -1,24 +1,30 @@
 //! Runs that are started, resumed, and executed from their first step to their summary.
 
 use super::adapter::{open_adapter, plan_on};
+use super::change::in_units_of;
 use super::conservation::warning_of_mixed_ranks;
 use super::execution::{Execution, NOTICES, Outcome};
 use super::interrupt::Interrupt;
+use super::kept_sums::{self, KeptSums, Sharing};
 use super::pace::Pace;
 use super::pictures;
 use super::plan::plan;
+use super::sections::Sections;
 use super::task::Task;
 use super::team;
 use super::{Event, RunError};
 use crate::engine::{Engine, EngineError, RankReport, Replica, Stepper};
 use crate::families::{self, Checked, Instability};
 use crate::gpu::{AdapterChoice, ConstantsIn, Gpu, unseen_card};
+use crate::numbers::short;
 use crate::output::checkpoint::CheckpointError;
 use crate::output::summary::{RankSummary, RanksSummary};
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
 use crate::plan::{Division, Hardware, Options, Part, Plan};
 use crate::ranks::{Processes, computes_alike, sharing_anywhere};
-use std::path::PathBuf;
+use crate::scene::{Problem, SceneError, Stage, Warning, part_at, value as value_of};
+use serde_json::Map;
+use std::path::{Path, PathBuf};
 
 /// A run to be executed: a scene, where it begins and where its files go.
 ///
@@ -111,14 +117,35 @@ impl Run {
         let notices = checkpoint.sections.iter().find(|(name, _)| name == NOTICES);
         let notices = notices.and_then(|(_, bytes)| serde_json::from_slice(bytes).ok()).unwrap_or_default();
         if let Some(steps) = steps.filter(|steps| *steps != scene.time.steps) {
-            scene = scene.changed(|scene| scene.time.steps = steps);
-            if steps > checkpoint.state.step {
+            let before = scene.time.steps;
+            if scene.stages.last().is_some_and(|last| !last.ramp.is_empty()) {
+                let place = format!("stages[{}].steps", scene.stages.len() - 1);
+                let accepted =
+                    format!("{before} steps in all, since the last stage has a ramp, whose line they are a part of");
+                let problems = vec![Problem::new(place, format!("found {steps} steps in all"), accepted)];
+                return Err(SceneError::Invalid {
+                    name: path.display().to_string(),
+                    problems,
+                    more: 0,
+                    further: false,
+                }
+                .into());
+            }
+            scene = scene.changed(|scene| {
+                scene.time.steps = steps;
+                if let Some(last) = scene.stages.last_mut() {
+                    // No steps are a mistake, which the check finds.
+                    last.steps = (last.steps + steps).saturating_sub(before);
+                }
+            });
+            if steps > checkpoint.state.step || !scene.stages.is_empty() {
                 scene = scene.check_kept(&path.display().to_string())?;
             }
         }
         // The arrays of a state are the same on every adapter.
         let (hardware, options) = (Hardware::default(), Options::default());
-        if let Some(problem) = plan(&scene, hardware, options).misfit(&checkpoint.state, scene.model()) {
+        let part = scene.part_of(checkpoint.state.step)?;
+        if let Some(problem) = plan(&part, hardware, options).misfit(&checkpoint.state, part.model()) {
             return Err(CheckpointError::malformed(&path, problem).into());
         }
         let summary = directory.file(files::SUMMARY);
@@ -135,6 +162,86 @@ impl Run {
         let id = checkpoint.run_id;
         let beginning = Beginning::Checkpoint { directory, checkpoint: Box::new(checkpoint), earlier };
         Ok(Self::new(scene, beginning, notices, id))
+    }
+
+    /// The same resumed run with a further stage from its checkpoint on, in which numbers of the scene change: `path.to.number=value`.
+    ///
+    /// Momenta are rounded where the new numbers need a larger unit, which is said in a notice. Analyses begin anew with the stage.
+    ///
+    /// ```
+    /// use mesoscope::prelude::*;
+    ///
+    /// # let place = tempfile::tempdir()?;
+    /// # let results = place.path().join("results");
+    /// let small = ["space.box=[4,4,4]", "time.equilibration=0", "time.steps=40", "output={}"].map(str::to_owned);
+    /// Run::start(scene::load("dpd-fluid", &small)?, &results).execute(&AdapterChoice::Best, &mut |_| {})?;
+    /// let colder = Run::resume(&results, Some(100))?.in_new_stage(&["temperature=0.5".to_owned()])?;
+    /// let outcome: Outcome = colder.execute(&AdapterChoice::Best, &mut |_| {})?;
+    /// let ends: Vec<u64> = outcome.summary.stages.iter().map(|stage| stage.last_step).collect();
+    /// assert_eq!(ends, [40, 100]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`RunError::Scene`] with all mistakes: numbers that cannot change in a run, no steps after the checkpoint, a checkpoint in the middle of
+    /// a ramp, a run that was not resumed.
+    pub fn in_new_stage(mut self, settings: &[String]) -> Result<Self, RunError> {
+        let refused = |path: &str, found: &str, accepted: &str| {
+            let problems = vec![Problem::new(path, found.to_owned(), accepted)];
+            let name = "the scene of the run".to_owned();
+            RunError::from(SceneError::Invalid { name, problems, more: 0, further: false })
+        };
+        let Beginning::Checkpoint { checkpoint, .. } = &mut self.beginning else {
+            return Err(refused(
+                "stages",
+                "found a run that has not begun",
+                "one that is resumed, or a scene with stages",
+            ));
+        };
+        let (step, last) = (checkpoint.state.step, self.scene.time.steps);
+        if step == 0 || last <= step {
+            let found = format!("found {last} steps in all, of which {step} are behind");
+            return Err(refused("time.steps", &found, "more steps: `--steps N` says how many in all"));
+        }
+        let ends = self.scene.ends_of_stages();
+        let begun = ends.iter().filter(|end| **end < step).count().max(1);
+        let mut stages = self.scene.stages_of_run();
+        stages.truncate(begun);
+        if let Some(current) = stages.last_mut() {
+            let own = step - ends[begun - 1];
+            if !current.ramp.is_empty() && own < current.steps {
+                return Err(refused("stages", "found a checkpoint in the middle of a ramp", "the end of the ramp"));
+            }
+            current.steps = own;
+        }
+        let mut set = Map::new();
+        for setting in settings {
+            let (key, value) = setting.split_once('=').unwrap_or((setting, ""));
+            let value = value_of(value.trim()).map_err(|accepted| refused(key, "found no value", &accepted))?;
+            set.insert(key.trim().to_owned(), value);
+        }
+        stages.push(Stage::new(last - step, set));
+        let before = checkpoint.scene.part_of(step.saturating_sub(1))?;
+        let mut changed = (*self.scene).clone();
+        changed.stages = stages;
+        self.scene = changed.check_kept("the scene of the run")?;
+        let after = self.scene.part_of(step)?;
+        let (state, rounding) = in_units_of(&after, &before, std::mem::take(&mut checkpoint.state))?;
+        if before.model().units.momentum != after.model().units.momentum {
+            // What is kept to the last bit is counted in other units from here on.
+            checkpoint.sections.retain(|(name, _)| name != kept_sums::SECTION);
+            let fresh = Sections::new(Path::new(files::CHECKPOINT), 0, &[]);
+            let sums = KeptSums::new(after.model(), &state, &fresh, Sharing::default())?;
+            checkpoint.sections.extend(sums.sections());
+            let [x, y, z] = rounding.momentum.map(short);
+            self.notices.push(format!(
+                "step {step}: the numbers of the new stage need a larger unit, to which momenta were rounded: by up to {} each, their sum by ({x}, {y}, {z})",
+                short(rounding.largest)
+            ));
+        }
+        checkpoint.state = state;
+        checkpoint.scene = self.scene.clone();
+        Ok(self)
     }
 
     fn new(scene: Checked, beginning: Beginning, notices: Vec<String>, id: Id) -> Self {
@@ -252,7 +359,10 @@ impl Run {
             Company::Processes(processes) => (Some(processes), None),
             Company::Replicas(replica) => (None, Some(replica)),
         };
+        let first_step = self.first_step();
         let Self { scene, beginning, interrupt, notices, id, division, mixed, draws } = self;
+        let parts = scene.parts()?;
+        let first = parts[part_at(&parts, first_step)].clone();
         let part = division.map(|division| Part { division, rank: 0 });
         let constants_in = replica.as_ref().map_or(ConstantsIn::Code, Replica::constants_in);
         let mut options = Options { constants_in, part, ..Options::default() };
@@ -261,22 +371,23 @@ impl Run {
         let asked = interrupt.clone();
         let proceed = move || if is_new && asked.is_asked() { Err(RunError::NotBegun) } else { Ok(()) };
         let keep_alive = || processes.iter().for_each(|processes| processes.channel().keep_alive());
-        let planned = replica.as_ref().map(|replica| plan_on(&scene, replica.gpu(), options)).transpose()?;
+        let planned = replica.as_ref().map(|replica| plan_on(&first, replica.gpu(), options)).transpose()?;
         let suited = planned.filter(|(_, plan)| replica.as_ref().is_some_and(|replica| replica.suits(plan)));
         let (mut gpu, mut plan) = if let Some(suited) = suited {
             suited
         } else {
             replica = None;
             options.constants_in = ConstantsIn::Code;
-            open_adapter(&scene, choice, options)?
+            open_adapter(&first, choice, options)?
         };
         keep_alive();
         proceed()?;
         let (directory, mut start, earlier, replaces) = match beginning {
             Beginning::New { directory, force } => {
-                let state = families::initial_state(&scene);
+                // In units of all its stages.
+                let state = families::initial_state(&first);
                 proceed()?;
-                families::check_start(&scene, &state)?;
+                families::check_start(&first, &state)?;
                 proceed()?;
                 let directory = RunDirectory::make(directory)?;
                 directory.in_the_way(force)?;
@@ -287,19 +398,23 @@ impl Run {
             Beginning::Checkpoint { directory, checkpoint, earlier } => (directory, *checkpoint, earlier, None),
         };
         keep_alive();
-        let (first_step, last_step) = (start.state.step, scene.time.steps);
+        let last_step = scene.time.steps;
         let mut pace = Pace::new(scene.model().particle_count(), plan.operations_per_particle);
         let unseen = unseen_card(gpu.description(), choice);
-        let task = Task { id, scene, directory, interrupt, notices, unseen, mixed, draws, earlier };
+        let task = Task { id, scene, parts, directory, interrupt, notices, unseen, mixed, draws, earlier };
         let mut begun = false;
+        let mut kept: Option<Box<dyn Stepper + '_>> = None;
         loop {
-            observer(Event::Compiling { kernels: plan.kernels.len() });
-            let opened = match replica.take() {
-                Some(replica) => {
-                    let engine = Engine::of_replica(replica, plan, &start.state).map_err(RunError::from);
+            if kept.is_none() {
+                observer(Event::Compiling { kernels: plan.kernels.len() });
+            }
+            let opened = match (kept.take(), replica.take()) {
+                (Some(engine), _) => Ok(engine),
+                (None, Some(replica)) => {
+                    let engine = Engine::of_replica(replica, plan.clone(), &start.state).map_err(RunError::from);
                     engine.map(|engine| -> Box<dyn Stepper> { Box::new(engine) })
                 }
-                None => open(&task, &gpu, plan, (choice, processes), options, &start),
+                (None, None) => open(&task, &gpu, plan.clone(), (choice, processes), options, &start),
             };
             let ended = opened.and_then(|mut engine| {
                 if !std::mem::replace(&mut begun, true) {
@@ -321,9 +436,32 @@ impl Run {
                         observer(Event::Warned { warning: &warning_of_mixed_ranks(task.scene.model()) });
                     }
                 }
-                attempt(&task, &gpu, engine.as_mut(), &mut start, &mut pace, observer)
+                let ended = attempt(&task, &gpu, engine.as_mut(), &mut start, &mut pace, observer)?;
+                Ok((ended, engine))
             });
             match ended {
+                Ok((Ended::Part(next), mut engine)) => {
+                    start = *next;
+                    let step = start.state.step;
+                    let ends = task.scene.ends_of_stages();
+                    if let Some(number) = ends.iter().position(|end| *end == step) {
+                        observer(Event::Stage { number, of: task.scene.stages.len() });
+                    }
+                    let part = &task.parts[task.part_at(step)];
+                    let written = serde_json::to_string(part).unwrap_or_default();
+                    let renumbered = plan_on(part, &gpu, options).ok().filter(|(_, plan)| {
+                        // A failure shows again where an engine is opened.
+                        engine.renumber(plan, &written, &start.state).unwrap_or(false)
+                    });
+                    if let Some((_, renumbered)) = renumbered {
+                        (plan, kept) = (renumbered, Some(engine));
+                    } else {
+                        drop(engine);
+                        (gpu, plan) = open_adapter(part, choice, options)?;
+                    }
+                    keep_alive();
+                }
+                Ok((Ended::Run(outcome), _)) => return Ok(*outcome),
                 Err(RunError::Engine(error)) => {
                     let model = task.scene.model();
                     // Too rare for every run to pay for it in memory or time.
@@ -342,13 +480,21 @@ impl Run {
                         start = task.last_checkpoint(start)?;
                     }
                     observer(Event::Repeating { from: start.state.step, reason, with });
-                    (gpu, plan) = open_adapter(&task.scene, choice, options)?;
+                    (gpu, plan) = open_adapter(&task.parts[task.part_at(start.state.step)], choice, options)?;
                     keep_alive();
                 }
-                ended => return ended,
+                Err(error) => return Err(error),
             }
         }
     }
+}
+
+/// The end of a part of a run.
+enum Ended {
+    /// It was the last.
+    Run(Box<Outcome>),
+    /// Another one begins here.
+    Part(Box<Checkpoint>),
 }
 
 /// The company in which a run advances.
@@ -364,13 +510,13 @@ enum Company<'a> {
 /// The engine that advances a run, or the ranks that do so together.
 fn open<'a>(
     task: &Task,
-    gpu: &'a Gpu,
+    gpu: &Gpu,
     plan: Plan,
     (choice, processes): (&AdapterChoice, Option<&'a dyn Processes>),
     options: Options,
     start: &Checkpoint,
 ) -> Result<Box<dyn Stepper + 'a>, RunError> {
-    let scene = &task.scene;
+    let scene = &task.parts[task.part_at(start.state.step)];
     let Some(Part { division, .. }) = options.part else {
         return Ok(Box::new(Engine::new(gpu, plan, &start.state)?));
     };
@@ -384,7 +530,7 @@ fn open<'a>(
     Ok(Box::new(team))
 }
 
-/// Runs from `start` to the end.
+/// Runs from `start` to the end of its part.
 fn attempt(
     task: &Task,
     gpu: &Gpu,
@@ -392,8 +538,9 @@ fn attempt(
     start: &mut Checkpoint,
     pace: &mut Pace,
     observer: &mut dyn FnMut(Event<'_>),
-) -> Result<Outcome, RunError> {
+) -> Result<Ended, RunError> {
     let mut run = Execution::open(task, gpu, engine, start)?;
+    let scene = run.scene;
     run.notices = &task.notices;
     match run.advance_to_end(engine, start, pace, observer) {
         Err(RunError::Engine(source @ (EngineError::Unstable(_) | EngineError::GaveUp { .. }))) => {
@@ -401,7 +548,7 @@ fn attempt(
             let (checkpoint, checkpoint_step) = (task.directory.file(files::CHECKPOINT), run.saved_step);
             return Err(match source {
                 EngineError::Unstable(failure) => {
-                    let source = Instability::new(&failure, engine.plan(), task.scene.model());
+                    let source = Instability::new(&failure, engine.plan(), scene.model());
                     RunError::Unstable { source, checkpoint, checkpoint_step }
                 }
                 source => RunError::GaveUp { source, checkpoint, checkpoint_step },
@@ -410,16 +557,37 @@ fn attempt(
         Err(error) => return Err(task.stopped(error, run.saved_step)),
         Ok(()) => {}
     }
+    if engine.step() < task.scene.time.steps {
+        return run.hand_over(engine, pace).map(|next| Ended::Part(Box::new(next)));
+    }
     run.ranks = ranks(engine);
     observer(Event::Finishing);
     let mut warnings = task.notices.clone();
     warnings.extend(task.unseen.clone());
-    warnings.extend(families::warnings(&task.scene).iter().map(ToString::to_string));
+    warnings.extend(warnings_of_stages(&task.scene, &task.parts));
     warnings.extend(run.kept_sums.mixed.then(|| warning_of_mixed_ranks(task.scene.model())));
     warnings.extend(run.kept_sums.warning());
     warnings.extend(pictures::lettering(&task.scene));
     let saved_step = run.saved_step;
-    run.conclude(engine, warnings, pace.done()).map_err(|error| task.stopped(error, saved_step))
+    let outcome = run.conclude(engine, warnings, pace.done()).map_err(|error| task.stopped(error, saved_step))?;
+    Ok(Ended::Run(Box::new(outcome)))
+}
+
+/// Warnings of all stages, those of later ones with the number of the first that has them.
+fn warnings_of_stages(scene: &Checked, parts: &[Checked]) -> Vec<String> {
+    let ends = scene.ends_of_stages();
+    let mut found: Vec<String> = Vec::new();
+    for part in parts {
+        let stage = ends.iter().filter(|end| **end <= part.model().time.step).count();
+        for Warning { path, message } in families::warnings(part) {
+            // Numbers in a message differ along a ramp.
+            if !found.iter().any(|known| known.contains(&format!("{path}: "))) {
+                let stage = if stage > 1 { format!("stage {stage}: ") } else { String::new() };
+                found.push(format!("{stage}{path}: {message}"));
+            }
+        }
+    }
+    found
 }
 
 /// The ranks that have shared a run, if there are several.

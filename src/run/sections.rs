@@ -9,11 +9,13 @@ pub(super) fn bytes(values: impl Iterator<Item = f64>) -> Vec<u8> {
 }
 
 /// The sections of the checkpoint that a run continues from. A run that begins at step 0 has measured nothing before, and
-/// needs none.
+/// needs none, nor one of what is measured anew where a stage begins.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sections<'a> {
     /// Step of the checkpoint.
     pub step: u64,
+    /// True where nothing was measured before.
+    begins: bool,
     /// Its file, for messages.
     path: &'a Path,
     kept: &'a [(String, Vec<u8>)],
@@ -21,12 +23,17 @@ pub(super) struct Sections<'a> {
 
 impl<'a> Sections<'a> {
     pub(super) fn new(path: &'a Path, step: u64, kept: &'a [(String, Vec<u8>)]) -> Self {
-        Self { step, path, kept }
+        Self { step, begins: step == 0, path, kept }
+    }
+
+    /// Those of what is measured anew in each stage, given its first step: none where it begins.
+    pub(super) fn of_stage(self, first: u64) -> Self {
+        Self { begins: self.step == first, ..self }
     }
 
     /// Whether there is a section of a name.
     pub(super) fn has(&self, name: &str) -> bool {
-        self.step > 0 && self.kept.iter().any(|(known, _)| known == name)
+        !self.begins && self.kept.iter().any(|(known, _)| known == name)
     }
 
     /// The numbers of a section, of which there have to be so many; none at step 0.
@@ -51,7 +58,7 @@ impl<'a> Sections<'a> {
     }
 
     fn section(&self, name: &str, length: u64) -> Result<Option<&'a [u8]>, CheckpointError> {
-        if self.step == 0 {
+        if self.begins {
             return Ok(None);
         }
         let Some((_, bytes)) = self.kept.iter().find(|(known, _)| known == name) else {

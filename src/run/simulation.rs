@@ -211,6 +211,10 @@ impl Simulation {
     }
 
     fn at_start(sight: Sight, place: Place, scene: &Checked, replica: Option<Replica>) -> Result<Self, RunError> {
+        if !scene.stages.is_empty() {
+            let text = "stages: a simulation takes its steps from its program; accepted: a scene without `stages`, and `set` between steps";
+            return Err(RunError::Arrays { mistakes: vec![text.to_owned()] });
+        }
         let state = families::initial_state(scene);
         families::check_start(scene, &state)?;
         Self::from_state(sight, place, scene, replica, state, Carried::default(), Vec::new())
@@ -235,6 +239,7 @@ impl Simulation {
     ) -> Result<Self, RunError> {
         let path = path.as_ref();
         let Checkpoint { scene, mut state, sections, .. } = checkpoint::load(path)?;
+        let scene = scene.part_of(state.step)?;
         let planned = Sight::Frames.planned(&scene);
         if planned.model().follows_paths(&planned.output) && state.images.is_empty() {
             // The state of a run that followed no particle.

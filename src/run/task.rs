@@ -5,11 +5,14 @@ use super::interrupt::Interrupt;
 use crate::families::Checked;
 use crate::gpu::GpuError;
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
+use crate::scene::part_at;
 
 /// What stays the same if a run has to go back.
 pub(super) struct Task {
     pub id: Id,
     pub scene: Checked,
+    /// The scenes of its parts, in each of which all numbers are constant; the scene alone where it has no stages.
+    pub parts: Vec<Checked>,
     pub directory: RunDirectory,
     pub interrupt: Interrupt,
     /// What was done to the scene before the run.
@@ -29,6 +32,16 @@ impl Task {
     pub(super) fn last_checkpoint(&self, start: Checkpoint) -> Result<Checkpoint, RunError> {
         let path = self.directory.file(files::CHECKPOINT);
         if path.exists() || start.state.positions.is_empty() { Ok(checkpoint::load(&path)?) } else { Ok(start) }
+    }
+
+    /// The number of the part that begins at a step or goes on there.
+    pub(super) fn part_at(&self, step: u64) -> usize {
+        part_at(&self.parts, step)
+    }
+
+    /// The time of a step.
+    pub(super) fn time_of(&self, step: u64) -> f64 {
+        self.parts[self.part_at(step)].model().time.at(step)
     }
 
     /// Stops if the run is asked to, with a checkpoint of this step on disk.
@@ -69,6 +82,7 @@ mod tests {
         let scene = scene::load("dpd-fluid", &[]).unwrap();
         let task = Task {
             id: Id::of_run(&scene),
+            parts: vec![scene.clone()],
             scene,
             directory: RunDirectory::make(directory.path().to_path_buf()).unwrap(),
             interrupt: Interrupt::default(),

@@ -10,6 +10,15 @@ const CHANGEABLE: [&str; 5] = ["temperature", "interactions.", "integrator.", "s
 /// The numbers that may change between steps, in words.
 const ACCEPTED: &str = "temperature, numbers of `interactions`, `integrator` and `space.walls`, and space.shear.rate";
 
+/// The numbers that may change between stages of a run, in words.
+pub(super) const STAGE_NUMBERS: &str =
+    "time.step, temperature, numbers of `interactions`, `integrator` and `space.walls`, and space.shear.rate";
+
+/// True if a number in this place may change between stages of a run.
+pub(super) fn is_of_stages(key: &str) -> bool {
+    key == "time.step" || is_changeable(key)
+}
+
 /// True if a number in this place may change between steps.
 fn is_changeable(key: &str) -> bool {
     CHANGEABLE.iter().any(|known| key == known.trim_end_matches('.') || known.ends_with('.') && key.starts_with(known))
@@ -33,10 +42,32 @@ pub(crate) fn overridden(scene: &Scene, settings: &[String]) -> Result<Checked, 
     WrittenScene::new(scene.title.as_str(), text).with(settings).check_kept(scene.start().cloned())
 }
 
-/// True if two scenes differ in numbers only, and their particles not at all.
+/// The displacement at the start that keeps sheared boundaries where they are at a step though they move at another rate in what follows; none
+/// where they stay there anyway.
+pub(crate) fn displacement_at(before: &Checked, after: &Scene, step: u64) -> Option<f64> {
+    let (model, shear) = (before.model(), before.model().particles().shear?);
+    let now = model.clock(step).wrapping_mul(2);
+    let shift = |scene: Scene| Checked::presumed(scene).model().particles().shear.map_or(0, |shear| shear.shift(now));
+    if shift(after.clone()) == shear.shift(now) {
+        return None;
+    }
+    let mut still = after.clone();
+    still.space.shear.as_mut()?.displacement = 0.0;
+    let first = f64::from(shear.shift(now).wrapping_sub(shift(still)));
+    Some(first / 4_294_967_296.0 * model.units.lengths[0])
+}
+
+/// True if two scenes differ in numbers only, and their particles not at all, whatever they write and in which stages.
 pub(crate) fn differ_in_numbers(one: &Checked, other: &Checked) -> bool {
     let shape = |scene: &Scene| {
         let mut document = serde_json::to_value(scene).unwrap_or_default();
+        for key in ["output", "stages", "announced"] {
+            document.as_object_mut().and_then(|scene| scene.remove(key));
+        }
+        // A displacement of zero is left out.
+        if let Some(shear) = document.pointer_mut("/space/shear").and_then(Value::as_object_mut) {
+            shear.remove("displacement");
+        }
         blank(&mut document);
         document
     };

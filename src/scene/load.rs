@@ -206,7 +206,9 @@ impl WrittenScene {
     fn substituted(&self, substitute: Substitute) -> Result<Reading, SceneError> {
         let (mut document, mut problems) = text::parse(&self.name, &self.text)?;
         problems.extend(overridden(&mut document, &self.set));
-        let notices = self.steps.map(|steps| shorten::shorten(&mut document, steps, &self.set)).unwrap_or_default();
+        super::stages::sum_up_steps(&mut document, &mut problems);
+        let mut notices = self.steps.map(|steps| shorten::shorten(&mut document, steps, &self.set)).unwrap_or_default();
+        notices.extend(self.steps.and_then(|steps| super::stages::shorten(&mut document, steps)));
         let left_out = |place: &str| document.pointer(place).is_none();
         let (integrator, colour) = (left_out("/integrator"), left_out("/output/snapshot/color"));
         let system = kind_of_system(&document, &mut problems);
@@ -255,6 +257,7 @@ impl WrittenScene {
             let checked = Checked::presumed(scene).noting(reading.notices);
             families::check(&checked, step, &mut problems);
             super::changes::check_announced(&checked, &mut problems);
+            super::stages::check(&checked, step, &mut problems);
             return if problems.is_empty() { Ok(checked) } else { Err(invalid(name, problems, false)) };
         }
         let mut problems = reading.problems;

@@ -73,7 +73,12 @@ fn set(document: &mut Value, argument: &str) -> Result<(), (String, String)> {
     let value = value(text.trim()).map_err(|accepted| (format!("found {}", text.trim()), accepted))?;
     let mut place = document;
     let mut walked = String::new();
-    let mut segments = path.split('.').peekable();
+    // The keys of what a stage sets are paths themselves.
+    let parts = match path.splitn(4, '.').collect::<Vec<_>>()[..] {
+        ["stages", number, change @ ("set" | "ramp"), key] => vec!["stages", number, change, key],
+        _ => path.split('.').collect(),
+    };
+    let mut segments = parts.into_iter().peekable();
     while let Some(segment) = segments.next() {
         let index = segment.parse::<usize>().ok();
         if place.is_null() {
@@ -157,6 +162,10 @@ mod tests {
         assert_eq!(after("pairs.0.repulsion=9").unwrap()["pairs"], json!([{"repulsion": 9}]));
         assert_eq!(after("output.trajectory.every=9").unwrap()["output"], json!({"trajectory": {"every": 9}}));
         assert_eq!(after(r#"particles.1={"count":7}"#).unwrap()["particles"][1], json!({"count": 7}));
+        let staged = after(r#"stages=[{"steps":5}]"#).unwrap();
+        let mut document = staged;
+        apply(&mut document, "stages.0.set.interactions.1.repulsion=9", |_| true).unwrap();
+        assert_eq!(document["stages"], json!([{"steps": 5, "set": {"interactions.1.repulsion": 9}}]));
         assert_eq!(after("pairs=[]").unwrap()["pairs"], json!([]));
     }
 

@@ -608,6 +608,8 @@ mod tests {
             "$ref",
             "$schema",
             "additionalProperties",
+            // The steps of a run without stages are checked where those of stages are summed up.
+            "allOf",
             "anyOf",
             "const",
             "default",

@@ -104,6 +104,7 @@ impl Request {
         }
         let base = arguments.scene.check_among(&arguments.state_files, StepCheck::Allow)?;
         arguments.state_files.note(&base);
+        mistakes.extend(study::refusal_of_stages(&base));
         if ranges.is_empty() && mistakes.is_empty() {
             let ([low, high], points) = USUAL;
             let step = base.time.step;

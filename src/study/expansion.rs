@@ -6,7 +6,7 @@ use super::naming::{self, ShortKeys};
 use super::seeds::{SEED, check_seeds, following};
 use super::variation::{Setting, Variation, settings};
 use crate::families::{Checked, StepCheck};
-use crate::scene::{self, SceneError, StateFiles, WrittenScene};
+use crate::scene::{self, SceneError, Stage, StateFiles, WrittenScene};
 use serde_json::Value;
 
 /// More variants than this are taken for a slip.
@@ -28,6 +28,13 @@ pub struct Sweep {
     /// Files that variants start from.
     pub(crate) files: StateFiles,
     variants: Vec<Variant>,
+}
+
+/// Why runs that cover a given time in steps of any length cannot have the stages of a scene, if it has some.
+pub(crate) fn refusal_of_stages(scene: &Checked) -> Option<String> {
+    let why = "all runs cover the same simulated time, with the numbers of one scene";
+    (!scene.stages.is_empty())
+        .then(|| format!("the scene has stages: {why}; accepted: a scene without, such as that of one stage"))
 }
 
 /// One scene of a sweep.
@@ -155,7 +162,9 @@ impl Sweep {
             mistakes.push(format!("there are more than {MOST_VARIANTS} combinations of values to vary"));
         }
         StudyError::refuse(mistakes)?;
-        Self::new(scene, read, further, files, step)
+        let sweep = Self::new(scene, read, further, files, step)?;
+        StudyError::refuse(sweep.without_effect())?;
+        Ok(sweep)
     }
 
     /// The variants of a scene, all of which are checked.
@@ -190,6 +199,16 @@ impl Sweep {
     pub(crate) fn keys(&self) -> Vec<&str> {
         let varied = self.vary.iter().map(|variation| variation.key.as_str());
         each_once(varied.chain(self.also.iter().flatten().map(|setting| setting.key.as_str())))
+    }
+
+    /// Keys that are varied though the first stage sets them.
+    fn without_effect(&self) -> Vec<String> {
+        let first = self.variants.first().and_then(|variant| variant.scene.stages.first());
+        let set: Vec<String> = first.into_iter().flat_map(Stage::keys).collect();
+        let varied = self.keys().into_iter().filter(|key| set.iter().any(|known| known == key));
+        varied
+            .map(|key| format!("`{key}` has no effect, as the first stage sets it: vary `stages.0.set.{key}`"))
+            .collect()
     }
 
     /// The same with its variants.

@@ -27,7 +27,7 @@ mod written_scene;
 pub(crate) use concurrency::at_once;
 pub use concurrency::default_jobs;
 pub use error::{Mistake, StudyError};
-pub(crate) use expansion::LENGTHS;
+pub(crate) use expansion::{LENGTHS, refusal_of_stages};
 pub use expansion::{Sweep, Variant};
 pub use groups::default_replicas;
 pub use kind::Kind;

@@ -98,6 +98,9 @@ impl Request {
         StudyError::refuse(lengths.map(mistake).collect())?;
         let files = arguments.state_files.clone();
         let sweep = Sweep::from_arguments(scene.clone(), vary, also, files, StepCheck::Allow)?;
+        StudyError::refuse(
+            sweep.variants().first().and_then(|variant| study::refusal_of_stages(&variant.scene)).into_iter().collect(),
+        )?;
         if sweep.variants().iter().any(|variant| [FINER, COARSER, STILL_FINER].contains(&variant.name.as_str())) {
             let mistake = format!("`{FINER}` and `{STILL_FINER}` are names of runs that references are taken from");
             return Err(StudyError::mistake(mistake));

@@ -333,7 +333,11 @@ fn files_that_cannot_be_written_or_read() {
     place.run("out", &["--quiet"]);
     fails(&["plot", &place.argument("nowhere")], 5, &["hint: results are in `", "/out`"]);
     fails(&["run", &place.argument("out")], 2, &["out` is the directory of a run: `mesoscope resume "]);
-    fails(&["resume", &place.argument("out"), "--set", "seed=3"], 2, &["continues with the scene that it began with"]);
+    fails(
+        &["resume", &place.argument("out"), "--set", "seed=3"],
+        2,
+        &["time.steps: found", "more steps: `--steps N` says how many"],
+    );
     let path = place.path("out").join(files::CHECKPOINT);
     let whole = bytes(&path);
     let mut damaged = whole.clone();

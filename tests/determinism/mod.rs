@@ -20,6 +20,7 @@ mod shallow_water;
 mod shear;
 mod simulations;
 mod simulations_on_ranks;
+mod stages;
 mod timing;
 mod voronoi;
 mod walls;

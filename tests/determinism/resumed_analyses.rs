@@ -115,6 +115,21 @@ const EVERYTHING: &[&str] = &[
     r#"output.trajectory={"every":6,"format":"extended-xyz"}"#,
 ];
 
+/// Interrupted in each of three stages, where each begins, and in ramps.
+#[test]
+fn stages_go_on_at_any_step() {
+    let stages = r#"stages=[{"steps":4},
+        {"steps":4,"set":{"interactions.0.repulsion":40},"ramp":{"temperature":[1,0.5]},"ramp_every":2},
+        {"steps":34,"set":{"time.step":0.01},"ramp":{"interactions.0.friction":[3,9]},"ramp_every":10}]"#;
+    let scene = small(&fluid(&["space.box=[3,3,3]", "time.step=0.02", "output={}"]), &[EVERYTHING, &[stages]].concat());
+    goes_on(&scene, &[1, 3, 4, 5, 6, 7, 8, 9, 17, 18, 22, 41]);
+    // Particles are followed in the last stage only.
+    let diffusion = r#"output.diffusion={"every":1,"window":6}"#;
+    let scene =
+        small(&fluid(&["space.box=[3,3,3]", "output={}"]), &[diffusion, r#"stages=[{"steps":20},{"steps":22}]"#]);
+    goes_on(&scene, &[10, 20, 21, 30]);
+}
+
 #[test]
 fn particles_go_on_at_any_step() {
     let scene = small(&fluid(&["space.box=[3,3,3]", "time.step=0.02"]), EVERYTHING);

@@ -295,19 +295,24 @@ fn means_begin_anew_with_a_change() {
 /// Boundaries that shear at another rate move on from where they are.
 #[test]
 fn a_shear_rate_changes_without_a_jump() {
-    let scene = fluid(&[SPLITTING, r#"space.shear={"rate":0.7,"gradient":"y","displacement":1.1}"#]);
-    let mut simulation = simulation(&scene);
-    simulation.advance(50).unwrap();
-    let before = simulation.frame().unwrap();
-    assert_eq!((before.unwrapped(0), &before.periodic[..]), (None, &[true; 3][..]));
-    let before = before.displacement.unwrap().1;
-    simulation.set("space.shear.rate", -0.3).unwrap();
-    let after = simulation.frame().unwrap().displacement.unwrap().1;
-    assert!((before - after).abs() < 1e-8, "{before}, {after}");
-    simulation.advance(25).unwrap();
-    let later = simulation.frame().unwrap().displacement.unwrap().1;
-    // At 25 steps of .04 the copy above has gone back by .3 of the height of 5.
-    assert!(((after - later) - 1.5).abs() < 1e-6, "{after}, {later}");
+    for displacement in ["", r#","displacement":1.1"#] {
+        let scene = fluid(&[SPLITTING, &format!(r#"space.shear={{"rate":0.7,"gradient":"y"{displacement}}}"#)]);
+        let mut simulation = simulation(&scene);
+        simulation.advance(50).unwrap();
+        let before = simulation.frame().unwrap();
+        assert_eq!((before.unwrapped(0), &before.periodic[..]), (None, &[true; 3][..]));
+        let before = before.displacement.unwrap().1;
+        simulation.set("space.shear.rate", -0.3).unwrap();
+        let after = simulation.frame().unwrap().displacement.unwrap().1;
+        assert!((before - after).abs() < 1e-8, "{before}, {after}");
+        simulation.advance(25).unwrap();
+        let later = simulation.frame().unwrap().displacement.unwrap().1;
+        // At 25 steps of .04 the copy above has gone back by .3 of the height of 5, perhaps over a boundary.
+        assert!(
+            ((after - later).rem_euclid(simulation.scene().space.lengths[0]) - 1.5).abs() < 1e-6,
+            "{after}, {later}"
+        );
+    }
 }
 
 /// A larger unit of momentum rounds the momenta, and leaves their sum.

@@ -174,6 +174,55 @@ fn all_mistakes_at_once_of_shape_and_of_sense() {
 }
 
 #[test]
+fn stages_of_a_run() {
+    for (stages, expected) in [
+        (r#"[{"steps":0},{"steps":100}]"#, "stages[0].steps: found 0; accepted: a whole number of at least 1"),
+        (r#"[{"steps":40},{"steps":50}]"#, "time.steps: found 100; accepted: 90, the sum of the steps of its stages"),
+        (
+            r#"[{"steps":100,"set":{"space.box":[3,3]}}]"#,
+            "stages[0].set.space.box: found a key that cannot change in a run; accepted: time.step, temperature",
+        ),
+        (
+            r#"[{"steps":100,"set":{"particles.0.count":5}}]"#,
+            "stages[0].set.particles.0.count: found a key that cannot",
+        ),
+        (
+            r#"[{"steps":100,"set":{"temperature":"cold"}}]"#,
+            "stages[0].set.temperature: found \"cold\"; accepted: a number",
+        ),
+        (
+            r#"[{"steps":100,"set":{"temperature":1,"interactions[0].friction":1,"interactions.0.friction":2}}]"#,
+            "found a number that is given twice; accepted: each number once",
+        ),
+        (
+            r#"[{"steps":60},{"steps":40,"set":{"temperature":-1}}]"#,
+            "stages[1]: with its numbers, temperature: found -1; accepted: a number, zero or positive",
+        ),
+        (
+            r#"[{"steps":100,"ramp":{"temperature":2}}]"#,
+            "stages[0].ramp.temperature: found 2; accepted: a list of two numbers",
+        ),
+        (
+            r#"[{"steps":100,"ramp_every":5}]"#,
+            "stages[0].ramp_every: found steps between values of a ramp, of a stage without",
+        ),
+        (
+            r#"[{"steps":100,"set":{"temperature":1},"ramp":{"temperature":[1,2]}}]"#,
+            "stages[0].ramp.temperature: found a number that is given twice",
+        ),
+        // A time step beyond what any scheme is stable with, in the second stage only.
+        (r#"[{"steps":60},{"steps":40,"set":{"time.step":5}}]"#, "stages[1]: with its numbers, time.step: found 5"),
+        (r#"[{"steps":100,"ramp":{"time.step":[0.01,5]}}]"#, "stages[0]: with its numbers, time.step: found"),
+        (
+            r#"[{"steps":60},{"steps":40,"set":{"interactions.0.cutoff_of_all":2}}]"#,
+            "stages[1]: with its numbers, interactions[0].cutoff_of_all: unknown key",
+        ),
+    ] {
+        FLUID.refused_with(&[&format!("stages={stages}")], &[expected]);
+    }
+}
+
+#[test]
 fn species_and_pairs() {
     FLUID.refused_with(
         &[r#"interactions.0.pairs=[{"between": ["water", "oyl"]}]"#],

@@ -204,11 +204,24 @@ fn overview(scene: &Checked, plan: &Plan, trial: Tried<'_>) -> Vec<(&'static str
     rows.extend(basis(trial).map(|basis| ("estimate", basis)));
     let (step, steps) = (scene.time.step, grouped(scene.time.steps));
     rows.push(("integrator", format!("{integrator}, time step {step}, {steps} steps")));
+    rows.extend(stages(scene).map(|stages| ("stages", stages)));
     rows.extend(families::start_in_words(scene).map(|start| ("start", start)));
     rows.extend(scene.description(plan, &cells));
     let operations = grouped(plan.operations_per_particle as u64);
     rows.push(("arithmetic", format!("about {operations} operations a particle and step")));
     rows
+}
+
+/// The stages of a run with what changes where each begins, if it has some.
+fn stages(scene: &Checked) -> Option<String> {
+    let described = scene.stages.iter().map(|stage| {
+        let ramps = stage.ramp.iter().map(|(key, ends)| format!("{key} along {ends}"));
+        let changes: Vec<String> =
+            stage.set.iter().map(|(key, value)| format!("{key} = {value}")).chain(ramps).collect();
+        let steps = format!("{} steps", grouped(stage.steps));
+        if changes.is_empty() { steps } else { format!("{steps} with {}", changes.join(", ")) }
+    });
+    Some(described.collect::<Vec<_>>().join("; ")).filter(|text| !text.is_empty())
 }
 
 /// How often something is done.

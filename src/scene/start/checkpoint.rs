@@ -94,6 +94,8 @@ pub(super) fn run(path: &Path, fits: &Fits<'_>) -> Result<Run, Mistake> {
     let start = start.and_then(|(_, bytes)| FileStart::from_bytes(bytes)).map(Arc::new);
     let written = WrittenScene::new("its scene", content.scene);
     let scene = written.check_kept(start).map_err(|error| damaged(&format!("its scene is refused ({error})")))?;
+    let scene =
+        scene.part_of(content.state.step).map_err(|error| damaged(&format!("its scene is refused ({error})")))?;
     let before = scene.start().map(|start| start.changes.clone()).unwrap_or_default();
     let changes = before.into_iter().chain(Change::from_sections(&content.sections)).collect();
     Ok(Run { scene, state: content.state, changes })

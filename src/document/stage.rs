@@ -1,0 +1,101 @@
+//! Stages of a run.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+/// A stage of a run. Numbers of the scene are named by their paths, as in overrides: `{"interactions.0.repulsion": 50}`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Stage {
+    /// Number of steps.
+    #[schemars(range(min = 1))]
+    pub steps: u64,
+    /// Numbers that change where the stage begins, and stay as they are in the stages that follow.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub set: Map<String, Value>,
+    /// Numbers that go along a line in the course of the stage, each with its first and its last value, at which it stays.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub ramp: Map<String, Value>,
+    /// Steps from one value of a ramp to the next; left out, a hundredth of the stage.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1))]
+    pub ramp_every: Option<u64>,
+}
+
+/// Values that a ramp has if its scene does not say how many.
+const MOVES: u64 = 100;
+
+impl Stage {
+    /// A stage of constant numbers.
+    pub(crate) fn new(steps: u64, set: Map<String, Value>) -> Self {
+        Self { steps, set, ramp: Map::new(), ramp_every: None }
+    }
+
+    /// The numbers that change where it begins, with their values and dots only in their paths.
+    pub(crate) fn changes(&self) -> impl Iterator<Item = (String, &Value)> {
+        self.set.iter().map(|(key, value)| (dotted(key), value))
+    }
+
+    /// The numbers that go along a line, with their first and last values; what is no pair of numbers has none.
+    pub(crate) fn ramps(&self) -> impl Iterator<Item = (String, Option<[f64; 2]>)> {
+        let ends = |value: &Value| match value.as_array().map(Vec::as_slice) {
+            Some([first, last]) => Some([first.as_f64()?, last.as_f64()?]),
+            _ => None,
+        };
+        self.ramp.iter().map(move |(key, value)| (dotted(key), ends(value)))
+    }
+
+    /// The paths of all numbers that it changes.
+    pub(crate) fn keys(&self) -> Vec<String> {
+        self.set.keys().chain(self.ramp.keys()).map(|key| dotted(key)).collect()
+    }
+
+    /// The first steps of the parts in which all its numbers are constant, counted from its own first.
+    pub(crate) fn parts(&self) -> Vec<u64> {
+        if self.ramp.is_empty() {
+            return vec![0];
+        }
+        let every = self.ramp_every.unwrap_or_else(|| self.steps.div_ceil(MOVES)).max(1);
+        (0..self.steps.div_ceil(every)).map(|part| part * every).collect()
+    }
+
+    /// Overrides that make the numbers those of one of its parts, of so many.
+    pub(crate) fn settings(&self, part: usize, parts: usize) -> Vec<String> {
+        let way = if parts < 2 { 1.0 } else { part as f64 / (parts - 1) as f64 };
+        let set = self.changes().map(|(key, value)| format!("{key}={value}"));
+        let ramps = self.ramps().filter_map(|(key, ends)| Some((key, ends?)));
+        // Both ends exactly.
+        let value = move |[first, last]: [f64; 2]| if way < 1.0 { first + way * (last - first) } else { last };
+        set.chain(ramps.map(|(key, ends)| format!("{key}={}", value(ends)))).collect()
+    }
+}
+
+fn dotted(key: &str) -> String {
+    key.replace('[', ".").replace(']', "")
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_ramp_has_both_ends_and_equal_moves() {
+        let stage: Stage = serde_json::from_value(json!({
+            "steps": 10, "set": {"temperature": 2}, "ramp": {"interactions[0].repulsion": [25, 50]}, "ramp_every": 4,
+        }))
+        .unwrap();
+        assert_eq!(stage.parts(), [0, 4, 8]);
+        let settings: Vec<Vec<String>> = (0..3).map(|part| stage.settings(part, 3)).collect();
+        for (settings, repulsion) in settings.iter().zip(["25", "37.5", "50"]) {
+            assert_eq!(settings, &["temperature=2".to_owned(), format!("interactions.0.repulsion={repulsion}")]);
+        }
+        let long = Stage { steps: 1050, ramp_every: None, ..stage.clone() };
+        assert_eq!((long.parts().len(), long.parts()[1]), (96, 11));
+        assert_eq!(Stage { ramp: Map::new(), ..stage.clone() }.parts(), [0]);
+        // In a single part a ramp is at its end.
+        assert_eq!(stage.settings(0, 1)[1], "interactions.0.repulsion=50");
+    }
+}

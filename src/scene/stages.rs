@@ -1,0 +1,233 @@
+//! The scenes of the parts of a run, stages and the values of their ramps: each is the whole scene with the numbers that have changed until
+//! then, its own steps, and units that have room for the numbers of all.
+
+use super::changes::{STAGE_NUMBERS, differ_in_numbers, displacement_at, is_of_stages, overridden};
+use super::{Announced, Checked, Problem, Problems, Scene, SceneError, Stage, Warning, nearest};
+use crate::families::{self, StepCheck, TimeAxis};
+use serde_json::{Map, Value};
+
+/// The sum of the steps of stages stands for `time.steps` where a document leaves that out; without stages it may not.
+pub(super) fn sum_up_steps(document: &mut Value, problems: &mut Problems) {
+    let Some(stages) = document.get("stages").and_then(Value::as_array).filter(|stages| !stages.is_empty()) else {
+        let time = document.get("time").and_then(Value::as_object);
+        // A misspelt key is one mistake, not two.
+        let is_meant =
+            |key: &String| !["step", "equilibration"].contains(&key.as_str()) && nearest(key, ["steps"]).is_some();
+        if time.is_some_and(|time| !time.keys().any(is_meant)) {
+            problems.add("time.steps", "missing", "a whole number, zero or positive; or `stages`, each with `steps`");
+        }
+        return;
+    };
+    // What is no number of steps is refused where it stands.
+    let steps = stages.iter().map(|stage| stage["steps"].as_f64().filter(|steps| *steps >= 0.0).unwrap_or(0.0));
+    let sum = steps.sum::<f64>() as u64;
+    if let Some(time) = document.get_mut("time").and_then(Value::as_object_mut) {
+        time.entry("steps").or_insert_with(|| sum.into());
+    }
+}
+
+impl Checked {
+    /// The scenes of the parts of a run in which all numbers are constant, one after the other: of stages, and of the values of ramps. The scene
+    /// itself where it has no stages.
+    ///
+    /// Steps are those of the whole run: a part ends at its `time.steps`, and means leave out what is before the first of its stage.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] with all mistakes of the first part that is wrong.
+    pub(crate) fn parts(&self) -> Result<Vec<Self>, SceneError> {
+        if self.stages.is_empty() {
+            return Ok(vec![self.clone()]);
+        }
+        let mut found: Vec<Self> = Vec::new();
+        for (place, stage) in self.stages.iter().enumerate() {
+            for number in 0..stage.parts().len() {
+                let next = part(self, found.last(), place, number)?;
+                found.push(next);
+            }
+        }
+        Ok(found)
+    }
+
+    /// The scene of the part that a run is in at a step.
+    ///
+    /// # Errors
+    /// As [`Self::parts`].
+    pub(crate) fn part_of(&self, step: u64) -> Result<Self, SceneError> {
+        let mut parts = self.parts()?;
+        let number = part_at(&parts, step);
+        Ok(parts.swap_remove(number))
+    }
+}
+
+/// The number of the part that a run is in at a step, of parts as [`Checked::parts`] gives them; at its end it is in the last.
+pub(crate) fn part_at(parts: &[Checked], step: u64) -> usize {
+    let last = parts.len().saturating_sub(1);
+    parts.iter().position(|part| step < part.time.steps).unwrap_or(last)
+}
+
+impl Scene {
+    /// Its stages; all its steps are one where it has none.
+    pub(crate) fn stages_of_run(&self) -> Vec<Stage> {
+        if self.stages.is_empty() { vec![Stage::new(self.time.steps, Map::new())] } else { self.stages.clone() }
+    }
+
+    /// The first steps of its stages, and the last step of the run.
+    pub(crate) fn ends_of_stages(&self) -> Vec<u64> {
+        let ends = self.stages.iter().scan(0_u64, |end, stage| {
+            *end = end.saturating_add(stage.steps);
+            Some(*end)
+        });
+        std::iter::once(0).chain(ends).collect()
+    }
+}
+
+/// The scene of a part of a stage, after that of the part before.
+fn part(whole: &Scene, before: Option<&Checked>, place: usize, number: usize) -> Result<Checked, SceneError> {
+    let ends = whole.ends_of_stages();
+    let mut base = whole.clone();
+    let stages = std::mem::take(&mut base.stages);
+    if place + 1 < stages.len() {
+        base.output = base.output.without_analyses();
+    }
+    let firsts = stages[place].parts();
+    let begin = ends[place].saturating_add(firsts[number]);
+    // Analyses are those of the whole stage.
+    let whole_stage = ends[place + 1];
+    let end = firsts.get(number + 1).map_or(whole_stage, |next| ends[place].saturating_add(*next));
+    let earlier = stages[..place].iter().flat_map(|stage| stage.settings(0, 1));
+    let mut settings: Vec<String> = earlier.chain(stages[place].settings(number, firsts.len())).collect();
+    settings.push(format!("time.steps={whole_stage}"));
+    settings.push(format!("time.equilibration={}", ends[place].max(base.time.equilibration.min(whole_stage))));
+    let mut scene = overridden(&base, &settings)?.into_scene();
+    if let Some(displacement) = before.and_then(|before| displacement_at(before, &scene, begin)) {
+        settings.push(format!("space.shear.displacement={displacement}"));
+        scene = overridden(&base, &settings)?.into_scene();
+    }
+    let interval = scene.time.step;
+    let time = before.map_or(0.0, |before| before.model().time.at(begin));
+    scene.time.steps = end;
+    scene.announced.extend(largest(whole));
+    Ok(Checked::presumed(scene).with_times(TimeAxis { step: begin, time, interval }))
+}
+
+/// The numbers that change in the course of a run, with the value of each that has the largest magnitude.
+fn largest(whole: &Scene) -> Vec<Announced> {
+    let document = serde_json::to_value(whole).unwrap_or_default();
+    let at_first = |key: &str| document.pointer(&format!("/{}", key.replace('.', "/"))).and_then(Value::as_f64);
+    let mut found: Vec<Announced> = Vec::new();
+    let mut note = |key: String, value: Option<f64>| {
+        let Some(value) = value else { return };
+        match found.iter_mut().find(|known| known.key == key) {
+            Some(known) if known.largest.abs() < value.abs() => known.largest = value,
+            Some(_) => {}
+            None => found.push(Announced { key, largest: value }),
+        }
+    };
+    for stage in &whole.stages {
+        stage.keys().into_iter().for_each(|key| note(key.clone(), at_first(&key)));
+        stage.changes().for_each(|(key, value)| note(key, value.as_f64()));
+        for (key, ends) in stage.ramps() {
+            ends.into_iter().flatten().for_each(|value| note(key.clone(), Some(value)));
+        }
+    }
+    found
+}
+
+/// Shares another number of steps among stages, in proportion, one for each at least. Returns what was done.
+pub(super) fn shorten(document: &mut Value, steps: u64) -> Option<Warning> {
+    let stages = document.get_mut("stages").and_then(Value::as_array_mut).filter(|stages| !stages.is_empty())?;
+    let before: Vec<u64> = stages.iter().map(|stage| stage["steps"].as_u64()).collect::<Option<_>>()?;
+    let sum: u64 = before.iter().copied().fold(0, u64::saturating_add);
+    if sum == steps || sum == 0 || steps < before.len() as u64 {
+        return None;
+    }
+    let mut left = steps;
+    for (number, (stage, own)) in stages.iter_mut().zip(&before).enumerate() {
+        let following = (before.len() - 1 - number) as u64;
+        let share = (steps as f64 * *own as f64 / sum as f64).round() as u64;
+        let share = if following == 0 { left } else { share.clamp(1, left - following) };
+        stage["steps"] = share.into();
+        left -= share;
+    }
+    let message = format!("{sum} steps in all made {steps}, each in proportion");
+    Some(Warning { path: "stages".to_owned(), message })
+}
+
+/// Checks the stages of a scene that is right without them.
+pub(super) fn check(whole: &Checked, step: StepCheck, problems: &mut Problems) {
+    if whole.stages.is_empty() || !problems.is_empty() {
+        return;
+    }
+    let sum = whole.stages.iter().map(|stage| stage.steps).fold(0, u64::saturating_add);
+    if sum != whole.time.steps {
+        let accepted = format!("{sum}, the sum of the steps of its stages, or no `time.steps` at all");
+        problems.refuse("time.steps", whole.time.steps, accepted);
+    }
+    for (place, stage) in whole.stages.iter().enumerate() {
+        check_keys(whole, place, problems);
+        if stage.ramp.is_empty() && stage.ramp_every.is_some() {
+            let found = "steps between values of a ramp, of a stage without one";
+            problems.refuse(format!("stages[{place}].ramp_every"), found, "no `ramp_every`, or a `ramp`");
+        }
+    }
+    let mut before: Option<Checked> = None;
+    for (place, stage) in whole.stages.iter().enumerate() {
+        let parts = stage.parts().len();
+        for number in 0..parts {
+            if !problems.is_empty() {
+                return;
+            }
+            let path = format!("stages[{place}]");
+            match part(whole, before.as_ref(), place, number) {
+                Ok(next) => {
+                    let mut own = Problems::default();
+                    families::check(&next, step, &mut own);
+                    repeat(&path, own.into_parts().0, problems);
+                    if !differ_in_numbers(before.as_ref().unwrap_or(whole), &next) {
+                        let found = "a number in a place where the scene has none";
+                        problems.refuse(
+                            &path,
+                            found,
+                            "paths of numbers of the scene, as in `interactions.0.repulsion`",
+                        );
+                    }
+                    before = Some(next);
+                }
+                Err(SceneError::Invalid { problems: others, .. }) => repeat(&path, others, problems),
+                Err(error) => problems.refuse(&path, error, "a scene without mistakes"),
+            }
+        }
+    }
+}
+
+/// Checks the numbers that a stage changes.
+fn check_keys(whole: &Checked, place: usize, problems: &mut Problems) {
+    let stage = &whole.stages[place];
+    let keys = stage.keys();
+    let set = stage.changes().map(|(key, value)| (format!("set.{key}"), value.clone(), value.is_number(), "a number"));
+    let ramps = stage.ramp.values().zip(stage.ramps());
+    let ramps = ramps.map(|(value, (key, ends))| {
+        (format!("ramp.{key}"), value.clone(), ends.is_some(), "a list of two numbers, the first and the last value")
+    });
+    for (number, (name, value, is_right, accepted)) in set.chain(ramps).enumerate() {
+        let (path, key) = (format!("stages[{place}].{name}"), &keys[number]);
+        if keys[..number].contains(key) {
+            problems.refuse(&path, "a number that is given twice", "each number once");
+        }
+        if !is_of_stages(key) {
+            problems.refuse(path, "a key that cannot change in a run", STAGE_NUMBERS);
+        } else if !is_right {
+            problems.refuse(path, value, accepted);
+        } else if key == "time.step" && whole.model().has_memory() {
+            let found = "a change of the time step of baths that remember";
+            problems.refuse(path, found, "one time step in all stages, or baths without memory");
+        }
+    }
+}
+
+/// Reports the mistakes of a stage.
+fn repeat(path: &str, others: Vec<Problem>, problems: &mut Problems) {
+    for Problem { path: place, found, accepted, .. } in others {
+        problems.add(path, format_args!("with its numbers, {place}: {found}"), accepted);
+    }
+}

@@ -1,0 +1,183 @@
+//! Stages of a run: the bytes of a simulation whose numbers change between its steps, of any number of ranks, and one axis of steps and
+//! times.
+
+use mesoscope::Simulation;
+use mesoscope::output::{Summary, checkpoint, files, read_table};
+use mesoscope::plan::Division;
+use mesoscope::run::{Event, Interrupt, Run, RunError};
+use mesoscope::scene::Checked;
+use mesoscope::state::State;
+use std::path::Path;
+
+use crate::support::{COTTER_REICH, GROOT_WARREN, PREDICTED, SPLITTING, adapter, fluid, water};
+
+/// Runs a scene into a directory, and returns the state at its end.
+fn end_of(scene: &Checked, directory: &Path, slabs: u32) -> State {
+    let division = Division { parts: [1, 1, slabs] };
+    let run = Run::replace(scene.clone(), directory).on_ranks((slabs > 1).then_some(division));
+    run.execute(&adapter(), &mut |_| {}).unwrap();
+    checkpoint::load(&directory.join(files::CHECKPOINT)).unwrap().state
+}
+
+#[test]
+fn a_staged_run_has_the_bytes_of_a_simulation_whose_numbers_change() {
+    let memory = r#"interactions.0.bath={"type":"memory","rate":3}"#;
+    let shear = r#"space.shear={"rate":0.7,"gradient":"y"}"#;
+    for (changes, key, value) in [
+        (&[SPLITTING][..], "interactions.0.friction", 9.0),
+        (&[GROOT_WARREN], "temperature", 2.0),
+        (&[PREDICTED], "interactions.0.repulsion", 60.0),
+        (&[COTTER_REICH, memory], "temperature", 0.5),
+        (&[SPLITTING, shear], "space.shear.rate", -1.3),
+    ] {
+        let space = ["space.box=[4,4,5]", r#"output={"energies":{"every":4}}"#];
+        let plain = fluid(&[&space[..], changes].concat());
+        let stages = format!(r#"stages=[{{"steps":13}},{{"steps":17,"set":{{"{key}":{value}}}}}]"#);
+        let staged = fluid(&[&space[..], changes, &["time.steps=30", &stages]].concat());
+        let place = tempfile::tempdir().unwrap();
+        let ended = end_of(&staged, place.path(), 1);
+
+        let first = serde_json::to_value(&*plain).unwrap();
+        let first = first.pointer(&format!("/{}", key.replace('.', "/"))).unwrap().as_f64().unwrap();
+        let largest = if first.abs() > f64::abs(value) { first } else { value };
+        let announced = format!(r#"announced=[{{"key":"{key}","largest":{largest}}}]"#);
+        let announced = fluid(&[&space[..], changes, &[&announced]].concat());
+        let mut simulation = Simulation::new(&announced, &adapter()).unwrap();
+        simulation.advance(13).unwrap();
+        simulation.set(key, value).unwrap();
+        simulation.advance(17).unwrap();
+        let expected = simulation.state().unwrap();
+        assert_eq!((ended.step, expected.step), (30, 30));
+        assert!(ended.positions == expected.positions && ended.momenta == expected.momenta, "{changes:?}: {key}");
+
+        let mut unchanged = Simulation::new(&announced, &adapter()).unwrap();
+        unchanged.advance(30).unwrap();
+        assert!(unchanged.state().unwrap().positions != ended.positions, "{changes:?}: {key}");
+    }
+}
+
+/// A ramp is what a program does that changes a number again and again.
+#[test]
+fn a_ramp_has_the_bytes_of_a_simulation_whose_number_changes_again_and_again() {
+    let space = ["space.box=[4,4,4]", SPLITTING, r#"output={"energies":{"every":4}}"#];
+    let stages =
+        r#"stages=[{"steps":7},{"steps":20,"ramp":{"interactions.0.repulsion":[25,50]},"ramp_every":5},{"steps":9}]"#;
+    let staged = fluid(&[&space[..], &["time.steps=36", stages]].concat());
+    let place = tempfile::tempdir().unwrap();
+    let ended = end_of(&staged, place.path(), 1);
+    let announced = r#"announced=[{"key":"interactions.0.repulsion","largest":50}]"#;
+    let mut simulation = Simulation::new(&fluid(&[&space[..], &[announced]].concat()), &adapter()).unwrap();
+    simulation.advance(7).unwrap();
+    for part in 0..4 {
+        simulation.set("interactions.0.repulsion", 25.0 + f64::from(part) / 3.0 * 25.0).unwrap();
+        simulation.advance(5).unwrap();
+    }
+    simulation.advance(9).unwrap();
+    let expected = simulation.state().unwrap();
+    assert!(ended.positions == expected.positions && ended.momenta == expected.momenta);
+}
+
+const STAGES: &str = r#"stages=[
+    {"steps":10},
+    {"steps":20,"set":{"temperature":0.5,"interactions.0.repulsion":40}},
+    {"steps":16,"set":{"time.step":0.01},"ramp":{"temperature":[0.5,1]}}]"#;
+
+#[test]
+fn stages_share_one_axis_of_steps_and_times() {
+    let output =
+        r#"output={"energies":{"every":4},"trajectory":{"every":5,"format":"extended-xyz"},"snapshot":{"every":15}}"#;
+    let scene = fluid(&["space.box=[4,4,4]", "time.step=0.02", "time.steps=46", STAGES, output]);
+    let place = tempfile::tempdir().unwrap();
+    end_of(&scene, place.path(), 1);
+    let table = read_table(&place.path().join(files::ENERGIES)).unwrap();
+    let time = |step: f64| if step <= 30.0 { 0.02 * step } else { 0.6 + 0.01 * (step - 30.0) };
+    let expected: Vec<[f64; 2]> = (0..12).map(|row| [f64::from(4 * row), time(f64::from(4 * row))]).collect();
+    assert_eq!(table.rows.len(), expected.len());
+    for (row, [step, time]) in table.rows.iter().zip(expected) {
+        assert!(row[0] == step && (row[1] - time).abs() < 1e-12, "{row:?}, {time}");
+    }
+    let frames = std::fs::read_to_string(place.path().join("trajectory.xyz")).unwrap();
+    let times = frames.lines().filter_map(|line| line.split("Time=").nth(1)?.split(' ').next()?.parse::<f64>().ok());
+    let times: Vec<f64> = times.collect();
+    assert_eq!(times.len(), 10);
+    for (frame, found) in times.iter().enumerate() {
+        assert!((found - time(5.0 * frame as f64)).abs() < 1e-12, "{times:?}");
+    }
+    let summary = Summary::load(&place.path().join(files::SUMMARY)).unwrap();
+    let stages: Vec<_> = summary.stages.iter().map(|stage| (stage.first_step, stage.last_step)).collect();
+    assert_eq!(stages, [(0, 10), (10, 30), (30, 46)]);
+    assert!((summary.stages[2].times[1] - 0.76).abs() < 1e-12);
+    assert_eq!(summary.means, summary.stages[2].means);
+    // Rows of steps 12, 16, 20, 24 and 28.
+    let column = table.columns.iter().position(|name| name == "temperature").unwrap();
+    let mean = table.rows[3..8].iter().map(|row| row[column]).sum::<f64>() / 5.0;
+    assert!((summary.stages[1].means["temperature"]["value"].as_f64().unwrap() - mean).abs() < 1e-12);
+    assert_eq!(summary.numbered.iter().map(|frame| frame.step).collect::<Vec<_>>(), [0, 15, 30, 45]);
+    assert!((summary.numbered[3].time - 0.75).abs() < 1e-12);
+}
+
+#[test]
+fn stages_have_the_same_bytes_on_any_number_of_ranks() {
+    let scene = fluid(&["space.box=[4,4,12]", "time.step=0.02", "time.steps=46", STAGES, "output={}"]);
+    let place = tempfile::tempdir().unwrap();
+    let [alone, shared] = [1, 2].map(|slabs| end_of(&scene, &place.path().join(slabs.to_string()), slabs));
+    assert!(alone == shared);
+    let [alone, shared] =
+        ["1", "2"].map(|slabs| std::fs::read(place.path().join(slabs).join(files::ENERGIES)).unwrap());
+    assert!(alone == shared);
+}
+
+/// A run that goes on with other numbers is one with a stage more, to the bit where no unit changes.
+#[test]
+fn a_resumed_run_goes_on_in_a_new_stage() {
+    let space = ["space.box=[4,4,4]", SPLITTING, r#"output={"energies":{"every":4}}"#];
+    let place = tempfile::tempdir().unwrap();
+    let [one, two] = ["one", "two"].map(|name| place.path().join(name));
+    let first = fluid(&[&space[..], &["time.steps=20"]].concat());
+    end_of(&first, &one, 1);
+    let resumed = Run::resume(&one, Some(44)).unwrap().in_new_stage(&["interactions.0.friction=9".to_owned()]).unwrap();
+    let interrupt = Interrupt::default();
+    let stopped = resumed.until(&interrupt).execute(&adapter(), &mut |event| {
+        if matches!(event, Event::Advanced(progress) if progress.step > 25) {
+            interrupt.ask();
+        }
+    });
+    assert!(matches!(stopped, Ok(_) | Err(RunError::Interrupted { .. })), "{stopped:?}");
+    if stopped.is_err() {
+        Run::resume(&one, None).unwrap().execute(&adapter(), &mut |_| {}).unwrap();
+    }
+    let stages = r#"stages=[{"steps":20},{"steps":24,"set":{"interactions.0.friction":9}}]"#;
+    let ended = end_of(&fluid(&[&space[..], &["time.steps=44", stages]].concat()), &two, 1);
+    let found = checkpoint::load(&one.join(files::CHECKPOINT)).unwrap();
+    assert!(found.state.positions == ended.positions && found.state.momenta == ended.momenta);
+    assert_eq!(found.scene.stages.len(), 2);
+    let [mine, theirs] = [&one, &two].map(|place| read_table(&place.join(files::ENERGIES)).unwrap());
+    assert_eq!(mine.rows.len(), theirs.rows.len());
+    // The first stage had its numbers in the code of kernels.
+    for (mine, theirs) in mine.rows.iter().zip(&theirs.rows) {
+        assert!(mine.iter().zip(theirs).all(|(a, b)| (a - b).abs() < 1e-4 * b.abs().max(1.0)), "{mine:?} {theirs:?}");
+    }
+    let refused = |steps, set: &str| {
+        let error = Run::resume(&one, Some(steps)).unwrap().in_new_stage(&[set.to_owned()]).unwrap_err();
+        error.to_string()
+    };
+    for (steps, set, expected) in [
+        (44, "temperature=2", "time.steps: found 44 steps in all, of which 44 are behind"),
+        (60, "seed=2", "stages[2].set.seed: found a key that cannot change in a run"),
+        (60, "temperature=cold", "stages[2].set.temperature: found \"cold\"; accepted: a number"),
+        (60, "temperature=-1", "stages[2]: with its numbers, temperature: found -1"),
+    ] {
+        let found = refused(steps, set);
+        assert!(found.contains(expected), "{expected}: {found}");
+    }
+}
+
+#[test]
+fn shallow_water_has_stages() {
+    let stages = r#"stages=[{"steps":6},{"steps":6,"set":{"time.step":0.01,"interactions.0.rotation":3}}]"#;
+    let scene = water(&["time.steps=12", stages]);
+    let place = tempfile::tempdir().unwrap();
+    let ended = end_of(&scene, place.path(), 1);
+    let plain = end_of(&water(&["time.steps=12"]), &place.path().join("plain"), 1);
+    assert!(ended.step == 12 && ended.positions != plain.positions);
+}
