@@ -41,6 +41,9 @@ pub(crate) const STORAGE_BUFFERS: &str = "storage buffers in a kernel";
 const LANES: u32 = 256;
 const SHARED_BYTES: u32 = 16_384;
 
+/// The most uniform buffers that one kernel binds: numbers that it loads, and those of replicas.
+const UNIFORM_BUFFERS: u32 = 2;
+
 /// The limits to request, as far as an adapter has them.
 fn limits(offered: &wgpu::Limits, requirements: Requirements) -> Result<wgpu::Limits, Shortage> {
     let mut limits = wgpu::Limits::default().or_worse_values_from(offered);
@@ -51,13 +54,21 @@ fn limits(offered: &wgpu::Limits, requirements: Requirements) -> Result<wgpu::Li
     let buffers = requirements.storage_buffers;
     enough("bytes in a storage buffer", offered.max_storage_buffer_binding_size, bytes)?;
     enough("bytes in a buffer", offered.max_buffer_size, bytes)?;
-    enough(STORAGE_BUFFERS, offered.max_storage_buffers_per_shader_stage.into(), buffers.into())?;
+    enough(STORAGE_BUFFERS, storage_buffers(offered).into(), buffers.into())?;
     enough("lanes in a workgroup", offered.max_compute_invocations_per_workgroup.into(), LANES.into())?;
     enough("bytes shared by a workgroup", offered.max_compute_workgroup_storage_size.into(), SHARED_BYTES.into())?;
     limits.max_storage_buffer_binding_size = limits.max_storage_buffer_binding_size.max(bytes);
     limits.max_buffer_size = limits.max_buffer_size.max(bytes);
     limits.max_storage_buffers_per_shader_stage = limits.max_storage_buffers_per_shader_stage.max(buffers);
+    limits.max_buffers_and_acceleration_structures_per_shader_stage =
+        limits.max_buffers_and_acceleration_structures_per_shader_stage.max(buffers.saturating_add(UNIFORM_BUFFERS));
     Ok(limits)
+}
+
+/// The storage buffers that one kernel may bind, beside uniform ones.
+fn storage_buffers(limits: &wgpu::Limits) -> u32 {
+    let all = limits.max_buffers_and_acceleration_structures_per_shader_stage;
+    limits.max_storage_buffers_per_shader_stage.min(all.saturating_sub(UNIFORM_BUFFERS))
 }
 
 /// What kernels use where lanes load and store one after the other: eight bytes at a time, and textures that are loaded from
@@ -151,7 +162,7 @@ impl Gpu {
     #[must_use]
     pub(crate) fn meets(&self, requirements: Requirements) -> bool {
         let limits = self.device.limits();
-        requirements.storage_buffers <= limits.max_storage_buffers_per_shader_stage
+        requirements.storage_buffers <= storage_buffers(&limits)
             && requirements.largest_buffer <= limits.max_storage_buffer_binding_size.min(limits.max_buffer_size)
             && (self.portable || !requirements.portable)
     }
