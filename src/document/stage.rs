@@ -53,11 +53,18 @@ impl Stage {
 
     /// The first steps of the parts in which all its numbers are constant, counted from its own first.
     pub(crate) fn parts(&self) -> Vec<u64> {
-        if self.ramp.is_empty() {
-            return vec![0];
-        }
-        let every = self.ramp_every.unwrap_or_else(|| self.steps.div_ceil(MOVES)).max(1);
-        (0..self.steps.div_ceil(every)).map(|part| part * every).collect()
+        (0..self.part_count()).map(|part| part * self.part_steps()).collect()
+    }
+
+    /// Their number.
+    pub(crate) fn part_count(&self) -> u64 {
+        self.steps.div_ceil(self.part_steps()).max(1)
+    }
+
+    /// Steps of each but the last.
+    fn part_steps(&self) -> u64 {
+        let every = self.ramp_every.unwrap_or_else(|| self.steps.div_ceil(MOVES));
+        if self.ramp.is_empty() { self.steps.max(1) } else { every.max(1) }
     }
 
     /// Overrides that make the numbers those of one of its parts, of so many.

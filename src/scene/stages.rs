@@ -6,6 +6,9 @@ use super::{Announced, Checked, Problem, Problems, Scene, SceneError, Stage, War
 use crate::families::{self, StepCheck, TimeAxis};
 use serde_json::{Map, Value};
 
+/// Stages and values of ramps that a run may have: each is checked like a scene, which takes about a millisecond.
+const MOST_PARTS: u64 = 4096;
+
 /// The sum of the steps of stages stands for `time.steps` where a document leaves that out; without stages it may not.
 pub(super) fn sum_up_steps(document: &mut Value, problems: &mut Problems) {
     let Some(stages) = document.get("stages").and_then(Value::as_array).filter(|stages| !stages.is_empty()) else {
@@ -136,7 +139,8 @@ fn largest(whole: &Scene) -> Vec<Announced> {
 /// Shares another number of steps among stages, in proportion, one for each at least. Returns what was done.
 pub(super) fn shorten(document: &mut Value, steps: u64) -> Option<Warning> {
     let stages = document.get_mut("stages").and_then(Value::as_array_mut).filter(|stages| !stages.is_empty())?;
-    let before: Vec<u64> = stages.iter().map(|stage| stage["steps"].as_u64()).collect::<Option<_>>()?;
+    let before: Vec<u64> =
+        stages.iter().map(|stage| stage["steps"].as_f64().map(|steps| steps as u64)).collect::<Option<_>>()?;
     let sum: u64 = before.iter().copied().fold(0, u64::saturating_add);
     if sum == steps || sum == 0 || steps < before.len() as u64 {
         return None;
@@ -170,8 +174,16 @@ pub(super) fn check(whole: &Checked, step: StepCheck, problems: &mut Problems) {
             problems.refuse(format!("stages[{place}].ramp_every"), found, "no `ramp_every`, or a `ramp`");
         }
     }
+    let count = whole.stages.iter().map(Stage::part_count).fold(0, u64::saturating_add);
+    if count > MOST_PARTS {
+        let accepted = format!("at most {MOST_PARTS}, with more steps in `ramp_every`");
+        problems.refuse("stages", format!("{count} stages and values of ramps"), accepted);
+    }
     let mut before: Option<Checked> = None;
     for (place, stage) in whole.stages.iter().enumerate() {
+        if !problems.is_empty() {
+            return;
+        }
         let parts = stage.parts().len();
         for number in 0..parts {
             if !problems.is_empty() {

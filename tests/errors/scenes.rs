@@ -220,6 +220,10 @@ fn stages_of_a_run() {
     ] {
         FLUID.refused_with(&[&format!("stages={stages}")], &[expected]);
     }
+    // A number of values that no machine holds.
+    let endless = r#"stages=[{"steps":1000000000000000,"ramp":{"temperature":[1,2]},"ramp_every":1}]"#;
+    let expected = "stages: found 1000000000000000 stages and values of ramps; accepted: at most 4096";
+    FLUID.refused_with(&["time.steps=1e15", endless], &[expected]);
 }
 
 #[test]
