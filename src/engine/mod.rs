@@ -168,6 +168,9 @@ const PATH_BYTES: u64 = 4 * PATH_WORDS as u64;
 /// Batches that may wait on the device while the host continues.
 const BATCHES_IN_FLIGHT: usize = 2;
 
+/// The most bytes of a buffer for reading: any device allows as many.
+const MOST_READ_AT_ONCE: u64 = 1 << 28;
+
 impl From<&Gpu> for Hardware {
     fn from(gpu: &Gpu) -> Self {
         Self {
@@ -714,10 +717,18 @@ impl<'a> Engine<'a> {
         Ok(bytes)
     }
 
+    /// Reads a stretch of an array, of which a readback buffer holds a part only where it is long.
     fn read_range(&self, buffer: &Stored, range: Range<u64>) -> Result<Vec<u8>, GpuError> {
-        readback::read(&self.gpu, range.end - range.start, |encoder, staging| {
-            buffer.copy_to(encoder, range, staging, 0);
-        })
+        let most = self.gpu.device.limits().max_buffer_size.min(MOST_READ_AT_ONCE);
+        let mut bytes = Vec::new();
+        for begin in range.clone().step_by(most as usize) {
+            let part = begin..range.end.min(begin + most);
+            let read = readback::read(&self.gpu, part.end - part.start, |encoder, staging| {
+                buffer.copy_to(encoder, part, staging, 0);
+            })?;
+            if bytes.is_empty() { bytes = read } else { bytes.extend_from_slice(&read) }
+        }
+        Ok(bytes)
     }
 
     fn download(&mut self) -> Result<State, EngineError> {
