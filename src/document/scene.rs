@@ -63,7 +63,7 @@ pub struct Scene {
     pub output: Output,
     /// Numbers that a program will change between the steps of a simulation: units are chosen for the largest values.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[schemars(length(max = 64))]
+    #[schemars(length(max = 1024))]
     pub announced: Vec<Announced>,
     /// Stages of the run, one after the other, which share its steps among them: `time.steps` is the sum of theirs. Analyses are of the
     /// last one, and means too; the table of energies, frames and pictures are of all.
@@ -154,26 +154,27 @@ impl Scene {
         })
     }
 
-    /// True if kernels load their numbers from the start: numbers are announced, or were changed in the simulation that
+    /// True if kernels load their numbers from the start: numbers are announced or change in stages, or were changed in the simulation that
     /// it goes on with.
     pub(crate) fn loads_numbers(&self) -> bool {
         let changed = self.start().is_some_and(|start| start.changes.iter().any(Change::is_of_number));
-        changed || !self.announced.is_empty()
+        changed || !self.announced.is_empty() || !self.stages.is_empty()
     }
 
-    /// The scene with the numbers that are announced, if there are any: units are chosen for these. A path without a
-    /// number, which a check refuses, leaves none.
+    /// The scene with the largest numbers that are announced or that stages have, if there are any: units are chosen for these. A path
+    /// without a number, which a check refuses, leaves none.
     pub(crate) fn as_announced(&self) -> Option<Self> {
-        if self.announced.is_empty() {
+        let announced = self.announced_in_all();
+        if announced.is_empty() {
             return None;
         }
         let mut document = serde_json::to_value(self).ok()?;
-        for Announced { key, largest } in &self.announced {
+        for Announced { key, largest } in &announced {
             let place = document.pointer_mut(&format!("/{}", key.replace('.', "/")))?;
             *place = place.is_number().then(|| (*largest).into())?;
         }
         let scene: Self = serde_json::from_value(document).ok()?;
-        Some(Self { kept: self.kept.clone(), announced: Vec::new(), ..scene })
+        Some(Self { kept: self.kept.clone(), announced: Vec::new(), stages: Vec::new(), ..scene })
     }
 
     /// What was read of the file that the particles start from, or what follows from molecules, if there are any.

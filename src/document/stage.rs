@@ -1,5 +1,6 @@
 //! Stages of a run.
 
+use super::{Announced, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -75,6 +76,34 @@ impl Stage {
         // Both ends exactly.
         let value = move |[first, last]: [f64; 2]| if way < 1.0 { first + way * (last - first) } else { last };
         set.chain(ramps.map(|(key, ends)| format!("{key}={}", value(ends)))).collect()
+    }
+}
+
+impl Scene {
+    /// The numbers that are announced, and those that stages change, with the value of each that has the largest magnitude.
+    pub(crate) fn announced_in_all(&self) -> Vec<Announced> {
+        let mut found = self.announced.clone();
+        if self.stages.is_empty() {
+            return found;
+        }
+        let document = serde_json::to_value(self).unwrap_or_default();
+        let at_first = |key: &str| document.pointer(&format!("/{}", key.replace('.', "/"))).and_then(Value::as_f64);
+        let mut note = |key: String, value: Option<f64>| {
+            let Some(value) = value else { return };
+            match found.iter_mut().find(|known| dotted(&known.key) == key) {
+                Some(known) if known.largest.abs() < value.abs() => known.largest = value,
+                Some(_) => {}
+                None => found.push(Announced { key, largest: value }),
+            }
+        };
+        for stage in &self.stages {
+            stage.keys().into_iter().for_each(|key| note(key.clone(), at_first(&key)));
+            stage.changes().for_each(|(key, value)| note(key, value.as_f64()));
+            for (key, ends) in stage.ramps() {
+                ends.into_iter().flatten().for_each(|value| note(key.clone(), Some(value)));
+            }
+        }
+        found
     }
 }
 

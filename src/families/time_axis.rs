@@ -1,7 +1,9 @@
 //! The times of steps.
 
+use serde::{Deserialize, Serialize};
+
 /// The times of the steps of a scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TimeAxis {
     /// A step.
     pub step: u64,

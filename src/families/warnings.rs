@@ -15,7 +15,18 @@ use crate::families::Checked;
 /// ```
 #[must_use]
 pub fn warnings(scene: &Checked) -> Vec<Warning> {
-    scene.model().physics().warnings(scene)
+    let of_part = |part: &Checked| part.model().physics().warnings(part);
+    let mut found = of_part(scene);
+    let ends = scene.ends_of_stages();
+    for part in scene.parts().unwrap_or_default() {
+        let stage = ends.iter().filter(|end| **end <= part.model().time.step).count().saturating_sub(1);
+        // Numbers in a message differ along a ramp.
+        let known: Vec<String> = found.iter().map(|warning| warning.path.clone()).collect();
+        let is_new = |path: &String| !known.iter().any(|known| known == path || known.ends_with(&format!("]: {path}")));
+        let new = of_part(&part).into_iter().filter(|warning| is_new(&warning.path));
+        found.extend(new.map(|warning| Warning { path: format!("stages[{stage}]: {}", warning.path), ..warning }));
+    }
+    found
 }
 
 pub(super) fn warn(warnings: &mut Vec<Warning>, path: impl Into<String>, message: String) {

@@ -124,7 +124,7 @@ fn sum_of(runs: impl IntoIterator<Item = Id>) -> Fnv {
 
 /// Number of characters of an id.
 pub(super) const LENGTH: usize = 17;
-/// Whether two scenes are those of one run, however many steps they have, and further stages.
+/// True if two scenes are those of one run, however many steps they have, and further stages.
 pub(crate) fn of_one_run(one: &Scene, other: &Scene) -> bool {
     let [mine, theirs] = [one, other].map(Scene::stages_of_run);
     let common = mine.len().min(theirs.len());

@@ -95,7 +95,7 @@ impl Processes for World {
     }
 }
 
-/// What a rank talks with. It holds no communicator, which could not move to another thread.
+/// The line of a rank to the others. It holds no communicator, which could not move to another thread.
 struct Line {
     patience: Duration,
     alarm: fn(&str),

@@ -57,7 +57,14 @@ fn describe(entry: &mut Entry, directory: &Path, summary: &Summary) {
         entry.add_fact("steps", format!("{} of {step}, to t = {time}", grouped(steps)));
     }
     entry.add_fact("equilibration", format!("{} steps, which means leave out", grouped(scene.time.equilibration)));
-    entry.add_fact("temperature", scene.temperature.to_string());
+    let later = scene.stages.iter().any(|stage| stage.keys().iter().any(|key| key == "temperature"));
+    entry.add_fact("temperature", format!("{}{}", scene.temperature, if later { " at first" } else { "" }));
+    for (number, stage) in (1..).zip(&summary.stages) {
+        let numbers = stage.set.iter().chain(&stage.ramp).map(|(key, value)| format!("{key} = {value}"));
+        let numbers = numbers.collect::<Vec<_>>().join(", ");
+        let steps = format!("stage {number}: to step {}", grouped(stage.last_step));
+        entry.add_fact("", if numbers.is_empty() { steps } else { format!("{steps}, {numbers}") });
+    }
     entry.add_fact("adapter", format!("{}, {}", summary.adapter.name, summary.adapter.driver));
     if let Some(ranks) = &summary.ranks {
         entry.add_fact("ranks", ranks.ranks.len().to_string());

@@ -149,6 +149,8 @@ impl<'a> Execution<'a> {
     ) -> Result<(), RunError> {
         let begun = pace.done().0;
         let first = engine.step();
+        // Kernels may have been compiled until now.
+        pace.begin();
         self.visit(engine, pace)?;
         // What a run goes back to is on the disk from now on, and need not be in memory.
         start.state = State::default();
@@ -181,7 +183,7 @@ impl<'a> Execution<'a> {
     }
 
     /// True in the last part.
-    fn is_last(&self) -> bool {
+    pub(super) fn is_last(&self) -> bool {
         self.scene.time.steps == self.task.scene.time.steps
     }
 
@@ -293,7 +295,6 @@ impl<'a> Execution<'a> {
     /// The beginning of the part that follows.
     pub(super) fn hand_over(&mut self, engine: &mut dyn Stepper, pace: &mut Pace) -> Result<Checkpoint, RunError> {
         let mut next = self.checkpoint(engine, pace)?;
-        pace.begin();
         let following = &self.task.parts[self.task.part_at(next.state.step)];
         // Numbers may decide what is kept.
         let kept = |scene: &Checked| scene.model().physics().kept(scene.model(), &next.state).len();

@@ -22,7 +22,7 @@ use crate::output::summary::{RankSummary, RanksSummary};
 use crate::output::{Checkpoint, Id, OutputError, RunDirectory, Summary, checkpoint, files};
 use crate::plan::{Division, Hardware, Options, Part, Plan};
 use crate::ranks::{Processes, computes_alike, sharing_anywhere};
-use crate::scene::{Problem, SceneError, Stage, Warning, part_at, value as value_of};
+use crate::scene::{Problem, SceneError, Stage, part_at, value as value_of};
 use serde_json::Map;
 use std::path::{Path, PathBuf};
 
@@ -118,24 +118,23 @@ impl Run {
         let notices = notices.and_then(|(_, bytes)| serde_json::from_slice(bytes).ok()).unwrap_or_default();
         if let Some(steps) = steps.filter(|steps| *steps != scene.time.steps) {
             let before = scene.time.steps;
-            if scene.stages.last().is_some_and(|last| !last.ramp.is_empty()) {
+            let ramps = scene.stages.last().is_some_and(|last| !last.ramp.is_empty());
+            if ramps && steps < before {
                 let place = format!("stages[{}].steps", scene.stages.len() - 1);
                 let accepted =
-                    format!("{before} steps in all, since the last stage has a ramp, whose line they are a part of");
+                    format!("at least {before}, since the last stage has a ramp, whose line its steps are a part of");
                 let problems = vec![Problem::new(place, format!("found {steps} steps in all"), accepted)];
-                return Err(SceneError::Invalid {
-                    name: path.display().to_string(),
-                    problems,
-                    more: 0,
-                    further: false,
-                }
-                .into());
+                let name = path.display().to_string();
+                return Err(SceneError::Invalid { name, problems, more: 0, further: false }.into());
             }
             scene = scene.changed(|scene| {
                 scene.time.steps = steps;
-                if let Some(last) = scene.stages.last_mut() {
+                match scene.stages.last_mut() {
+                    // The end of a line goes on as a stage of its own.
+                    Some(_) if ramps => scene.stages.push(Stage::new(steps - before, Map::new())),
                     // No steps are a mistake, which the check finds.
-                    last.steps = (last.steps + steps).saturating_sub(before);
+                    Some(last) => last.steps = (last.steps + steps).saturating_sub(before),
+                    None => {}
                 }
             });
             if steps > checkpoint.state.step || !scene.stages.is_empty() {
@@ -228,7 +227,7 @@ impl Run {
         let after = self.scene.part_of(step)?;
         let (state, rounding) = in_units_of(&after, &before, std::mem::take(&mut checkpoint.state))?;
         if before.model().units.momentum != after.model().units.momentum {
-            // What is kept to the last bit is counted in other units from here on.
+            // Sums that are kept to the last bit are counted in other units from here on.
             checkpoint.sections.retain(|(name, _)| name != kept_sums::SECTION);
             let fresh = Sections::new(Path::new(files::CHECKPOINT), 0, &[]);
             let sums = KeptSums::new(after.model(), &state, &fresh, Sharing::default())?;
@@ -542,7 +541,12 @@ fn attempt(
     let mut run = Execution::open(task, gpu, engine, start)?;
     let scene = run.scene;
     run.notices = &task.notices;
-    match run.advance_to_end(engine, start, pace, observer) {
+    let is_last = run.is_last();
+    let next = run.advance_to_end(engine, start, pace, observer).and_then(|()| {
+        // The last steps may turn out to have failed only here.
+        if is_last { Ok(None) } else { run.hand_over(engine, pace).map(Some) }
+    });
+    match next {
         Err(RunError::Engine(source @ (EngineError::Unstable(_) | EngineError::GaveUp { .. }))) => {
             run.energies.file.flush()?;
             let (checkpoint, checkpoint_step) = (task.directory.file(files::CHECKPOINT), run.saved_step);
@@ -555,39 +559,20 @@ fn attempt(
             });
         }
         Err(error) => return Err(task.stopped(error, run.saved_step)),
-        Ok(()) => {}
-    }
-    if engine.step() < task.scene.time.steps {
-        return run.hand_over(engine, pace).map(|next| Ended::Part(Box::new(next)));
+        Ok(Some(next)) => return Ok(Ended::Part(Box::new(next))),
+        Ok(None) => {}
     }
     run.ranks = ranks(engine);
     observer(Event::Finishing);
     let mut warnings = task.notices.clone();
     warnings.extend(task.unseen.clone());
-    warnings.extend(warnings_of_stages(&task.scene, &task.parts));
+    warnings.extend(families::warnings(&task.scene).iter().map(ToString::to_string));
     warnings.extend(run.kept_sums.mixed.then(|| warning_of_mixed_ranks(task.scene.model())));
     warnings.extend(run.kept_sums.warning());
     warnings.extend(pictures::lettering(&task.scene));
     let saved_step = run.saved_step;
     let outcome = run.conclude(engine, warnings, pace.done()).map_err(|error| task.stopped(error, saved_step))?;
     Ok(Ended::Run(Box::new(outcome)))
-}
-
-/// Warnings of all stages, those of later ones with the number of the first that has them.
-fn warnings_of_stages(scene: &Checked, parts: &[Checked]) -> Vec<String> {
-    let ends = scene.ends_of_stages();
-    let mut found: Vec<String> = Vec::new();
-    for part in parts {
-        let stage = ends.iter().filter(|end| **end <= part.model().time.step).count();
-        for Warning { path, message } in families::warnings(part) {
-            // Numbers in a message differ along a ramp.
-            if !found.iter().any(|known| known.contains(&format!("{path}: "))) {
-                let stage = if stage > 1 { format!("stage {stage}: ") } else { String::new() };
-                found.push(format!("{stage}{path}: {message}"));
-            }
-        }
-    }
-    found
 }
 
 /// The ranks that have shared a run, if there are several.

@@ -38,6 +38,9 @@ use std::sync::Arc;
 use std::thread;
 use std::time::{Duration, Instant};
 
+/// Name of the section of a checkpoint that keeps the times of steps.
+const TIMES: &str = "times";
+
 /// Steps that are repeated at most where an array turns out too small.
 const STEPS_BETWEEN_STATES: u64 = 4096;
 
@@ -239,7 +242,13 @@ impl Simulation {
     ) -> Result<Self, RunError> {
         let path = path.as_ref();
         let Checkpoint { scene, mut state, sections, .. } = checkpoint::load(path)?;
-        let scene = scene.part_of(state.step)?;
+        let mut scene = scene.part_of(state.step)?;
+        if let Some((_, times)) = sections.iter().find(|(name, _)| name == TIMES) {
+            let times = serde_json::from_slice(times).map_err(|error| {
+                checkpoint::CheckpointError::malformed(path, format!("its section `{TIMES}` is none ({error})"))
+            })?;
+            scene = scene.with_times(times);
+        }
         let planned = Sight::Frames.planned(&scene);
         if planned.model().follows_paths(&planned.output) && state.images.is_empty() {
             // The state of a run that followed no particle.
@@ -669,7 +678,10 @@ impl Simulation {
     pub fn checkpoint(&mut self, path: impl AsRef<Path>) -> Result<(), RunError> {
         let state = self.state()?;
         let carried = self.carried.section(self.scene.model(), &mut *self.engine)?;
-        let sections: Vec<_> = carried.into_iter().chain(Change::section(&self.changes)).collect();
+        let times = self.scene.model().time;
+        // Times of steps that another time step preceded do not follow from the scene.
+        let times = (times.step > 0).then(|| (TIMES.to_owned(), serde_json::to_vec(&times).unwrap_or_default()));
+        let sections: Vec<_> = carried.into_iter().chain(Change::section(&self.changes)).chain(times).collect();
         // A scene ends after its checkpoint.
         let steps = self.scene.time.steps.max(state.step);
         let scene = self.scene.clone().changed(|scene| scene.time.steps = steps);

@@ -91,7 +91,8 @@ fn blank(document: &mut Value) {
 /// of them.
 pub(super) fn check_announced(scene: &Checked, problems: &mut Problems) {
     for (place, announced) in scene.announced.iter().enumerate() {
-        if !is_changeable(&announced.key) {
+        // Simulations that go on from a stage announce the time steps of others.
+        if !is_of_stages(&announced.key) {
             let found = format_args!("`{}`, which cannot change between steps", announced.key);
             problems.refuse(format_args!("announced[{place}].key"), found, ACCEPTED);
         }

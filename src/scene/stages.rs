@@ -2,7 +2,7 @@
 //! then, its own steps, and units that have room for the numbers of all.
 
 use super::changes::{STAGE_NUMBERS, differ_in_numbers, displacement_at, is_of_stages, overridden};
-use super::{Announced, Checked, Problem, Problems, Scene, SceneError, Stage, Warning, nearest};
+use super::{Checked, Problem, Problems, Scene, SceneError, Stage, Warning, nearest};
 use crate::families::{self, StepCheck, TimeAxis};
 use serde_json::{Map, Value};
 
@@ -21,7 +21,7 @@ pub(super) fn sum_up_steps(document: &mut Value, problems: &mut Problems) {
         }
         return;
     };
-    // What is no number of steps is refused where it stands.
+    // Steps that are no number are refused where they stand.
     let steps = stages.iter().map(|stage| stage["steps"].as_f64().filter(|steps| *steps >= 0.0).unwrap_or(0.0));
     let sum = steps.sum::<f64>() as u64;
     if let Some(time) = document.get_mut("time").and_then(Value::as_object_mut) {
@@ -49,6 +49,13 @@ impl Checked {
             }
         }
         Ok(found)
+    }
+
+    /// The scene of the end of a run, which its analyses and means are of: with the numbers of its last stage.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn at_end(&self) -> Self {
+        self.part_of(self.time.steps).unwrap_or_else(|_| self.clone())
     }
 
     /// The scene of the part that a run is in at a step.
@@ -109,31 +116,8 @@ fn part(whole: &Scene, before: Option<&Checked>, place: usize, number: usize) ->
     let interval = scene.time.step;
     let time = before.map_or(0.0, |before| before.model().time.at(begin));
     scene.time.steps = end;
-    scene.announced.extend(largest(whole));
+    scene.announced = whole.announced_in_all();
     Ok(Checked::presumed(scene).with_times(TimeAxis { step: begin, time, interval }))
-}
-
-/// The numbers that change in the course of a run, with the value of each that has the largest magnitude.
-fn largest(whole: &Scene) -> Vec<Announced> {
-    let document = serde_json::to_value(whole).unwrap_or_default();
-    let at_first = |key: &str| document.pointer(&format!("/{}", key.replace('.', "/"))).and_then(Value::as_f64);
-    let mut found: Vec<Announced> = Vec::new();
-    let mut note = |key: String, value: Option<f64>| {
-        let Some(value) = value else { return };
-        match found.iter_mut().find(|known| known.key == key) {
-            Some(known) if known.largest.abs() < value.abs() => known.largest = value,
-            Some(_) => {}
-            None => found.push(Announced { key, largest: value }),
-        }
-    };
-    for stage in &whole.stages {
-        stage.keys().into_iter().for_each(|key| note(key.clone(), at_first(&key)));
-        stage.changes().for_each(|(key, value)| note(key, value.as_f64()));
-        for (key, ends) in stage.ramps() {
-            ends.into_iter().flatten().for_each(|value| note(key.clone(), Some(value)));
-        }
-    }
-    found
 }
 
 /// Shares another number of steps among stages, in proportion, one for each at least. Returns what was done.

@@ -62,7 +62,9 @@ impl Group {
         let mut groups: Vec<Self> = Vec::new();
         for (number, member) in members.iter().enumerate() {
             let plan = run::plan(&member.scene, Hardware::from(gpu), Options::default());
-            let fitting = Replicas::fitting(&plan, gpu, most);
+            // Stages have plans of their own.
+            let has_stages = !member.scene.stages.is_empty();
+            let fitting = if has_stages { 1 } else { Replicas::fitting(&plan, gpu, most) };
             let with = groups.iter_mut().find_map(|group| {
                 let (_, first) = group.together.as_mut().filter(|_| group.members.len() < fitting)?;
                 let same = first.has_constants_of(&plan);

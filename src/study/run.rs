@@ -45,7 +45,7 @@ pub enum StudyEvent<'a, E, P> {
         adapter: &'a AdapterDescription,
         /// Runs that are not finished yet.
         runs: usize,
-        /// How many of them run at once, at most.
+        /// The number of them that run at once, at most.
         at_once: usize,
         /// Seconds that they are expected to take, where that is known.
         seconds: Option<f64>,

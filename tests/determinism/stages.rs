@@ -2,6 +2,7 @@
 //! times.
 
 use mesoscope::Simulation;
+use mesoscope::families;
 use mesoscope::output::{Summary, checkpoint, files, read_table};
 use mesoscope::plan::Division;
 use mesoscope::run::{Event, Interrupt, Run, RunError};
@@ -170,6 +171,58 @@ fn a_resumed_run_goes_on_in_a_new_stage() {
         let found = refused(steps, set);
         assert!(found.contains(expected), "{expected}: {found}");
     }
+}
+
+/// After a ramp a run goes on with its last numbers.
+#[test]
+fn a_run_goes_on_after_its_ramp() {
+    let space = ["space.box=[4,4,4]", r#"output={"energies":{"every":4}}"#, "time.steps=20"];
+    let ramp = r#"stages=[{"steps":20,"ramp":{"interactions.0.repulsion":[25,50]},"ramp_every":7}]"#;
+    let place = tempfile::tempdir().unwrap();
+    let [one, two] = ["one", "two"].map(|name| place.path().join(name));
+    end_of(&fluid(&[&space[..], &[ramp]].concat()), &one, 1);
+    let error = Run::resume(&one, Some(10)).unwrap_err().to_string();
+    assert!(error.contains("stages[0].steps: found 10 steps in all; accepted: at least 20"), "{error}");
+    Run::resume(&one, Some(32)).unwrap().execute(&adapter(), &mut |_| {}).unwrap();
+    let found = checkpoint::load(&one.join(files::CHECKPOINT)).unwrap();
+    assert_eq!(found.scene.stages.iter().map(|stage| stage.steps).collect::<Vec<_>>(), [20, 12]);
+    let longer = ramp.replace(r#","ramp_every":7}]"#, r#","ramp_every":7},{"steps":12}]"#);
+    let ended = end_of(&fluid(&[&space[..2], &["time.steps=32", &longer]].concat()), &two, 1);
+    assert!(found.state.positions == ended.positions && found.state.momenta == ended.momenta);
+}
+
+/// A simulation that goes on from a run with stages has its times, through changes and further checkpoints.
+#[test]
+fn a_simulation_goes_on_with_the_times_of_stages() {
+    let scene = fluid(&["space.box=[4,4,4]", "time.step=0.02", "time.steps=46", STAGES, "output={}"]);
+    let place = tempfile::tempdir().unwrap();
+    end_of(&scene, place.path(), 1);
+    // 30 steps of .02 and 16 of .01.
+    let mut simulation = Simulation::from_checkpoint(place.path().join(files::CHECKPOINT), &adapter()).unwrap();
+    assert!((simulation.time() - 0.76).abs() < 1e-12, "{}", simulation.time());
+    simulation.advance(4).unwrap();
+    simulation.set("temperature", 1.0).unwrap();
+    assert!((simulation.time() - 0.8).abs() < 1e-12, "{}", simulation.time());
+    let again = place.path().join("again.bin");
+    simulation.checkpoint(&again).unwrap();
+    let again = Simulation::from_checkpoint(&again, &adapter()).unwrap();
+    assert_eq!((again.step(), again.time()), (50, simulation.time()));
+}
+
+/// Each stage is warned of, by its place, once for each key.
+#[test]
+fn stages_are_warned_of() {
+    let warned = |stages: &str| {
+        let scene = fluid(&["time.steps=40", &format!("stages={stages}")]);
+        families::warnings(&scene).into_iter().map(|warning| warning.path).collect::<Vec<_>>()
+    };
+    assert_eq!(warned(r#"[{"steps":40}]"#), Vec::<String>::new());
+    // All that a scene of its own is warned of, and along a ramp no more.
+    let plain = families::warnings(&fluid(&["time.step=0.1"]));
+    let expected: Vec<String> = plain.iter().map(|warning| format!("stages[1]: {}", warning.path)).collect();
+    assert!(expected.len() > 1, "{plain:?}");
+    assert_eq!(warned(r#"[{"steps":20},{"steps":20,"set":{"time.step":0.1}}]"#), expected);
+    assert_eq!(warned(r#"[{"steps":10},{"steps":30,"ramp":{"time.step":[0.1,0.11]}}]"#), expected);
 }
 
 #[test]

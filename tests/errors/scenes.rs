@@ -57,7 +57,7 @@ fn unknown_keys() {
 fn announced_numbers_that_are_none() {
     let announced = |key: &str, largest: &str| format!(r#"announced=[{{"key":"{key}","largest":{largest}}}]"#);
     FLUID.parse(&[&announced("interactions.0.repulsion", "100")]).unwrap();
-    for key in ["time.step", "seed", "space.box.0"] {
+    for key in ["time.steps", "seed", "space.box.0"] {
         let expected =
             format!("announced[0].key: found `{key}`, which cannot change between steps; accepted: temperature");
         FLUID.refused_with(&[&announced(key, "2")], &[&expected]);

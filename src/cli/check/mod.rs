@@ -90,15 +90,19 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let sizes = Sizes::of(&scene, whole.as_ref().unwrap_or(&plan));
     let time = time(&scene, trial.as_ref());
     let one = if division.is_some() { " of one rank" } else { "" };
+    // Means and analyses are of the last stage.
+    let measured = scene.at_end();
+    let accuracy = predictions::accuracy(&arguments.scene.as_argument(), &measured);
+    let of_stage = if scene.stages.is_empty() { "" } else { "; of the last stage" };
     let mut rows = vec![
         ("time", format!("{time}{one}, on {adapter}")),
         ("files", format!("about {}", bytes(sizes.total()))),
         ("memory", memory(&plan)),
-        ("accuracy", predictions::accuracy(&arguments.scene.as_argument(), &scene)),
+        ("accuracy", format!("{accuracy}{of_stage}")),
     ];
-    let estimates = scene.model().estimates();
+    let estimates = measured.model().estimates();
     if !estimates.is_empty() {
-        rows.push(("expected", estimates.join(", ")));
+        rows.push(("expected", format!("{}{of_stage}", estimates.join(", "))));
     }
     rows.extend(scene.composition());
     let verbose = arguments.verbose || arguments.kernels;
@@ -108,7 +112,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let step = trial.as_ref().and_then(|trial| Some(trial.as_ref().ok()?.step));
     rows.extend(division.into_iter().flat_map(|division| ranks::rows(&scene, division, (step, hardware))));
     if verbose {
-        rows.extend(predictions::rows(&arguments.scene.as_argument(), &scene, &plan, hardware));
+        rows.extend(predictions::rows(&arguments.scene.as_argument(), &measured, &plan, hardware));
     }
     let mut text = format!("{}\n{}", printable::name(&scene.title), labelled(rows, "  "));
     if verbose {

@@ -1,4 +1,4 @@
-//! How a list of neighbours lies in buffers, with what its pairs remember: then two lists do by turns.
+//! The place of a list of neighbours in buffers, with the memories of its pairs: then two lists lie there by turns.
 
 use crate::plan::Misfit;
 use crate::state::{PairBath, State};

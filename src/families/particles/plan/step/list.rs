@@ -58,7 +58,7 @@ impl Builder<'_> {
         self.plan.sort = [&[begin][..], &rebuild].concat();
     }
 
-    /// Whether every step lists neighbours. Without a margin they would be listed anew as soon as a particle has moved:
+    /// True if every step lists neighbours. Without a margin they would be listed anew as soon as a particle has moved:
     /// no kernel has to find out, and none depends on it.
     pub(super) fn lists_always(&self) -> bool {
         self.force.skin == 0.0

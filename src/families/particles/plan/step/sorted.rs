@@ -52,7 +52,7 @@ impl Sorted {
         // is stored.
         let beside = builder.more_buffers() + u32::from(options.part.is_some());
         let one_kernel = !needs_levels(cells, options) && options.part.is_none();
-        // What ends a step that visits pairs once is no traversal.
+        // A step that visits pairs once is not ended by a traversal.
         let at_end = serial
             && one_kernel
             && builder.traversal == Traversal::Clusters

@@ -97,7 +97,7 @@ mod tests {
     use super::{Motion, fastest_of};
     use crate::scene;
 
-    /// Of particles with kT/m = 1 and a cutoff of 1 in three dimensions.
+    /// The motion of particles with kT/m = 1 and a cutoff of 1 in three dimensions.
     fn motion(particles: u64, speed: f64, time_step: f64) -> Motion {
         Motion { dimension: 3, cutoff: 1.0, fastest: fastest_of(particles, 3) * speed * time_step, copies: 0.0 }
     }
@@ -124,7 +124,7 @@ mod tests {
         let last = margins.iter().rposition(|margin| *margin > 0.0).unwrap();
         assert!(margins[..=last].is_sorted() && margins[last + 1..].iter().all(|margin| *margin == 0.0), "{margins:?}");
         assert!((100..250).contains(&last) && margins[last] < 0.6, "{last}: {margins:?}");
-        // What does not move needs a list once, as does what takes no time.
+        // Particles that do not move need a list once, as do steps that take no time.
         assert_eq!((margins[0], motion(1, 0.0, 0.01).margin()), (0.1, 0.1));
         // A huge temperature outruns every margin.
         assert_eq!([motion(3_000, 1e100, 0.01).margin(), motion(1, 1e10, 0.01).margin()], [0.0; 2]);
