@@ -217,8 +217,9 @@ fn stages_are_warned_of() {
         families::warnings(&scene).into_iter().map(|warning| warning.path).collect::<Vec<_>>()
     };
     assert_eq!(warned(r#"[{"steps":40}]"#), Vec::<String>::new());
-    // All that a scene of its own is warned of, and along a ramp no more.
-    let plain = families::warnings(&fluid(&["time.step=0.1"]));
+    // All that a scene of its own is warned of, and along a ramp no more; the relaxation is that of the first step.
+    let relaxation = r#"integrator={"type":"splitting","relaxation":"mean-field"}"#;
+    let plain = families::warnings(&fluid(&["time.step=0.1", relaxation]));
     let expected: Vec<String> = plain.iter().map(|warning| format!("stages[1]: {}", warning.path)).collect();
     assert!(expected.len() > 1, "{plain:?}");
     assert_eq!(warned(r#"[{"steps":20},{"steps":20,"set":{"time.step":0.1}}]"#), expected);
