@@ -1,6 +1,6 @@
 //! Butterflies of the fast Fourier transform of every radix: the slot `smoothing/radix`.
 //!
-//! A radix of up to eight is one transform of `shaders/smoothing/fourier.wgsl`. A larger one, A·B, is B transforms of every B-th leg
+//! A radix of two, four or eight is one transform of `shaders/smoothing/fourier.wgsl`. A larger one, A·B, is B transforms of every B-th leg
 //! and A transforms of what comes of them, multiplied by roots of unity in between.
 
 use std::f64::consts::TAU;
@@ -19,13 +19,19 @@ struct Radix {
 /// The most lanes of a workgroup whose lanes share butterflies, as the plan has it.
 const LANES: usize = 64;
 
-const RADICES: [Radix; 6] = [
+const RADICES: [Radix; 12] = [
     Radix { name: "two", legs: 2, factors: None, turns: false },
     Radix { name: "four", legs: 4, factors: None, turns: false },
+    Radix { name: "six", legs: 6, factors: Some([2, 3]), turns: true },
     Radix { name: "eight", legs: 8, factors: None, turns: true },
+    Radix { name: "ten", legs: 10, factors: Some([2, 5]), turns: true },
+    Radix { name: "twelve", legs: 12, factors: Some([4, 3]), turns: true },
     Radix { name: "sixteen", legs: 16, factors: Some([4, 4]), turns: true },
+    Radix { name: "twenty", legs: 20, factors: Some([4, 5]), turns: true },
+    Radix { name: "twenty_four", legs: 24, factors: Some([8, 3]), turns: false },
     Radix { name: "thirty_two", legs: 32, factors: Some([4, 8]), turns: true },
-    // Only for lines that one pass transforms whole.
+    // Only for lines that one pass transforms whole, as twenty-four.
+    Radix { name: "forty", legs: 40, factors: Some([8, 5]), turns: false },
     Radix { name: "sixty_four", legs: 64, factors: Some([8, 8]), turns: false },
 ];
 
@@ -39,18 +45,55 @@ impl Radix {
         let Self { legs, .. } = *self;
         let mut text = format!("// Butterflies of {} legs.\n", self.name.replace('_', "-"));
         let _ = writeln!(text, "const RADIX = {legs}u;\nalias Legs = array<vec2<f32>, {legs}>;\n");
+        text += &self.small_transforms();
         text += &self.roots();
         text += &self.transformed();
         text += &self.gathered_and_scattered();
         if self.turns {
             text += &self.turned();
         }
-        if let Some(factors) = self.factors {
+        if let Some(factors) = self.factors.filter(|_| legs.is_power_of_two()) {
             text += &self.shared(factors);
         }
         text += "// Multiplies every leg by the smoothing of its wave, real and imaginary part exchanged for the way back.\n";
         let weighed = (0..legs).map(|leg| format!("v[{leg}].yx * symbol(butterfly, {leg}u)"));
         let _ = write!(text, "fn weighed_legs(v: Legs, butterfly: Butterfly) -> Legs {{\n{}}}\n", returned(weighed));
+        text
+    }
+
+    /// Transforms of two, three and five numbers, of which larger ones are made.
+    fn small_transforms(&self) -> String {
+        let mut text = String::new();
+        for factor in self.factors.into_iter().flatten() {
+            text += match factor {
+                2 => {
+                    "fn fourier2(a: vec2<f32>, b: vec2<f32>) -> array<vec2<f32>, 2> {\n    \
+                     return array<vec2<f32>, 2>(a + b, a - b);\n}\n"
+                }
+                3 => {
+                    "fn fourier3(a: vec2<f32>, b: vec2<f32>, c: vec2<f32>) -> array<vec2<f32>, 3> {\n    \
+                     let sum = b + c;\n    \
+                     let middle = a - 0.5 * sum;\n    \
+                     let across = 0.86602540378443864676 * quarter(b - c);\n    \
+                     return array<vec2<f32>, 3>(a + sum, middle + across, middle - across);\n}\n"
+                }
+                5 => {
+                    "fn fourier5(a: vec2<f32>, b: vec2<f32>, c: vec2<f32>, d: vec2<f32>, e: vec2<f32>) -> array<vec2<f32>, 5> {\n    \
+                     let outer = b + e;\n    \
+                     let inner = c + d;\n    \
+                     let first = a + 0.30901699437494742410 * outer - 0.80901699437494742410 * inner;\n    \
+                     let second = a - 0.80901699437494742410 * outer + 0.30901699437494742410 * inner;\n    \
+                     let p = quarter(b - e);\n    \
+                     let q = quarter(c - d);\n    \
+                     let first_across = 0.95105651629515357212 * p + 0.58778525229247312917 * q;\n    \
+                     let second_across = 0.58778525229247312917 * p - 0.95105651629515357212 * q;\n    \
+                     return array<vec2<f32>, 5>(\n        \
+                     a + outer + inner,\n        first + first_across,\n        second + second_across,\n        \
+                     second - second_across,\n        first - first_across,\n    );\n}\n"
+                }
+                _ => "",
+            };
+        }
         text
     }
 
@@ -61,9 +104,7 @@ impl Radix {
         powers.sort_unstable();
         powers.dedup();
         let mut text = format!("// Powers of exp(-2πi/{}).\n", self.legs);
-        for power in
-            powers.into_iter().filter(|power| !power.is_multiple_of(self.legs / 8) && !self.is_opposite(*power))
-        {
+        for power in powers.into_iter().filter(|power| self.eighths(*power).is_none() && !self.is_opposite(*power)) {
             let (sine, cosine) = (TAU * power as f64 / self.legs as f64).sin_cos();
             let _ = writeln!(text, "const ROOT{power} = vec2<f32>({cosine:.17}, {:.17});", -sine);
         }
@@ -75,14 +116,19 @@ impl Radix {
         self.legs == 16 && power == 9
     }
 
+    /// The eighths of a turn that a power of the root of unity is, if it is a whole number.
+    fn eighths(&self, power: usize) -> Option<usize> {
+        (8 * power).is_multiple_of(self.legs).then_some(8 * power / self.legs)
+    }
+
     /// A number multiplied by a power of the root of unity.
     fn turned_by(&self, power: usize, number: &str) -> String {
-        let eighths = power.is_multiple_of(self.legs / 8).then_some(power / (self.legs / 8));
-        match eighths {
+        match self.eighths(power) {
             Some(0) => number.to_owned(),
             Some(1) => format!("eighth({number})"),
             Some(2) => format!("quarter({number})"),
             Some(3) => format!("quarter(eighth({number}))"),
+            Some(4) => format!("-{number}"),
             _ if self.is_opposite(power) => format!("-times({number}, ROOT1)"),
             _ => format!("times({number}, ROOT{power})"),
         }
@@ -215,7 +261,7 @@ impl Radix {
     fn turned_by_any_power(&self, [first, second]: [usize; 2]) -> String {
         let most = (first - 1) * (second - 1);
         let roots = (0..=most).map(|power| {
-            let named = !power.is_multiple_of(self.legs / 8) && !self.is_opposite(power);
+            let named = self.eighths(power).is_none() && !self.is_opposite(power);
             let is_used = (1..first).any(|row| (1..second).any(|column| row * column == power));
             if named && is_used { format!("ROOT{power}") } else { "vec2<f32>(1.0, 0.0)".to_owned() }
         });

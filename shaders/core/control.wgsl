@@ -34,6 +34,7 @@ const FAILURE_ENERGY: u32 = 256u;  // the internal energy of a Voronoi cell beca
 const FAILURE_LOOPS: u32 = 512u;   // the adapter left a loop before its end
 const FAILURE_REACH: u32 = 1024u;  // a bond reaches beyond the halo of a rank
 const FAILURE_ITERATIONS: u32 = 2048u; // a solver needs more iterations than were recorded
+const FAILURE_CHARGES: u32 = 4096u; // more charge around a mesh node, or a larger potential, than its integers hold
 
 // A failure in a later step than the first is its consequence and is not reported.
 fn no_failure_before() -> bool { return atomicLoad(&control.failure_elapsed) >= control.elapsed; }

@@ -1,18 +1,23 @@
-// Smoothing by fast Fourier transforms of many lines at once, one small radix a pass, sorted on the way (Stockham). A pass back
+// Fast Fourier transforms of many lines at once, forth and back with a weight for every wave, one small radix a pass, sorted on the way (Stockham). A pass back
 // is one forth of numbers whose real and imaginary parts are exchanged.
 //
 // Slots without defaults, chosen by src/families/shallow_water/plan/smoothing.rs for each pass:
 // - smoothing/radix: `RADIX`, the numbers (`Legs`) of a butterfly, how they are loaded and stored in pairs, `transformed`, and
-//   `turned_legs` and `weighed_legs` by roots of unity and the smoothing. Variants two to sixty_four, made of each other by
+//   `turned_legs` and `weighed_legs` by roots of unity and the weights of waves. Variants two to sixty_four, made of each other by
 //   build/radices.rs.
-// - smoothing/lines: where the butterflies and elements of a line are. Variants rows, columns.
+// - smoothing/lines: where the butterflies and elements of a line are, and the weight (`symbol`) of the wave that a leg is. Variants
+//   rows, columns; slices, of the last axis of three.
 // - smoothing/load, smoothing/store: two legs, half a radix apart, from and to memory. Variants masses, rows, waves; rows,
-//   waves, depths.
+//   waves, depths; layers, where there are three axes; charges, potentials.
 override LENGTH: u32; // of a line
 override LINES: u32;  // number of lines
 override ROW_LENGTH: u32; // of the mesh
 override SPAN: u32;   // length of the transforms that the passes before have finished
-override ROOTS: u32;  // of the table of roots of unity: the length of the longest line
+override ROOTS: u32;  // of the table of roots of unity: a multiple of the length of every line
+// Of a mesh of three dimensions.
+override WAVE_COLUMNS: u32; // waves along x that are kept
+override MESH_HEIGHT: u32;  // nodes along y
+override MESH_DEPTH: u32;  // nodes along z
 
 // Where an invocation works: which line, and which of its LENGTH / RADIX butterflies.
 struct Butterfly {
@@ -25,12 +30,6 @@ fn source(butterfly: Butterfly, leg: u32) -> u32 { return butterfly.place + leg 
 fn target_of(butterfly: Butterfly, leg: u32) -> u32 {
     let within = butterfly.place % SPAN;
     return (butterfly.place - within) * RADIX + within + leg * SPAN;
-}
-
-// The smoothing of the wave that a leg is, where the lines are columns.
-fn symbol(butterfly: Butterfly, leg: u32) -> f32 {
-    let wave = source(butterfly, leg);
-    return symbols[min(wave, LENGTH - wave) * LINES + butterfly.line];
 }
 
 fn times(a: vec2<f32>, b: vec2<f32>) -> vec2<f32> {

@@ -30,6 +30,14 @@ pub struct ParticleGroup {
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: f64,
+    /// Charge of one particle in elementary charges, rounded to 2⁻¹⁶ of one, for the interaction `electrostatics`; groups of the same species
+    /// share it.
+    #[serde(default, skip_serializing_if = "is_default")]
+    #[schemars(range(min = -1024.0, max = 1024.0), extend("x-of" = ["particles"], "x-instead" = {
+        "shallow-water": "particles without a charge: nothing acts on charges in shallow water",
+        "voronoi": "cells without a charge: nothing acts on charges in Voronoi DPD",
+    }))]
+    pub charge: f64,
     /// Shallow water: particles without mass that drift with the flow. The circulation of a tracer group on a circle is measured.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[schemars(extend("x-of" = ["shallow-water"]))]

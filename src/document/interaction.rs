@@ -2,7 +2,7 @@
 
 use super::{
     AnglesInteraction, Bath, BodyForceInteraction, BondsInteraction, ColouredNoiseInteraction, DpdInteraction,
-    HarmonicChainInteraction, LangevinInteraction, TetherInteraction,
+    ElectrostaticsInteraction, HarmonicChainInteraction, LangevinInteraction, TetherInteraction,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -26,6 +26,8 @@ pub enum Interaction {
     Bonds(BondsInteraction),
     /// Stiffness of chains: V = k(1 + cos θ) for each angle θ between bonds, least where the chain is straight.
     Angles(AnglesInteraction),
+    /// Electrostatic forces between particles with a `charge`, which are clouds of a Gaussian density.
+    Electrostatics(ElectrostaticsInteraction),
     /// Harmonic chains of beads and of clusters side by side, with their particles; the only interaction of a scene.
     HarmonicChain(HarmonicChainInteraction),
 }

@@ -21,7 +21,7 @@ impl Instability {
     #[must_use]
     pub fn new(failure: &Failure, plan: &Plan, model: &Model) -> Self {
         let place = failure.place;
-        let all: [(FailureKind, &dyn Fn() -> String); 7] = [
+        let all: [(FailureKind, &dyn Fn() -> String); 8] = [
             (FailureKind::Crowding, &|| {
                 format!(
                     "over a hundred times the mean mass, more than its integers hold, is around {}",
@@ -34,6 +34,9 @@ impl Instability {
                 format!("the mass of cell {place} fell to zero or exceeded 64 times that of the heaviest species")
             }),
             (FailureKind::Energy, &|| format!("the internal energy of cell {place} became negative")),
+            (FailureKind::Charges, &|| {
+                "charges crowd: around a node of their mesh is more than its integers hold".to_owned()
+            }),
             (FailureKind::Impulse, &|| "the impulses on a particle are too large or not a number".to_owned()),
             (FailureKind::Displacement, &|| {
                 "a particle moves further in one step than the cutoff, or than is safe in this box".to_owned()

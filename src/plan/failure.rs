@@ -27,6 +27,8 @@ pub enum FailureKind {
     Reach,
     /// A solver needs more iterations than were recorded.
     Iterations,
+    /// More charge around a mesh node, or a larger potential, than its integer can hold.
+    Charges,
 }
 
 impl FailureKind {
@@ -101,6 +103,7 @@ mod tests {
             (FailureKind::Loops, "FAILURE_LOOPS"),
             (FailureKind::Reach, "FAILURE_REACH"),
             (FailureKind::Iterations, "FAILURE_ITERATIONS"),
+            (FailureKind::Charges, "FAILURE_CHARGES"),
         ];
         let mut found = Vec::new();
         declared(&Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders"), &mut found);

@@ -3,6 +3,7 @@
 mod baths;
 mod body_forces;
 mod bonds;
+mod electrostatics;
 mod many_body;
 mod pair_coefficients;
 mod particles;

@@ -5,3 +5,9 @@ fn element_of_line(line: u32, place: u32) -> u32 { return place * LINES + line; 
 fn butterfly_and_part(lane: u32) -> vec2<u32> {
     return vec2<u32>(lane % (WORKGROUP / SECOND), lane / (WORKGROUP / SECOND));
 }
+
+// The weight of the wave that a leg is.
+fn symbol(butterfly: Butterfly, leg: u32) -> f32 {
+    let wave = source(butterfly, leg);
+    return symbols[min(wave, LENGTH - wave) * LINES + butterfly.line];
+}

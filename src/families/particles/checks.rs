@@ -122,6 +122,11 @@ fn check_groups(scene: &Scene, problems: &mut Problems) {
             );
             problems.refuse(format!("{path}.fixed"), group.fixed, accepted);
         }
+        let charge = scene.particles[known].charge;
+        if charge != group.charge {
+            let accepted = format!("{charge} as in particles[{known}], for species `{name}`; or another name");
+            problems.refuse(format!("{path}.charge"), group.charge, accepted);
+        }
         if scene.particles[known].is_frozen() != group.is_frozen() {
             let accepted = format!(
                 "another name than `{name}` in particles[{known}]: species are frozen behind walls or between them"

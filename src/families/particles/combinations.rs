@@ -47,6 +47,7 @@ features! {
     Exclusion "`exclude_repulsion`" "Bonds whose ends do not repel each other."
     Angles "angles" "Angles between bonds."
     Tethers "tethers" "Springs to places in space."
+    Electrostatics "electrostatics" "Forces between charged particles."
     UniformForce "a uniform body force" "A force from outside that is the same everywhere."
     VaryingForce "a body force that varies" "A force from outside that varies in space."
     HarmonicChain "harmonic chains" "Harmonic chains, which are a scene by themselves."
@@ -154,6 +155,18 @@ pub const REFUSALS: &[Refusal] = &[
     missing(Splitting, &[PairsWithMemory], "a split step that relaxes pairs with memory; `cotter-reich` takes them"),
     missing(Splitting, &[Line, HarmonicChain], "a split step of pairs in a list; `cotter-reich` takes them"),
     missing(Shear, &[Walls], "images of walls that boundaries carry along; walls that move make a shear flow too"),
+    missing(
+        Electrostatics,
+        &[Walls],
+        "charges between walls need the field of images beyond them, and here the box is periodic",
+    ),
+    missing(Electrostatics, &[Shear], "wave vectors of a box that shears lean with it"),
+    missing(
+        Electrostatics,
+        &[Stress, StressProfiles],
+        "the virial of charges is one of waves, and belongs to no particle",
+    ),
+    physics(Electrostatics, &[HarmonicChain], "harmonic chains are a scene by themselves"),
     physics(StructureFactor, &[Shear], "the wave vectors of a box that shears lean with it"),
     missing(RadialDistribution, &[Shear], "pairs further than the cutoff are found round a box at rest"),
     missing(Clusters, &[Shear], "close pairs are found in cells, round a box at rest"),
@@ -164,6 +177,7 @@ pub const REFUSALS: &[Refusal] = &[
         "what a bath or a noise remembers does not change its rank with the particle",
     ),
     missing(Ranks, &[Line], "pairs in a list"),
+    missing(Ranks, &[Electrostatics], "the charges of all ranks on one mesh"),
     missing(Ranks, &[StructureFactor, Autocorrelations, Histograms, Stress, Profiles], "measured on one device"),
 ];
 

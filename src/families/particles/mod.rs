@@ -25,8 +25,9 @@ pub use layout::{CoupledLayout, KeptArray, ListLayout, ParticleLayout};
 
 use super::reference::Stepper;
 use super::{
-    Angles, BathStep, BodyForces, Bonds, ChainGroup, Checked, ColouredNoise, Column, ExactMean, KeptQuantity, KeptSum,
-    Limit, Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox, Species, Tethers, units,
+    Angles, BathStep, BodyForces, Bonds, ChainGroup, Checked, ColouredNoise, Column, Electrostatics, ExactMean,
+    KeptQuantity, KeptSum, Limit, Model, Observables, PairForce, Physics, PlaneWalls, PositionBath, ShearedBox,
+    Species, Tethers, units,
 };
 use crate::document::{BondPotential, Integrator, PairRelaxation, Problems, Scene, Surroundings, Warning};
 use crate::plan::{Hardware, Measured, Options, PhysicsPlan, Plan};
@@ -53,6 +54,8 @@ pub struct Particles {
     pub coloured_noise: Option<ColouredNoise>,
     /// Springs from every particle to where it started.
     pub tethers: Option<Tethers>,
+    /// Forces between charged particles.
+    pub electrostatics: Option<Electrostatics>,
     /// Forces on particles from outside.
     pub body_forces: Option<BodyForces>,
     /// Walls that reflect particles, in the order of their axes.
@@ -159,6 +162,7 @@ impl Particles {
             self.bonds.as_ref().map(term),
             self.angles.as_ref().map(term),
             self.tethers.as_ref().map(term),
+            self.electrostatics.as_ref().map(term),
         ];
         before.into_iter().flatten().chain(self.walls.iter().map(term)).chain(after.into_iter().flatten()).collect()
     }
@@ -342,6 +346,9 @@ impl Physics for Particles {
     fn description(&self, scene: &Checked, plan: &Plan, cells: &str) -> Vec<(&'static str, String)> {
         let mut rows = vec![("cells", cells.to_owned())];
         rows.extend(description::list(scene.model(), plan));
+        if let Some(electrostatics) = &self.electrostatics {
+            rows.extend(terms::electrostatics::description(electrostatics, scene.model()));
+        }
         rows
     }
 

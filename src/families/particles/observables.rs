@@ -14,15 +14,21 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model)
     let products = quanta.bath_products;
     let coordinates = model.particles().oscillating_coordinates(model).max(1) as f64;
     let baths = row.number(Sum::BathCount);
+    // Waves count every charge by itself.
+    let electrostatics = model.particles().electrostatics.as_ref();
+    let [own_energy, own_laplacian] = electrostatics.map_or([0.0; 2], |electrostatics| {
+        let volume = units.lengths.iter().product();
+        [electrostatics.own_energy(), electrostatics.own_laplacian(volume)]
+    });
     Observables {
         mass: model.mobile_mass(),
         kinetic_energy: row.number(Sum::KineticEnergy) * quanta.energy,
         total_virial: (row.number(Sum::Virial) + row.number(Sum::FirstStageVirial)) * quanta.pair_energy,
         momentum: row.vector(Sum::Momentum, 0).map(|sum| sum * units.momentum),
-        potential_energy: row.number(Sum::PotentialEnergy) * quanta.pair_energy,
+        potential_energy: row.number(Sum::PotentialEnergy) * quanta.pair_energy - own_energy,
         conservative_virial: row.number(Sum::ConservativeVirial) * quanta.pair_energy,
         gradient_squared: row.number(Sum::SquaredForce) * quanta.force_squared,
-        laplacian: row.number(Sum::Curvature) * quanta.curvature,
+        laplacian: row.number(Sum::Curvature) * quanta.curvature + own_laplacian,
         bath_energy: row.number(Sum::BathEnergy) * quanta.pair_energy,
         bath_square: if baths > 0.0 { row.number(Sum::BathSquare) * quanta.bath_squared / baths } else { 0.0 },
         bath_products: BathProducts {

@@ -24,6 +24,7 @@ pub(super) fn warnings(particles: &Particles, scene: &Checked) -> Vec<Warning> {
         terms::of(interaction).warn(model, &format!("interactions[{index}]"), &mut warnings);
     }
     warn_of_places(scene, &mut warnings);
+    warn_of_idle_charges(scene, &mut warnings);
     if particles.have_more_than_pairs(model) {
         warnings.extend(stability::warn(scene));
         warnings.extend(stability::warn_of_prediction(scene));
@@ -35,6 +36,14 @@ pub(super) fn warnings(particles: &Particles, scene: &Checked) -> Vec<Warning> {
         warn_of_momentum(scene, &mut warnings);
     }
     warnings
+}
+
+/// Charges on which nothing acts.
+fn warn_of_idle_charges(scene: &Scene, warnings: &mut Vec<Warning>) {
+    let group = scene.particles.iter().position(|group| group.charge != 0.0);
+    let Some(group) = group.filter(|_| scene.places_of("electrostatics").next().is_none()) else { return };
+    let message = "no interaction `electrostatics` acts on charges".to_owned();
+    warn(warnings, format!("particles[{group}].charge"), message);
 }
 
 /// Units of momentum that a thermal momentum or an impulse should have: it is rounded to a whole number of them.

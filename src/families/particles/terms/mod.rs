@@ -5,6 +5,7 @@ pub(crate) mod angles;
 pub(crate) mod body_forces;
 pub(crate) mod bonds;
 pub(crate) mod coloured_noise;
+pub(crate) mod electrostatics;
 pub(crate) mod harmonic_chain;
 pub(crate) mod langevin;
 pub(crate) mod pairs;
@@ -167,6 +168,7 @@ pub(crate) fn of(interaction: &Interaction) -> &dyn SceneTerm {
         Interaction::BodyForce(force) => force,
         Interaction::Bonds(bonds) => bonds,
         Interaction::Angles(angles) => angles,
+        Interaction::Electrostatics(electrostatics) => electrostatics,
         Interaction::HarmonicChain(chain) => chain,
     }
 }

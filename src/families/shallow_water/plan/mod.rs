@@ -8,8 +8,8 @@ pub(super) use steps::Arithmetic;
 pub(crate) use steps::plan;
 
 use crate::plan::{
-    Buffer, Contents, Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal,
-    generator, prefix_sum,
+    Buffer, Hardware, Kernel, Measured, Options, PhysicsPlan, Plan, Quanta, Storage, Texture, Traversal, generator,
+    prefix_sum,
 };
 
 /// Bytes of a particle or tracer.

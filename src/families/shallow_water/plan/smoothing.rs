@@ -4,24 +4,15 @@
 
 use std::f64::consts::TAU;
 
-use super::{Buffer, Contents, Kernel, Options, Plan};
+use super::{Buffer, Kernel, Options, Plan};
 use crate::document::{LaplacianSymbol, SmoothingSolver};
+use crate::families::fourier::{Fourier, scratch, table};
 use crate::families::{ShallowWater, chebyshev_iterations};
-use crate::shaders::smoothing::{Lines, Load, Radix, SharedTwist, Source, Store, Twist};
+use crate::shaders::smoothing::{Load, Source, Store};
 use crate::shaders::{Array, Choices, Constant, Entry};
 
 /// Rows on which an invocation of the iteration works, as the shader has it.
 const STRIP: u32 = 4;
-/// The longest lines that a pass transforms whole, as a power of two: on lavapipe short ones cost little but the passes.
-const WHOLE_LINE: u32 = 6;
-/// The largest radix of a pass over longer lines, as a power of two: on lavapipe two passes of 32 take .75 of the time of three of 16.
-const LARGEST_RADIX: u32 = 5;
-/// The fewest lanes of a workgroup of a transform, and the fewest workgroups as long as there are more lanes.
-const FEWEST_LANES: u64 = 8;
-const FEWEST_WORKGROUPS: u64 = 8;
-/// The most lanes of a workgroup whose lanes share butterflies, as `build/radices.rs` has it.
-const MOST_SHARING: u64 = 64;
-
 /// The part of a plan that smooths the depth.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmoothingPlan {
@@ -67,8 +58,7 @@ pub fn smoothing(water: &ShallowWater, lengths: [f64; 2], options: Options) -> S
     }
     match water.smoothing.solver {
         SmoothingSolver::Fft { .. } => {
-            Fourier { water, lengths, workgroup, constants, by_lanes: options.butterflies_by_lanes != Some(false) }
-                .plan()
+            fourier(water, lengths, workgroup, &constants, options.butterflies_by_lanes != Some(false))
         }
         SmoothingSolver::Chebyshev { tolerance } => chebyshev(water, lengths, tolerance, workgroup, &constants),
     }
@@ -149,183 +139,28 @@ fn operator(water: &ShallowWater, lengths: [f64; 2], symbol: LaplacianSymbol, wa
     1.0 + laplacian(0) + laplacian(1)
 }
 
-fn table(array: Array, values: impl Iterator<Item = f32>) -> Buffer {
-    let bytes: Vec<u8> = values.flat_map(f32::to_ne_bytes).collect();
-    Buffer { array, bytes: bytes.len() as u64, contents: Contents::Bytes(bytes) }
-}
-
-fn scratch(array: Array, bytes: u64) -> Buffer {
-    Buffer { array, bytes, contents: Contents::Zeros }
-}
-
 /// The solver by Fourier transforms.
-///
-/// Two rows half a mesh apart go through the transform along x as the real and imaginary part of one. The first pass along
-/// y, which needs both, separates them, and the last pass back joins them. Of the columns only those up to the middle are
-/// kept: the others are their conjugates.
-struct Fourier<'a> {
-    water: &'a ShallowWater,
+fn fourier(
+    water: &ShallowWater,
     lengths: [f64; 2],
     workgroup: u64,
-    constants: [(Constant, f64); 2],
-    /// True if several lanes share a butterfly of many legs.
+    constants: &[(Constant, f64)],
     by_lanes: bool,
-}
-
-/// An axis along which lines are transformed.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Axis {
-    Rows,
-    Columns,
-}
-
-/// One pass over all lines of an axis.
-#[derive(Clone, Copy)]
-struct Pass {
-    name: &'static str,
-    axis: Axis,
-    entry: Entry,
-    load: Load,
-    store: Store,
-    radix: u32,
-    /// Length of the transforms that are finished before.
-    finished: u32,
-    /// Where the pass's results belong: the length of the transforms finished before, or 1 where the transform turns back.
-    span: u32,
-}
-
-impl Fourier<'_> {
-    fn plan(&self) -> SmoothingPlan {
-        let passes = self.passes();
-        let kernels: Vec<Kernel> = passes.iter().enumerate().map(|(number, &pass)| self.kernel(pass, number)).collect();
-        let twisted = passes.iter().any(|pass| pass.finished > 1);
-        SmoothingPlan { order: (0..kernels.len()).collect(), kernels, buffers: self.buffers(twisted) }
-    }
-
-    /// Columns that are transformed.
-    fn columns(&self) -> u32 {
-        self.water.mesh[0] / 2 + 1
-    }
-
-    /// Length of the longest line.
-    fn roots(&self) -> u32 {
-        self.water.mesh[0].max(self.water.mesh[1])
-    }
-
-    fn passes(&self) -> Vec<Pass> {
-        let [rows, columns] = self.water.mesh.map(radices);
-        let mut passes = Vec::new();
-        let mut line = |name, axis, radices: &[u32], mut finished: u32| {
-            for &radix in radices {
-                let (entry, load, store) = (Entry::FourierPass, Load::Waves, Store::Waves);
-                passes.push(Pass { name, axis, entry, load, store, radix, finished, span: finished });
-                finished *= radix;
-            }
-        };
-        line("smooth rows", Axis::Rows, &rows, 1);
-        // The last pass forth along columns is the first one back.
-        line("smooth columns", Axis::Columns, &columns, 1);
-        let (turn, others) = columns.split_last().map_or((2, &[][..]), |(last, others)| (*last, others));
-        line("smooth columns", Axis::Columns, others, turn);
-        line("smooth rows", Axis::Rows, &rows, 1);
-        let turning = &mut passes[rows.len() + columns.len() - 1];
-        (turning.entry, turning.span) = (Entry::FourierTurn, 1);
-        passes[0].load = Load::Masses;
-        passes[rows.len()].load = Load::Rows;
-        let last = passes.len() - 1;
-        passes[last - rows.len()].store = Store::Rows;
-        passes[last].store = Store::Depths;
-        passes
-    }
-
-    fn kernel(&self, pass: Pass, number: usize) -> Kernel {
-        let [width, height] = self.water.mesh;
-        let (length, lines, axis) = match pass.axis {
-            Axis::Rows => (width, height / 2, Lines::Rows),
-            Axis::Columns => (height, self.columns(), Lines::Columns),
-        };
-        let radix = match pass.radix {
-            2 => Radix::Two,
-            4 => Radix::Four,
-            8 => Radix::Eight,
-            16 => Radix::Sixteen,
-            32 => Radix::ThirtyTwo,
-            _ => Radix::SixtyFour,
-        };
-        let shared = self.shared(pass.radix);
-        let twists = pass.finished > 1;
-        let choices = Choices::new()
-            .with(radix)
-            .with_if(twists && shared.is_none(), Twist::BetweenPasses)
-            .with_if(twists && shared.is_some(), SharedTwist::BetweenPasses)
-            .with(axis)
-            .with(pass.load)
-            .with(pass.store);
-        let mut constants = vec![
-            (Constant::Length, f64::from(length)),
-            (Constant::Lines, f64::from(lines)),
-            (Constant::Span, f64::from(pass.span)),
-            (Constant::Roots, f64::from(self.roots())),
-            (Constant::RowLength, f64::from(width)),
-        ];
-        if number == 0 {
-            constants.extend(self.constants);
-        }
-        let swapped = vec![(Array::Waves, Array::WavesNext), (Array::WavesNext, Array::Waves)];
-        // A small mesh has few butterflies, which are to be shared out all the same.
-        let butterflies = u64::from(lines) * u64::from(length / pass.radix);
-        let lanes = butterflies * shared.unwrap_or(1);
-        let share = (1_u64 << (lanes / FEWEST_WORKGROUPS).max(1).ilog2()).max(FEWEST_LANES);
-        let workgroup = self.workgroup.min(share).min(if shared.is_some() { MOST_SHARING } else { u64::MAX });
-        constants.push((Constant::Workgroup, workgroup as f64));
-        let entry = match pass.entry {
-            Entry::FourierPass if shared.is_some() => Entry::FourierPassOfLanes,
-            Entry::FourierTurn if shared.is_some() => Entry::FourierTurnOfLanes,
-            entry => entry,
-        };
-        Kernel::new(pass.name, entry, choices, lanes.div_ceil(workgroup))
-            .with(constants)
-            .renamed(if number.is_multiple_of(2) { swapped } else { Vec::new() })
-    }
-
-    /// Lanes that share a butterfly; none where each lane has one, or several.
-    fn shared(&self, radix: u32) -> Option<u64> {
-        match radix {
-            _ if !self.by_lanes || self.workgroup < FEWEST_LANES => None,
-            16 => Some(4),
-            32 | 64 => Some(8),
-            _ => None,
-        }
-    }
-
-    fn buffers(&self, twisted: bool) -> Vec<Buffer> {
-        let [width, height] = self.water.mesh;
-        let bytes = 8 * u64::from(height) * u64::from(self.columns());
-        // Rows that went through as one come apart twice as large.
-        let scale = 0.5 / self.water.nodes() as f64;
-        let waves = (0..=height / 2).flat_map(|l| (0..=width / 2).map(move |k| [k, l]));
-        let symbols = waves.map(|wave| (scale * transfer(self.water, self.lengths, wave)) as f32);
-        let mut buffers =
-            vec![scratch(Array::Waves, bytes), scratch(Array::WavesNext, bytes), table(Array::Symbols, symbols)];
-        if twisted {
-            let roots = self.roots();
-            buffers.push(table(Array::Roots, (0..roots).flat_map(|index| root(index, roots))));
-        }
-        buffers
-    }
-}
-
-/// exp(-2πi index/count).
-fn root(index: u32, count: u32) -> [f32; 2] {
-    let angle = TAU * f64::from(index) / f64::from(count);
-    [angle.cos() as f32, -angle.sin() as f32]
-}
-
-/// The radices of the passes along a line, whose length is a power of two: as few as possible, and as equal.
-fn radices(length: u32) -> Vec<u32> {
-    let bits = length.trailing_zeros();
-    let passes = if bits <= WHOLE_LINE { 1 } else { bits.div_ceil(LARGEST_RADIX) };
-    (0..passes).map(|pass| 1 << ((bits + passes - 1 - pass) / passes)).collect()
+) -> SmoothingPlan {
+    let [width, height] = water.mesh;
+    let fourier = Fourier {
+        mesh: [width, height, 1],
+        names: ["smooth rows", "smooth columns"],
+        workgroup,
+        by_lanes,
+        load: Load::Masses,
+        store: Store::Depths,
+    };
+    let mut kernels = fourier.kernels();
+    kernels[0].constants.extend(constants);
+    let scale = 1.0 / fourier.gain();
+    let symbols = fourier.waves().map(|[k, l, _]| (scale * transfer(water, lengths, [k, l])) as f32);
+    SmoothingPlan { order: (0..kernels.len()).collect(), kernels, buffers: fourier.buffers(symbols) }
 }
 
 /// Chebyshev's polynomial for 1 - Λ²∇² with the five-point Laplacian.
@@ -435,21 +270,6 @@ fn chebyshev(
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn radices_make_the_length_in_few_passes() {
-        for bits in 1_u32..=16 {
-            let radices = radices(1 << bits);
-            assert_eq!(radices.iter().product::<u32>(), 1 << bits);
-            let least = radices.iter().min().copied().unwrap_or_default();
-            let most = radices.iter().max().copied().unwrap_or_default();
-            assert!(most <= 2 * least, "as equal as can be: {radices:?}");
-            // Kernels of up to 64 points that are a whole line, and of up to 32 that are not.
-            let largest = if bits <= 6 { 64_u64 } else { 32 };
-            assert!(u64::from(most) <= largest);
-            assert!(largest.pow(radices.len() as u32 - 1) < 1 << bits, "a pass too many: {radices:?}");
-        }
-    }
 
     #[test]
     fn the_polynomial_is_that_of_its_recurrence() {

@@ -34,11 +34,17 @@ impl Builder<'_> {
         self.model.particles().are_bonded()
     }
 
+    /// Whether kernels find particles by number: the ends of bonds and angles, and charges.
+    pub(super) fn keeps_slots(&self) -> bool {
+        self.is_bonded() || self.model.particles().electrostatics.is_some()
+    }
+
     /// Whether impulses wait in an array for the passes over particles.
     pub(super) fn gathers(&self) -> bool {
         let left = self.splits() && self.model.particles().acts_on_particles();
         self.is_bonded()
             || self.model.particles().tethers.is_some()
+            || self.model.particles().electrostatics.is_some()
             || self.order == Order::WithList
             || self.visits_once()
             || left
@@ -142,7 +148,7 @@ impl Builder<'_> {
     }
 
     fn gathering_buffers(&mut self) {
-        if self.is_bonded() {
+        if self.keeps_slots() {
             self.plan.add_buffer(Array::Slots, 4 * self.particles);
         }
         let places = self.slots + self.frame_capacity();
@@ -157,7 +163,7 @@ impl Builder<'_> {
     /// Where each particle is stored, for bonds and angles: noted when the state is there, and by lists whenever they
     /// are made.
     pub(super) fn take_stock(&mut self) -> usize {
-        let choices = self.choices().with_if(self.is_bonded(), couplings::Slots::Kept);
+        let choices = self.choices().with_if(self.keeps_slots(), couplings::Slots::Kept);
         self.kernel("take_stock", Entry::TakeStock, choices, self.particles)
     }
 }

@@ -33,7 +33,7 @@ impl Builder<'_> {
         self.list_buffers();
         if self.lists_always() {
             self.plan.constants.push(switch(Constant::ListsAlways, true));
-            if self.is_bonded() {
+            if self.keeps_slots() {
                 self.plan.prepare = vec![self.take_stock()];
             }
             self.plan.sort = self.listing();
@@ -106,7 +106,7 @@ impl Builder<'_> {
         let sorted = self.sorted_beside();
         let summing = if self.lists_always() { sorted.clone() } else { sorted.clone().with(core::Step::Same) };
         let mut kernels = self.binning(sorted.clone().with(grid::Aside::Kept), &summing);
-        let arranged = sorted.with(couplings::Anchors::Kept).with_if(self.is_bonded(), couplings::Slots::Kept);
+        let arranged = sorted.with(couplings::Anchors::Kept).with_if(self.keeps_slots(), couplings::Slots::Kept);
         let arrange = self.arrangement("arrange", arranged);
         // From where they were kept aside, to where they are stored.
         self.plan.kernels[arrange].renamed = vec![(Array::Particles, Array::Sorted), (Array::Sorted, Array::Particles)];

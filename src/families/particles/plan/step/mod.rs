@@ -307,7 +307,7 @@ impl<'a> Builder<'a> {
         self.space()
             .and(&self.species.choices())
             .and(&self.sorted.choices())
-            .with_if(self.is_bonded() && self.order == Order::EveryStep, couplings::Slots::Kept)
+            .with_if(self.keeps_slots() && self.order == Order::EveryStep, couplings::Slots::Kept)
             .and(&walls::choices(self.model))
             .and(&shear::choices(self.model))
             .and(&self.of_order())
@@ -345,7 +345,7 @@ impl<'a> Builder<'a> {
             Order::WithList => self.order_with_list(),
             Order::Never => {
                 self.plan.sort = vec![self.kernel("tick", Entry::BeginPlainStep, self.choices(), 1)];
-                if self.is_bonded() {
+                if self.keeps_slots() {
                     self.plan.prepare = vec![self.take_stock()];
                 }
             }

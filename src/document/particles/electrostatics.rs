@@ -1,0 +1,35 @@
+//! Forces between charged particles.
+
+use crate::document::defaults::{hundredths, is_default, whole};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The electrostatic force between charged particles: clouds of a Gaussian density e^(-r²/2σ²), which interact as
+/// kT lB q q' erf(r/2σ)/r, in a periodic box with a conducting medium around it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ElectrostaticsInteraction {
+    /// Bjerrum length lB: two unit charges far from each other have the energy kT lB/r, kT being the temperature of the scene.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub bjerrum_length: f64,
+    /// Width σ of a charge, the standard deviation of its density along each axis.
+    #[serde(default = "width")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub width: f64,
+    /// The largest distance of neighbouring nodes of the mesh; the mesh has the fewest nodes that its Fourier transform takes.
+    #[serde(default = "hundredths::<50>")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub spacing: f64,
+    /// Points of the splines that spread charges over nodes along each axis, and of the differences that make forces: 4 or 6.
+    #[serde(default = "whole::<6>")]
+    #[schemars(extend("enum" = [4, 6]))]
+    pub order: u32,
+    /// Whether a uniform background neutralizes the charges of the particles; without it they have to add up to zero.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub background: bool,
+}
+
+/// Clouds of this width have the contact energy of the charges that Groot introduced, doi:10.1063/1.1574800: 52/(35 · 1.6).
+fn width() -> f64 {
+    0.6076
+}

@@ -1,0 +1,156 @@
+//! Electrostatic forces between charges with a Gaussian density, on a mesh alone: they are so wide that it resolves all of their
+//! spectrum, and no pair is computed by itself.
+//!
+//! ```text
+//! U = 1/2V Σ_(k≠0) (4π kT lB/k²) e^(-k²σ²) |ρ(k)|² - kT lB Σ q²/(2σ√π),    ρ(k) = Σ q e^(-ik·r)
+//! ```
+//! Charges are spread in integers, and the potential of a node is rounded to an integer once, so that the force on all charges
+//! together is one of rounding; that is taken back, unit by unit, and the total momentum stays what it is to the last bit.
+
+mod mesh;
+mod plan;
+mod reference;
+mod scene;
+
+pub(crate) use mesh::expected_error;
+
+use super::Term;
+use crate::document::Problems;
+use crate::families::{Checked, Model};
+use std::f64::consts::PI;
+
+/// Parts of an elementary charge that charges are multiples of.
+pub const CHARGE_PARTS: f64 = 65536.0;
+
+/// Electrostatic forces between the charged particles of a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Electrostatics {
+    /// kT lB: energy times distance of two unit charges far from each other.
+    pub strength: f64,
+    /// Width σ of a charge.
+    pub width: f64,
+    /// Nodes of the mesh on each axis.
+    pub mesh: [u32; 3],
+    /// Points of the splines and of the differences along each axis.
+    pub order: u32,
+    /// The charge of a particle of each species, in 2⁻¹⁶ of an elementary charge.
+    pub charges: Vec<i32>,
+    /// Particles with a charge, by number.
+    pub(crate) charged: Charged,
+}
+
+impl Default for Electrostatics {
+    fn default() -> Self {
+        Self { strength: 1.0, width: 0.6076, mesh: [20; 3], order: 6, charges: Vec::new(), charged: Charged::default() }
+    }
+}
+
+/// Particles with a charge: those of one copy, run by run, and the copies.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Charged {
+    /// The first particle of a run, their number and their charge in 2⁻¹⁶ of an elementary charge.
+    pub runs: Vec<Run>,
+    /// Particles of a copy, those without a charge included.
+    pub period: u64,
+    /// Number of copies.
+    pub copies: u64,
+}
+
+/// Particles that follow each other and have one charge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Run {
+    pub first: u64,
+    pub count: u64,
+    pub charge: i32,
+}
+
+impl Charged {
+    /// Number of particles with a charge.
+    pub(crate) fn count(&self) -> u64 {
+        self.copies * self.runs.iter().map(|run| run.count).sum::<u64>()
+    }
+
+    /// Number and charge of each of them, in order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (u64, i32)> + '_ {
+        let of_copy = move |copy: u64| {
+            self.runs.iter().flat_map(move |run| {
+                (0..run.count).map(move |place| (copy * self.period + run.first + place, run.charge))
+            })
+        };
+        (0..self.copies).flat_map(of_copy)
+    }
+
+    /// A sum over them of something of their charges in elementary charges.
+    pub(crate) fn sum(&self, of: impl Fn(f64) -> f64) -> f64 {
+        let of_run = |run: &Run| run.count as f64 * of(f64::from(run.charge) / CHARGE_PARTS);
+        self.copies as f64 * self.runs.iter().map(of_run).sum::<f64>()
+    }
+}
+
+impl Electrostatics {
+    /// Σ q² over all particles.
+    pub(crate) fn squares(&self) -> f64 {
+        self.charged.sum(|charge| charge * charge)
+    }
+
+    /// Energy of charges each by itself, which waves count: kT lB Σ q²/(2σ√π).
+    pub(crate) fn own_energy(&self) -> f64 {
+        self.strength * self.squares() / (2.0 * self.width * PI.sqrt())
+    }
+
+    /// What waves count of the Laplacian of the potential for charges each by itself, which a charge that moves takes along: 1/V Σ_k (k²
+    /// times the spectrum) Σ q², but for waves beyond those of the mesh ∫ d³k/(2π)³.
+    pub(crate) fn own_laplacian(&self, volume: f64) -> f64 {
+        // All waves less that of all zeros.
+        let all = 4.0 * PI * self.strength / (8.0 * PI.powf(1.5) * self.width.powi(3));
+        self.squares() * (all - 4.0 * PI * self.strength / volume)
+    }
+
+    /// The inverse of Debye's length: κ² = 4π lB Σ q²/V.
+    pub(crate) fn screening(&self, temperature: f64, volume: f64) -> f64 {
+        (4.0 * PI * self.strength / temperature * self.squares() / volume).sqrt()
+    }
+
+    /// The potential of a unit charge at its centre.
+    fn contact(&self) -> f64 {
+        self.strength / (self.width * PI.sqrt())
+    }
+}
+
+impl Term for Electrostatics {
+    fn has_potential(&self) -> bool {
+        true
+    }
+
+    fn check_capacity(&self, scene: &Checked, problems: &mut Problems) {
+        scene::check_capacity(scene, self, problems);
+    }
+}
+
+/// The Bjerrum length, the length of Debye, and the mesh with its error, in words for `check`.
+pub(crate) fn description(electrostatics: &Electrostatics, model: &Model) -> Vec<(&'static str, String)> {
+    use crate::numbers::{grouped, three_digits};
+    let lengths = model.units.lengths;
+    let volume = lengths.iter().product::<f64>();
+    let error = expected_error(electrostatics, lengths, electrostatics.squares());
+    let [x, y, z] = electrostatics.mesh;
+    let spacings = [0, 1, 2].map(|axis| three_digits(lengths[axis] / f64::from(electrostatics.mesh[axis])));
+    let screening = electrostatics.screening(model.temperature, volume);
+    let charges = format!(
+        "{} particles with a charge, Debye length {}, κσ {}",
+        grouped(electrostatics.charged.count()),
+        three_digits(1.0 / screening),
+        three_digits(screening * electrostatics.width)
+    );
+    let mesh = format!(
+        "{x} × {y} × {z} nodes {} apart, {} points; expected rms error of forces {} of their rms value, for charges at random places",
+        spacings.join(", "),
+        electrostatics.order,
+        percent(error.relative)
+    );
+    vec![("charges", charges), ("charge mesh", mesh)]
+}
+
+fn percent(part: f64) -> String {
+    format!("{} %", crate::numbers::three_digits(100.0 * part))
+}

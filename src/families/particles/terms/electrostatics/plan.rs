@@ -1,0 +1,183 @@
+//! Electrostatics on the device: charges to nodes, a Fourier transform forth and back, differences, and impulses.
+
+use super::{CHARGE_PARTS, Electrostatics, mesh};
+use crate::families::fourier::{Fourier, table};
+use crate::families::particles::plan::step::{Builder, GatheringKernels};
+use crate::families::particles::terms::PlannedTerm;
+use crate::plan::{Kernel, Words};
+use crate::shaders::smoothing::{Load, Store};
+use crate::shaders::{Array, Choices, Constant, Entry, charges};
+use std::f64::consts::TAU;
+
+/// Bits of a unit of charge on a node: what is rounded is no more than the error of a fine mesh, and all charges together fit one node
+/// down to the second.
+const MOST_BITS: i32 = 20;
+const FEWEST_BITS: i32 = 16;
+/// The largest weight of a node: of splines of four points.
+const LARGEST_WEIGHT: f64 = 0.3;
+/// Units of potential in that of the largest charge at its centre.
+const POTENTIAL_UNITS: f64 = 262_144.0;
+/// Workgroups that add up waves.
+const GROUPS: u64 = 256;
+
+impl Electrostatics {
+    /// Units of charge on a node in an elementary charge.
+    fn charge_units(&self) -> f64 {
+        let all = self.charged.sum(f64::abs).max(1.0);
+        let bits = ((2_f64.powi(31) / (LARGEST_WEIGHT * all)).log2().floor() as i32).clamp(FEWEST_BITS, MOST_BITS);
+        2_f64.powi(bits)
+    }
+
+    /// The potential of one unit, in energy per elementary charge.
+    fn potential_unit(&self) -> f64 {
+        let largest =
+            self.charges.iter().map(|charge| f64::from(charge.unsigned_abs())).fold(1.0, f64::max) / CHARGE_PARTS;
+        self.contact() * largest / POTENTIAL_UNITS
+    }
+
+    fn nodes(&self) -> u64 {
+        self.mesh.iter().map(|nodes| u64::from(*nodes)).product()
+    }
+
+    fn fourier(&self, builder: &Builder<'_>) -> Fourier {
+        Fourier {
+            mesh: self.mesh,
+            names: ["charge rows", "charge columns"],
+            workgroup: builder.workgroup_size(),
+            by_lanes: builder.options.butterflies_by_lanes != Some(false),
+            load: Load::Charges,
+            store: Store::Potentials,
+        }
+    }
+
+    fn choices(&self, builder: &Builder<'_>) -> Choices {
+        let spline = if self.order == 4 { charges::Spline::Four } else { charges::Spline::Six };
+        builder.choices().with(spline).and(&builder.kicks())
+    }
+
+    fn add_numbers(&self, builder: &mut Builder<'_>) {
+        let lengths = builder.model.units.lengths;
+        let [weights, divisor] = mesh::stencil(self.order);
+        let impulse = |axis: usize| {
+            let spacing = lengths[axis] / f64::from(self.mesh[axis]);
+            builder.scales().impulse() * self.potential_unit() / (self.charge_units() * divisor[0] * spacing)
+        };
+        let impulses = [impulse(0), impulse(1), impulse(2)];
+        let volume = lengths.iter().product::<f64>();
+        let quanta = builder.scales().quanta;
+        // Rows that went through as one come apart twice as large.
+        let amplitude = 0.5 / self.charge_units();
+        let columns = u64::from(self.mesh[0] / 2 + 1);
+        let waves = columns * u64::from(self.mesh[1]) * u64::from(self.mesh[2]);
+        builder.plan.constants.extend([
+            (Constant::Charged, self.charged.count() as f64),
+            (Constant::ChargeNodesX, f64::from(self.mesh[0])),
+            (Constant::ChargeNodesY, f64::from(self.mesh[1])),
+            (Constant::ChargeNodesZ, f64::from(self.mesh[2])),
+            (Constant::ChargeUnit, self.charge_units() * 2_f64.powi(-72)),
+            (Constant::DifferenceOne, weights[0]),
+            (Constant::DifferenceTwo, weights[1]),
+            (Constant::DifferenceThree, weights[2]),
+            (Constant::ChargeImpulseX, impulses[0]),
+            (Constant::ChargeImpulseY, impulses[1]),
+            (Constant::ChargeImpulseZ, impulses[2]),
+            (Constant::ChargeWaves, waves as f64),
+            (Constant::ChargeEnergy, 0.5 * amplitude * amplitude / (volume * quanta.pair_energy)),
+            (Constant::ChargeCurvature, 2.0 * quanta.pair_energy / quanta.curvature),
+            (Constant::ChargeWidth, 2.0 * self.width * self.width),
+            (Constant::WaveX, TAU / lengths[0]),
+            (Constant::WaveY, TAU / lengths[1]),
+            (Constant::WaveZ, TAU / lengths[2]),
+        ]);
+    }
+
+    fn add_buffers(&self, fourier: &Fourier, builder: &mut Builder<'_>) {
+        let lengths = builder.model.units.lengths;
+        let volume = lengths.iter().product::<f64>();
+        let waves = mesh::Waves::new(self, lengths);
+        let table_of_waves: Vec<mesh::Wave> = fourier.waves().map(|wave| waves.wave(wave)).collect();
+        let nodes = self.mesh.iter().map(|nodes| f64::from(*nodes)).product::<f64>();
+        let scale = nodes / (fourier.gain() * volume * self.charge_units() * self.potential_unit());
+        let symbols = table_of_waves.iter().map(|wave| (scale * wave.potential) as f32);
+        builder.plan.buffers.extend(fourier.buffers(symbols));
+        builder.plan.buffers.push(table(Array::ChargeEnergies, table_of_waves.iter().map(|wave| wave.energy as f32)));
+        builder.plan.add_long_table(Array::Charged, ChargedTable { electrostatics: self.clone() });
+        builder.plan.add_buffer(Array::NodeCharges, 4 * self.nodes());
+        builder.plan.add_buffer(Array::NodePotentials, 4 * self.nodes());
+        builder.plan.add_buffer(Array::NodeFields, 16 * self.nodes());
+        builder.plan.add_buffer(Array::ChargeImpulses, 12);
+    }
+}
+
+impl PlannedTerm for Electrostatics {
+    fn gather(&self, builder: &mut Builder<'_>, rows: &mut u32, kernels: &mut GatheringKernels) {
+        let fourier = self.fourier(builder);
+        self.add_numbers(builder);
+        self.add_buffers(&fourier, builder);
+        let choices = self.choices(builder);
+        let layers = self.charged.count() * u64::from(self.order);
+        let spread = builder.kernel("spread charges", Entry::SpreadCharges, choices.clone(), layers);
+        let passes: Vec<usize> = fourier.kernels().into_iter().map(|kernel| builder.plan.add_kernel(kernel)).collect();
+        let fields = builder.kernel("charge fields", Entry::FindChargeFields, choices.clone(), self.nodes());
+        let mut pull = |choices: &Choices| {
+            let pull = builder.kernel("pull charges", Entry::PullCharges, choices.clone(), layers);
+            [pull, builder.kernel("balance charges", Entry::BalanceCharges, choices.clone(), self.charged.count())]
+        };
+        kernels.kicks.extend([&[spread], &passes[..], &[fields], &pull(&choices)].concat());
+        let pulled = pull(&choices.clone().with(charges::Report::Observed));
+        let (turn, spectrum) = fourier.spectrum();
+        let renamed: Vec<(Array, Array)> =
+            if turn.is_multiple_of(2) { Vec::new() } else { vec![(Array::Waves, Array::WavesNext)] };
+        let spectrum = builder.plan.add_kernel(Kernel { name: "charge spectrum", ..spectrum });
+        let forth = [&[spread], &passes[..turn], &[spectrum]].concat();
+        let splits = builder.splits();
+        let mut report = |name, sums: f64| {
+            let waves = u64::from(fourier.columns()) * u64::from(self.mesh[1]) * u64::from(self.mesh[2]);
+            let groups = waves.div_ceil(builder.workgroup_size()).min(GROUPS);
+            let own = vec![
+                (Constant::ChargeSums, sums),
+                (Constant::Groups, groups as f64),
+                (Constant::WaveColumns, f64::from(fourier.columns())),
+                (Constant::MeshHeight, f64::from(self.mesh[1])),
+                (Constant::MeshDepth, f64::from(self.mesh[2])),
+            ];
+            let kernel =
+                Kernel::new(name, Entry::ReportCharges, choices.clone(), groups).with(own).renamed(renamed.clone());
+            let kernel = builder.plan.add_kernel(kernel);
+            builder.leaves_rows(kernel, rows);
+            kernel
+        };
+        let all = |report: usize| [&forth[..], &[report], &passes[turn..], &[fields], &pulled].concat();
+        if splits {
+            let motion = report("report charges", 1.0);
+            kernels.report.extend([&forth[..], &[motion]].concat());
+            let between = report("report charges between", 2.0);
+            kernels.configuration.extend(all(between));
+        } else {
+            let report = report("report charges", 0.0);
+            kernels.report.extend(all(report));
+        }
+        let particles = builder.particles.max(1) as f64;
+        let of_clouds = 12.0 * f64::from(self.order).powi(3) * self.charged.count() as f64;
+        let of_nodes = 60.0 * self.nodes() as f64;
+        builder.plan.operations_per_particle += (of_clouds + of_nodes) / particles;
+    }
+}
+
+/// Number and charge of every particle with a charge.
+#[derive(Debug, Clone, PartialEq)]
+struct ChargedTable {
+    electrostatics: Electrostatics,
+}
+
+impl Words for ChargedTable {
+    fn count(&self) -> u64 {
+        2 * self.electrostatics.charged.count()
+    }
+
+    fn words(&self) -> Vec<u32> {
+        let of =
+            |(particle, charge): (u64, i32)| [particle as u32, ((f64::from(charge) / CHARGE_PARTS) as f32).to_bits()];
+        self.electrostatics.charged.iter().flat_map(of).collect()
+    }
+}

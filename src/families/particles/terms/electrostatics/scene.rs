@@ -1,0 +1,165 @@
+//! Electrostatics of a scene.
+
+use super::{CHARGE_PARTS, Charged, Electrostatics, Run, expected_error, mesh};
+use crate::document::{
+    ElectrostaticsInteraction, NumberedSpecies, Problems, Scene, SpeciesNames, Warning, number_of_copies,
+};
+use crate::families::particles::combinations::Feature;
+use crate::families::particles::terms::SceneTerm;
+use crate::families::warnings::warn;
+use crate::families::{Checked, Model, Particles, Species};
+use crate::numbers::grouped;
+
+/// Distances of nodes, in widths of a charge, beyond which a mesh resolves nothing of them.
+const COARSEST: f64 = 2.0;
+/// A relative error of forces that deserves a second look.
+const COARSE: f64 = 0.01;
+
+impl SceneTerm for ElectrostaticsInteraction {
+    fn features(&self) -> Vec<(Feature, &'static str)> {
+        vec![(Feature::Electrostatics, "")]
+    }
+
+    fn at_most_once(&self) -> Option<[&'static str; 2]> {
+        let accepted = "one `electrostatics` interaction: all charges are on one mesh";
+        Some(["acts on the same charges again", accepted])
+    }
+
+    fn check(&self, scene: &Scene, _: &SpeciesNames<'_>, path: &str, problems: &mut Problems) {
+        let lengths = &scene.space.lengths;
+        if lengths.len() != 3 {
+            let found = format!("in a box of {} dimensions", lengths.len());
+            problems.refuse(path, found, "a box of three dimensions, in which these charges are clouds");
+            return;
+        }
+        if scene.temperature == 0.0 {
+            let accepted = "a temperature above 0: the Bjerrum length is the distance at which two unit charges have an energy of kT";
+            problems.refuse(path, "at a temperature of 0", accepted);
+        }
+        if self.spacing > COARSEST * self.width {
+            let accepted = format!(
+                "at most {}, {COARSEST} times the width of a charge: a coarser mesh does not resolve it",
+                COARSEST * self.width
+            );
+            problems.refuse(format!("{path}.spacing"), self.spacing, accepted);
+        } else if let Some(axis) = (0..3).find(|axis| mesh::nodes(lengths[*axis], self.spacing).is_none()) {
+            let found = format!(
+                "{}, {} nodes along an edge of {}",
+                self.spacing,
+                (lengths[axis] / self.spacing).ceil(),
+                lengths[axis]
+            );
+            let accepted =
+                format!("at least {:.4}, for {} nodes", lengths[axis] / f64::from(mesh::MOST - 64), mesh::MOST);
+            problems.refuse(format!("{path}.spacing"), found, accepted);
+        }
+        let charged = charged(scene);
+        let total: i128 = charged.runs.iter().map(|run| i128::from(run.charge) * i128::from(run.count)).sum::<i128>()
+            * i128::from(charged.copies);
+        if charged.count() == 0 {
+            problems.refuse(path, "no particle with a charge", "a `charge` other than 0 in one of `particles`");
+        } else if total != 0 && !self.background {
+            let found = format!("charges that add up to {}", total as f64 / CHARGE_PARTS);
+            let accepted =
+                "charges that add up to 0, or `\"background\": true` for a uniform background that neutralizes them";
+            problems.refuse(path, found, accepted);
+        }
+        if charged.count() > u64::from(u32::MAX / 8) {
+            problems.refuse(path, format!("{} charges", grouped(charged.count())), format!("at most {}", u32::MAX / 8));
+        }
+    }
+
+    fn members(&self, scene: &Scene, names: &SpeciesNames<'_>) -> Option<String> {
+        let is_charged =
+            |name: &&str| scene.particles.iter().any(|group| group.species == **name && charge(group.charge) != 0);
+        Some(names.names().iter().filter(|name| is_charged(name)).copied().collect::<Vec<_>>().join(", "))
+    }
+
+    fn add(&self, scene: &Scene, species: &mut Vec<Species>, particles: &mut Particles) {
+        let of = |species: &Species| {
+            let group = scene.particles.iter().find(|group| group.species == species.name);
+            group.map_or(0, |group| charge(group.charge))
+        };
+        let length = |axis: usize| scene.space.lengths.get(axis).copied().unwrap_or(1.0);
+        particles.electrostatics = Some(Electrostatics {
+            strength: self.bjerrum_length * scene.temperature,
+            width: self.width,
+            mesh: [0, 1, 2].map(|axis| mesh::nodes(length(axis), self.spacing).unwrap_or(mesh::MOST)),
+            order: self.order,
+            charges: species.iter().map(of).collect(),
+            charged: charged(scene),
+        });
+    }
+
+    fn warn(&self, model: &Model, path: &str, warnings: &mut Vec<Warning>) {
+        let Some(electrostatics) = &model.particles().electrostatics else { return };
+        let error = expected_error(electrostatics, model.units.lengths, electrostatics.squares());
+        if error.relative > COARSE {
+            let message = format!(
+                "forces between charges are expected to be off by {:.1} % of their rms value; a spacing of {:.3} has a third of that or less",
+                100.0 * error.relative,
+                0.75 * self.spacing
+            );
+            warn(warnings, format!("{path}.spacing"), message);
+        }
+    }
+}
+
+/// A charge in 2⁻¹⁶ of an elementary one.
+fn charge(charge: f64) -> i32 {
+    (charge * CHARGE_PARTS).round() as i32
+}
+
+/// The particles of a scene with a charge.
+fn charged(scene: &Scene) -> Charged {
+    let names = SpeciesNames::of(scene);
+    let of_species: Vec<i32> = names
+        .names()
+        .iter()
+        .map(|name| {
+            scene.particles.iter().find(|group| group.species == **name).map_or(0, |group| charge(group.charge))
+        })
+        .collect();
+    let mut runs: Vec<Run> = Vec::new();
+    let mut add = |first: u64, count: u64, charge: i32| {
+        if charge == 0 || count == 0 {
+            return;
+        }
+        match runs.last_mut() {
+            Some(run) if run.charge == charge && run.first + run.count == first => run.count += count,
+            _ => runs.push(Run { first, count, charge }),
+        }
+    };
+    if let Some(start) = scene.start() {
+        let numbered = NumberedSpecies::new(scene);
+        for particle in 0..start.species.len() as u32 {
+            let species = numbered.of(particle).unwrap_or(0);
+            add(particle.into(), 1, of_species.get(species).copied().unwrap_or(0));
+        }
+        let copies = number_of_copies(start.copies);
+        return Charged { runs, period: start.species.len() as u64, copies };
+    }
+    for numbered in scene.numbered_groups() {
+        let species = names.place(&numbered.group.species).unwrap_or(0);
+        add(numbered.first, numbered.count, of_species.get(species).copied().unwrap_or(0));
+    }
+    Charged { runs, period: 0, copies: 1 }
+}
+
+/// Refuses charges so strong that their impulses leave the integers of momenta.
+pub(super) fn check_capacity(scene: &Checked, electrostatics: &Electrostatics, problems: &mut Problems) {
+    let model = scene.model();
+    let path = format!("interactions[{}].bjerrum_length", scene.places_of("electrostatics").next().unwrap_or(0));
+    // The largest force of one unit charge on another is .3 of the energy in contact over the width.
+    let charge =
+        electrostatics.charges.iter().map(|charge| f64::from(charge.unsigned_abs())).fold(0.0, f64::max) / CHARGE_PARTS;
+    let force = 0.3 * electrostatics.contact() / electrostatics.width * charge * charge;
+    let impulse = 0.5 * model.time_step * force / model.units.momentum;
+    const LARGEST: f64 = (1_u64 << 27) as f64;
+    if impulse > LARGEST {
+        let found = format!("charges that push each other by {force:.3e}");
+        let accepted =
+            format!("less than {:.3e}, whose impulse of half a step integer momenta hold", force * LARGEST / impulse);
+        problems.refuse(path, found, accepted);
+    }
+}

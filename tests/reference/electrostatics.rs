@@ -1,0 +1,77 @@
+//! Electrostatics on the device: against the float64 reference, step by step, and against what is exact.
+
+use mesoscope::plan::Options;
+use mesoscope::scene::Checked;
+use serde_json::{Value, json};
+
+use crate::support::{
+    INTEGRATORS, engine, largest_difference, observables, reference, same_observables, start, units_of_a_step,
+};
+
+/// Charged beads in water, with a polymer of charges and further interactions.
+fn salt(edges: [f64; 3], integrator: &str, electrostatics: &Value, others: &[Value]) -> Checked {
+    let integrator: Value = serde_json::from_str(integrator.strip_prefix("integrator=").unwrap()).unwrap();
+    let charges = json!({"type": "electrostatics", "bjerrum_length": 1.1});
+    let charges: serde_json::Map<String, Value> = charges
+        .as_object()
+        .unwrap()
+        .iter()
+        .chain(electrostatics.as_object().unwrap())
+        .map(|(key, value)| (key.clone(), value.clone()))
+        .collect();
+    let dpd = json!({"type": "dpd", "repulsion": 25, "friction": 4.5});
+    let interactions = [&[dpd, Value::from(charges)], others].concat();
+    crate::support::scene(
+        &json!({
+            "title": "salt", "seed": 5, "space": {"box": edges}, "time": {"step": 0.02, "steps": 1}, "temperature": 1.2,
+            "integrator": integrator,
+            "particles": [
+                {"species": "cation", "count": 20, "charge": 1.5, "mass": 2},
+                {"species": "water", "count": 300},
+                {"species": "chain", "count": 30, "charge": -1, "chain": {"beads": 10, "spacing": 0.7}}],
+            "interactions": interactions,
+            "output": {"energies": {"every": 1}},
+        })
+        .to_string(),
+    )
+}
+
+fn bonds(bath: &Value) -> Value {
+    json!({"type": "bonds", "potential": {"type": "harmonic", "stiffness": 60, "length": 0.7}, "friction": 3.0, "bath": bath})
+}
+
+fn check(scene: &Checked, what: &str) {
+    let (_, state) = start(scene);
+    let mut device = engine(scene, &state, Options::default());
+    let mut reference = reference(scene, &state);
+    for step in 1..=3 {
+        device.advance(1, 1).unwrap();
+        reference.step().unwrap();
+        let found = device.state().unwrap();
+        let (momentum, position) = largest_difference(&found, reference.state());
+        let units = units_of_a_step(false);
+        assert!(momentum <= units * step, "step {step}: momenta differ by {momentum} units ({what})");
+        assert!(position <= 4 * units * step, "step {step}: positions differ by {position} units ({what})");
+        assert_eq!(found.total_momentum(), state.total_momentum(), "momentum moved ({what})");
+    }
+    same_observables(&observables(&mut device, scene), &reference.observe().unwrap(), 0.0, &[what]);
+}
+
+#[test]
+fn steps_are_those_of_the_reference() {
+    for integrator in INTEGRATORS {
+        check(&salt([5.0, 6.0, 5.5], integrator, &json!({}), &[]), integrator);
+    }
+    for (electrostatics, edges) in [
+        (json!({"order": 4}), [5.0, 5.0, 5.0]),
+        (json!({"spacing": 0.25, "width": 0.4}), [5.0, 5.0, 4.0]),
+        (json!({"spacing": 0.3, "width": 1.2}), [7.0, 5.0, 4.0]),
+        (json!({"background": true, "bjerrum_length": 20.0}), [5.0, 5.0, 5.0]),
+    ] {
+        check(&salt(edges, INTEGRATORS[0], &electrostatics, &[]), &electrostatics.to_string());
+    }
+    for bath in [json!({"type": "white"}), json!({"type": "memory", "rate": 2.0})] {
+        check(&salt([5.0; 3], INTEGRATORS[3], &json!({}), &[bonds(&bath)]), &format!("bonds, {bath}"));
+        check(&salt([5.0; 3], INTEGRATORS[0], &json!({}), &[bonds(&bath)]), &format!("split bonds, {bath}"));
+    }
+}
