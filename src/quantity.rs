@@ -101,7 +101,7 @@ const FORCE_MOMENTUM: Unit = Other("force units × momentum units");
 const ACTION: Unit = Other("momentum units × length units");
 
 /// All quantities, those most asked for first.
-pub(crate) const QUANTITIES: [Quantity; 30] = [
+pub(crate) const QUANTITIES: [Quantity; 31] = [
     settling("temperature", "kT", Temperature, "⟨mv²⟩ of a degree of freedom").looks("kinetic", 0).assessed(),
     settling("internal_temperature", "kT_i", Temperature, "mean temperature inside cells")
         .looks("internal", 5)
@@ -117,6 +117,7 @@ pub(crate) const QUANTITIES: [Quantity; 30] = [
     settling("pressure_conservative", "p_C", Pressure, "without friction and noise").looks("conservative part", 1),
     quantity("internal_energy", "E_i", Energy, "internal energy of all cells").looks("internal", 5),
     quantity("total_energy", "E", Energy, "K + U; of cells with an energy of their own, K + E_i").looks("total", 2),
+    settling("electrostatic_energy", "U_q", Energy, "the part of the potential energy that charges have together"),
     quantity("bath_energy", "E_b", Energy, "energy of the variables of baths with memory").looks("bath", 3),
     quantity("extended_energy", "E + E_b", Energy, "total energy and that of baths").looks("total with bath", 4),
     settling("bath_square", "⟨h²⟩", BATH, "mean square of the variables h of baths"),

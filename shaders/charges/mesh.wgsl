@@ -21,7 +21,6 @@ fn mesh_place(fraction: u32, count: u32) -> MeshPlace {
 
 // One layer of a cloud of charge: nodes at one place along z under its spline.
 struct CloudLayer {
-    slot: u32,             // where its particle is stored
     first: vec2<u32>,      // first node along x and y
     row: u32,              // nodes before the layer
     along_x: SplineWeights,
@@ -36,10 +35,9 @@ fn node_after(first: u32, index: u32, count: u32) -> u32 {
     return select(node, node - count, node >= count);
 }
 
-fn cloud_layer(index: u32) -> CloudLayer {
+fn cloud_layer(index: u32, slot: u32) -> CloudLayer {
     let word = charged[index / ORDER];
     let layer = index % ORDER;
-    let slot = slots[word.x];
     let position = particle_at(slot).position;
     let x = mesh_place(position.x, CHARGE_NODES_X);
     let y = mesh_place(position.y, CHARGE_NODES_Y);
@@ -47,7 +45,6 @@ fn cloud_layer(index: u32) -> CloudLayer {
     let along_z = weights_along(z.offset);
     let node_z = node_after(first_node(z.cell, CHARGE_NODES_Z), layer, CHARGE_NODES_Z);
     return CloudLayer(
-        slot,
         vec2<u32>(first_node(x.cell, CHARGE_NODES_X), first_node(y.cell, CHARGE_NODES_Y)),
         node_z * CHARGE_NODES_Y,
         weights_along(x.offset),
@@ -71,7 +68,10 @@ fn spread_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index < 3u) { charge_impulses[index] = 0; }
     if (index >= CHARGED * ORDER) { return; }
-    let cloud = cloud_layer(index);
+    let slot = slots[charged[index / ORDER].x];
+    // Whoever of several ranks owns a particle spreads its charge.
+    if (!is_known(slot) || !is_own(particle_at(slot).position)) { return; }
+    let cloud = cloud_layer(index, slot);
     for (var j = 0u; j < ORDER; j++) {
         for (var i = 0u; i < ORDER; i++) {
             atomicAdd(&node_charges[node_of_layer(cloud, i, j)], i32(charge_on_node(cloud, i, j)));
@@ -128,7 +128,9 @@ fn note_charge(slot: u32, kick: Steps) {}
 fn pull_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index >= CHARGED * ORDER) { return; }
-    let cloud = cloud_layer(index);
+    let slot = slots[charged[index / ORDER].x];
+    if (!is_known(slot)) { return; }
+    let cloud = cloud_layer(index, slot);
     var field = vec3<f32>(0.0);
     for (var j = 0u; j < ORDER; j++) {
         for (var i = 0u; i < ORDER; i++) {
@@ -139,11 +141,12 @@ fn pull_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
     let possible = all_within(impulse, IMPULSE_LIMIT);
     raise(select(FAILURE_IMPULSE, 0u, possible));
     let kick = select(Steps(0), Steps(round(impulse)), possible);
-    atomicAdd(&charge_impulses[0], kick.x);
-    atomicAdd(&charge_impulses[1], kick.y);
-    atomicAdd(&charge_impulses[2], kick.z);
-    add_kick(cloud.slot, kick);
-    note_charge(cloud.slot, kick);
+    let own_kick = select(Steps(0), kick, is_own(particle_at(slot).position));
+    atomicAdd(&charge_impulses[0], own_kick.x);
+    atomicAdd(&charge_impulses[1], own_kick.y);
+    atomicAdd(&charge_impulses[2], own_kick.z);
+    add_kick(slot, kick);
+    note_charge(slot, kick);
 }
 
 // Takes back what rounding has given all charges together, the same from all but for one unit; from step to step others begin. One
@@ -152,6 +155,8 @@ fn pull_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
 fn balance_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let rank = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (rank >= CHARGED) { return; }
+    let slot = slots[charged[rank].x];
+    if (!is_known(slot)) { return; }
     let place = i32((clock_step().x + rank) % CHARGED);
     var kick = Steps(0);
     for (var axis = 0u; axis < 3u; axis++) {
@@ -161,7 +166,6 @@ fn balance_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
         let whole = (sum - select(0, count - 1, sum < 0)) / count;
         kick[axis] = -(whole + select(0, 1, place < sum - whole * count));
     }
-    let slot = slots[charged[rank].x];
     add_kick(slot, kick);
     note_charge(slot, kick);
 }

@@ -31,6 +31,7 @@ fn report_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
         if (CHARGE_SUMS != 2u) { total_add(SUM_VIRIAL, virial); }
         if (CHARGE_SUMS != 1u) {
             total_add(SUM_POTENTIAL_ENERGY, sum64_of_signed(energy));
+            total_add(SUM_ELECTROSTATIC_ENERGY, sum64_of_signed(energy));
             total_add(SUM_CONSERVATIVE_VIRIAL, virial);
             total_add(SUM_CURVATURE, sum64_of_signed(-energy * square * CHARGE_CURVATURE));
         }

@@ -12,6 +12,7 @@ override SUM_CONSERVATIVE_VIRIAL: u32;
 override SUM_SQUARED_FORCE: u32;        // of the conservative force on each particle
 override SUM_CURVATURE: u32;            // Laplacian of the potential
 override SUM_FIRST_STAGE_VIRIAL: u32;   // of the first of two stages of friction
+override SUM_ELECTROSTATIC_ENERGY: u32; // of charges, each by itself included
 override SUM_BATH_ENERGY: u32 = 0u;     // of baths with memory
 override SUM_BATH_SQUARE: u32;          // of their variables
 override SUM_BATH_COUNT: u32;           // of the baths that are counted

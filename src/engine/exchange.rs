@@ -55,8 +55,8 @@ pub(super) struct Exchange<'a> {
     stored_count: Stored,
     outgoing: Stored,
     outgoing_counts: Stored,
-    /// The array that is summed over ranks, if there is one.
-    summed: Option<Stored>,
+    /// The arrays that are summed over ranks.
+    summed: Vec<Stored>,
     /// Particles for each peer that are read back before their number is known.
     guesses: Vec<u64>,
     /// The same of exchanges with the other halo.
@@ -84,7 +84,7 @@ impl<'a> Exchange<'a> {
     ) -> Self {
         let of = |array| buffers[&array].clone();
         let guesses = vec![0; part.peers.len()];
-        let summed = part.sum.as_ref().map(|sum| of(sum.array));
+        let summed = part.sums.iter().map(|sum| of(sum.array)).collect();
         Self {
             gpu: gpu.clone(),
             part,
@@ -119,10 +119,9 @@ impl<'a> Exchange<'a> {
             recording.submit();
             self.receive(step)?;
         }
-        match (self.part.sum.clone(), self.summed.clone()) {
-            (Some(sum), Some(array)) if kernel == sum.after => self.add_up(recording, &sum, &array),
-            _ => Ok(()),
-        }
+        let Some(index) = self.part.sums.iter().position(|sum| sum.after == kernel) else { return Ok(()) };
+        let (sum, array) = (self.part.sums[index].clone(), self.summed[index].clone());
+        self.add_up(recording, &sum, &array)
     }
 
     /// Whether the next exchanges bring what samples need that look further than forces reach.

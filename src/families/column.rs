@@ -49,6 +49,8 @@ pub(crate) const TIME: Column = column("time", |_, time| time);
 pub(crate) const KINETIC_ENERGY: Column = column("kinetic_energy", |row, _| row.kinetic_energy);
 /// Potential energy.
 pub(crate) const POTENTIAL_ENERGY: Column = column("potential_energy", |row, _| row.potential_energy);
+/// The part of the potential energy that charges have.
+pub(crate) const ELECTROSTATIC_ENERGY: Column = column("electrostatic_energy", |row, _| row.electrostatic_energy);
 /// Kinetic and potential energy.
 pub(crate) const TOTAL_ENERGY: Column = column("total_energy", |row, _| row.total_energy());
 /// Energy of baths with memory, and that of all together.

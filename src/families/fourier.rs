@@ -173,12 +173,15 @@ impl Fourier {
             (Constant::Roots, f64::from(self.roots())),
             (Constant::RowLength, f64::from(width)),
         ];
-        if !self.is_flat() {
-            constants.extend([
-                (Constant::WaveColumns, f64::from(self.columns())),
-                (Constant::MeshHeight, f64::from(height)),
-                (Constant::MeshDepth, f64::from(depth)),
-            ]);
+        let (columns, height) =
+            ((Constant::WaveColumns, f64::from(self.columns())), (Constant::MeshHeight, f64::from(height)));
+        if pass.load == Load::Layers || pass.store == Store::Layers {
+            constants.extend([columns, height]);
+        } else if axis == Lines::Slices {
+            constants.push(columns);
+        }
+        if axis == Lines::Slices && pass.entry == Entry::FourierTurn {
+            constants.push((Constant::MeshDepth, f64::from(depth)));
         }
         let swapped = vec![(Array::Waves, Array::WavesNext), (Array::WavesNext, Array::Waves)];
         // A small mesh has few butterflies, which are to be shared out all the same.
@@ -208,13 +211,11 @@ impl Fourier {
         }
     }
 
-    /// The buffers between passes, the weights of waves up to the middle of every axis, and the roots of unity. Weights are in the
-    /// order of [`Self::waves`]; a field comes back twice its transforms' number times as large.
-    pub(crate) fn buffers(&self, weights: impl Iterator<Item = f32>) -> Vec<Buffer> {
+    /// The buffers between passes, and the roots of unity; not the weights of [`waves`], which are `symbols`.
+    pub(crate) fn buffers(&self) -> Vec<Buffer> {
         let [_, height, depth] = self.mesh;
         let bytes = 8 * u64::from(height) * u64::from(depth) * u64::from(self.columns());
-        let mut buffers =
-            vec![scratch(Array::Waves, bytes), scratch(Array::WavesNext, bytes), table(Array::Symbols, weights)];
+        let mut buffers = vec![scratch(Array::Waves, bytes), scratch(Array::WavesNext, bytes)];
         if self.passes().iter().any(|pass| pass.finished > 1) {
             let roots = self.roots();
             buffers.push(table(Array::Roots, (0..roots).flat_map(|index| root(index, roots))));
@@ -222,18 +223,17 @@ impl Fourier {
         buffers
     }
 
-    /// Waves up to the middle of every axis, those along x next to each other, then those along z.
-    pub(crate) fn waves(&self) -> impl Iterator<Item = [u32; 3]> + use<> {
-        let [width, height, depth] = self.mesh;
-        let of_row = move |l, m| (0..=width / 2).map(move |k| [k, l, m]);
-        (0..=height / 2).flat_map(move |l| (0..=depth / 2).flat_map(move |m| of_row(l, m)))
-    }
-
     /// The factor by which the field is larger when it comes back.
     pub(crate) fn gain(&self) -> f64 {
         // Rows that went through as one come apart twice as large.
         2.0 * self.mesh.iter().map(|nodes| f64::from(*nodes)).product::<f64>()
     }
+}
+
+/// Waves of a mesh up to the middle of every axis, in the order of their weights: those along x next to each other, then those along z.
+pub(crate) fn waves([width, height, depth]: [u32; 3]) -> impl Iterator<Item = [u32; 3]> {
+    let of_row = move |l, m| (0..=width / 2).map(move |k| [k, l, m]);
+    (0..=height / 2).flat_map(move |l| (0..=depth / 2).flat_map(move |m| of_row(l, m)))
 }
 
 /// A buffer of numbers.

@@ -38,6 +38,8 @@ pub struct Observables {
     pub kinetic_energy: f64,
     /// Σ V over pairs.
     pub potential_energy: f64,
+    /// The part of it that charges have.
+    pub electrostatic_energy: f64,
     /// Σ |∇V|² over particles.
     pub gradient_squared: f64,
     /// Σ ∇²V over particles.
@@ -236,6 +238,7 @@ mod tests {
         total_virial: 12.0,
         momentum: [0.0, 3.0, 0.0],
         about_centre_of_mass: true,
+        electrostatic_energy: 0.0,
         bath_energy: 0.0,
         bath_square: 0.0,
         bath_products: BathProducts { momentum: 0.0, displacement: 0.0, momentum_displacement: 0.0 },

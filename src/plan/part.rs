@@ -326,7 +326,7 @@ pub struct PlannedPart {
     /// The one of these that holds the particles after the shared ones, if there are any.
     pub everywhere: Option<Array>,
     /// What is added over all ranks within a step.
-    pub sum: Option<SharedSum>,
+    pub sums: Vec<SharedSum>,
 }
 
 /// What ranks know of each other at some steps only: where samples of pairs look further than forces reach.
@@ -391,6 +391,12 @@ pub struct Stretch {
 }
 
 impl SharedSum {
+    /// A sum of an array to which every rank adds anywhere.
+    pub(crate) fn everywhere(array: Array, length: u64, after: usize, division: &Division) -> Self {
+        let all = Stretch { first: 0, count: length };
+        Self { array, after, length, stretches: vec![all; division.ranks() as usize] }
+    }
+
     /// The parts of a stretch in the array, each from where on and how many words: one, or two of a stretch that goes past the end.
     pub(crate) fn pieces(&self, stretch: Stretch) -> [Stretch; 2] {
         let before_end = stretch.count.min(self.length - stretch.first);
@@ -402,7 +408,7 @@ impl PlannedPart {
     /// Bytes of what is summed that it sends in a step.
     pub(crate) fn summed_bytes(&self) -> u64 {
         let own = |sum: &SharedSum| sum.stretches.get(self.part.rank as usize).map_or(0, |stretch| stretch.count);
-        4 * self.sum.as_ref().map_or(0, own) * self.others().len() as u64
+        4 * self.sums.iter().map(own).sum::<u64>() * self.others().len() as u64
     }
 
     /// The numbers of the particles of each message that passes on a state.
@@ -481,7 +487,7 @@ impl Part {
             shared: particles,
             whole: Vec::new(),
             everywhere: None,
-            sum: None,
+            sums: Vec::new(),
         }
     }
 
@@ -510,7 +516,7 @@ impl Part {
             shared: particles,
             whole: Vec::new(),
             everywhere: None,
-            sum: None,
+            sums: Vec::new(),
         }
     }
 

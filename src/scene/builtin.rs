@@ -72,6 +72,7 @@ pub fn builtin() -> &'static [Builtin] {
         "shear",
         "diblock-copolymer",
         "surfactants",
-        "drop"
+        "drop",
+        "salt-water"
     ]
 }

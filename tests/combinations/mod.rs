@@ -105,6 +105,10 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
     if has(Tethers) {
         interactions.push(json!({"type": "tether", "stiffness": 4}));
     }
+    if has(Electrostatics) {
+        // Molecules have as many of one charge as of the other only by chance.
+        interactions.push(json!({"type": "electrostatics", "bjerrum_length": 1.1, "background": true}));
+    }
     if has(UniformForce) {
         interactions.push(json!({"type": "body-force", "force": force}));
     }
@@ -128,6 +132,10 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
         if chained {
             groups[0]["chain"] = json!({"beads": 3, "spacing": 0.5});
         }
+    }
+    if has(Electrostatics) {
+        groups[0]["charge"] = json!(-1);
+        groups[1]["charge"] = json!(1.5);
     }
     if has(FixedParticles) {
         groups[1]["fixed"] = json!(true);

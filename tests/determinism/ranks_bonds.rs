@@ -1,4 +1,4 @@
-//! Several ranks with bonds, angles and tethers: the same bytes as one.
+//! Several ranks with bonds, angles, tethers and charges: the same bytes as one.
 
 use mesoscope::engine::{EngineError, Stepper as _};
 use mesoscope::plan::{Division, Options};
@@ -15,12 +15,16 @@ const FENE: &str =
     r#"{"type":"bonds","potential":{"type":"fene","stiffness":30,"extent":1.3},"exclude_repulsion":true}"#;
 const RUBBING: &str = r#"{"type":"bonds","potential":{"type":"harmonic","stiffness":50,"length":0.6},"friction":6}"#;
 const TETHERS: &str = r#"{"type":"tether","stiffness":20}"#;
+const CHARGES: &str = r#"{"type":"electrostatics","bjerrum_length":1.1}"#;
 const LANGEVIN: &str = r#"{"type":"langevin","friction":2}"#;
 const MANY_BODY: &str = r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}"#;
 
 /// Chains of six beads in solvent.
 const CHAINS: &str = r#"particles=[{"species":"A","count":240,"chain":{"beads":6,"spacing":0.6}},
     {"species":"B","count":100}]"#;
+/// The same with charges.
+const SALT: &str = r#"particles=[{"species":"A","count":240,"charge":-1,"chain":{"beads":6,"spacing":0.6}},
+    {"species":"B","count":96,"charge":2.5}]"#;
 /// A few long rings, each of which crosses all boundaries.
 const RINGS: &str = r#"particles=[{"species":"A","count":320,"chain":{"beads":80,"spacing":0.6,"closed":true}}]"#;
 /// Branched molecules of two species, the heavier of which is in the middle.
@@ -64,6 +68,12 @@ fn cases() -> Vec<(Checked, Vec<[u32; 3]>)> {
             scene(&[&[SPLITTING, "space.box=[9,21]"], &BRANCHED[..]].concat(), &[PAIRS, RUBBING, ANGLES]),
             vec![[2, 3, 1]],
         ),
+        // Charges, which act on each other all over the box.
+        (scene(&[SPLITTING, "space.box=[4,4,13]", SALT], &[PAIRS, CHARGES]), vec![[1, 1, 2], [1, 1, 4]]),
+        (scene(&[STAGED, "space.box=[4,4,15]", SALT], &[PAIRS, CHARGES, SPRINGS]), vec![[1, 1, 3]]),
+        (scene(&[GROOT_WARREN, "space.box=[4,7,9]", SALT], &[PAIRS, CHARGES, SPRINGS]), vec![[1, 2, 2]]),
+        (scene(&[COTTER_REICH, "space.box=[5,5,9]", SALT, FOLLOWED], &[PAIRS, CHARGES]), vec![[1, 1, 3]]),
+        (scene(&[SPLITTING, "space.box=[4,4,13]", SALT], &[LANGEVIN, CHARGES]), vec![[1, 1, 2]]),
         // Nothing but bonds and baths; tethers, with pairs that are visited once and twice, and with none.
         (scene(&[SPLITTING, "space.box=[4,4,13]", CHAINS], &[LANGEVIN, SPRINGS]), vec![[1, 1, 3]]),
         (scene(&[SPLITTING, "space.box=[4,4,13]", CHAINS], &[LANGEVIN, TETHERS, RUBBING]), vec![[1, 1, 2]]),
@@ -95,7 +105,11 @@ fn divided(scene: &Checked, parts: [u32; 3], batch: u64) -> (Bytes, u32) {
             team.advance(STEPS, batch)?;
             let (state, reported) = (team.state()?, team.reported()?);
             let samples = team.finish()?;
-            assert!(team.traffic().iter().all(|traffic| traffic.exchanges >= STEPS && traffic.copies > 0));
+            // Charges without pairs act on the mesh alone: nobody has to know the particles of others.
+            let particles = scene.model().particles();
+            let needs_copies = particles.pair_force.is_some() || particles.bonds.is_some();
+            let exchanged = |copies: u64| if needs_copies { copies > 0 } else { copies == 0 };
+            assert!(team.traffic().iter().all(|traffic| traffic.exchanges >= STEPS && exchanged(traffic.copies)));
             Ok(Bytes { state, reported, samples })
         };
         match attempt() {

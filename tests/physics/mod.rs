@@ -6,6 +6,7 @@ mod bonds;
 mod coloured_noise;
 mod couplings;
 mod edpd;
+mod electrostatics;
 mod fluid;
 mod harmonic_chain;
 mod profiles;

@@ -76,8 +76,15 @@ fn random_scene(draws: &mut Draws) -> Value {
     } else if draws.one_in(5) {
         scene["space"]["shear"] = json!({"rate": 0.7, "gradient": across});
     }
+    let charged = dimension == 3 && draws.one_in(4);
+    if charged {
+        groups[0]["charge"] = json!(1);
+    }
     scene["particles"] = json!(groups);
     scene["interactions"] = interactions(draws, dimension, chained, &memory, groups.len());
+    if charged && let Some(interactions) = scene["interactions"].as_array_mut() {
+        interactions.push(json!({"type": "electrostatics", "bjerrum_length": 1, "background": true}));
+    }
     scene["output"] = output(draws, across);
     scene
 }

@@ -84,6 +84,7 @@ pub fn plans() -> &'static [(String, Plan)] {
             sheared_plans,
             sheared_coupled_plans,
             kicked_plans,
+            charged_plans,
             water_plans,
             shared_water_plans,
             coupled_plans,
@@ -218,6 +219,7 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
     let white = json!({"type": "langevin", "friction": 1});
     let slow = json!({"type": "langevin", "friction": 1, "bath": memory});
     let noise = json!({"type": "coloured-noise", "strength": 1, "time": 0.1});
+    let charges = json!({"type": "electrostatics", "bjerrum_length": 1, "background": true});
     let springs = bonds(json!({"potential": harmonic}));
     let excluding = bonds(json!({"potential": harmonic, "exclude_repulsion": true}));
     let rubbing = bonds(json!({"friction": 2}));
@@ -231,6 +233,9 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
         vec![&remembering, &angles],
         vec![&remembering, &angles, &white],
         vec![&remembering, &slow, &noise, &tether],
+        vec![&charges],
+        vec![&charges, &rubbing, &angles, &white, &force],
+        vec![&charges, &remembering, &slow, &noise],
     ];
     let analyses = [
         json!({
@@ -279,10 +284,13 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
     for (number, interactions) in beside.into_iter().enumerate() {
         let mut scene = pairs.clone();
         for interaction in interactions {
-            let before = scene["interactions"].clone();
+            let before = scene.clone();
             scene["interactions"].as_array_mut().unwrap().push(interaction.clone());
+            if interaction["type"] == "electrostatics" {
+                scene["particles"][0]["charge"] = json!(1);
+            }
             if accepted(&scene).is_none() {
-                scene["interactions"] = before;
+                scene = before;
             }
         }
         scenes.extend(accepted(&scene));
@@ -307,6 +315,28 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
 
 fn accepted(scene: &Value) -> Option<Checked> {
     scene::parse("structure", &scene.to_string(), &[]).ok()
+}
+
+/// Charges on meshes of lines of every length that a transform takes otherwise, along every axis, with and without ranks.
+fn charged_plans() -> Vec<(String, Plan)> {
+    let lengths = [16, 20, 24, 32, 40, 48, 60, 64, 80, 96, 120, 128, 160, 200, 240, 256, 400, 480, 512];
+    let mut plans = Vec::new();
+    for (length, axis) in lengths.iter().flat_map(|length| [0, 1, 2].map(|axis| (length, axis))) {
+        let mut edges = [6.0; 3];
+        edges[axis] = 0.5 * f64::from(*length);
+        for (order, lanes) in [(4, None), (6, Some(false))] {
+            let interactions = format!(
+                r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},
+                {{"type":"electrostatics","bjerrum_length":1,"order":{order}}}]"#
+            );
+            let particles =
+                r#"particles=[{"species":"A","count":20,"charge":1},{"species":"B","count":10,"charge":-2}]"#;
+            let changes = [&format!("space.box={edges:?}")[..], &interactions, particles, SPLITTING, "time.steps=1000"];
+            let options = Options { butterflies_by_lanes: lanes, ..Options::default() };
+            plans.push((changes.join(" "), plan_of(&fluid(&changes), options)));
+        }
+    }
+    plans
 }
 
 /// Pairs with every law, in turns, with every way to scan.

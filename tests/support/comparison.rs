@@ -121,6 +121,7 @@ pub fn same_energies(measured: &Observables, expected: &Observables, jump: f64, 
     for (name, a, b) in [
         ("kinetic energy", measured.kinetic_energy, expected.kinetic_energy),
         ("potential energy", measured.potential_energy, expected.potential_energy),
+        ("electrostatic energy", measured.electrostatic_energy, expected.electrostatic_energy),
         ("conservative virial", measured.conservative_virial, expected.conservative_virial),
         ("virial", measured.total_virial, expected.total_virial),
         ("gradient", measured.gradient_squared, expected.gradient_squared),

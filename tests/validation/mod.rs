@@ -1,6 +1,7 @@
 //! Long runs and other programs: `make validate`.
 
 mod channels;
+mod electrostatics;
 mod errors;
 mod fields;
 mod many_body;

@@ -6,7 +6,7 @@ const MOST_CHARGE: i32 = 536870912; // 2^29
 fn load(node: u32) -> f32 {
     let charge = node_charges[node];
     node_charges[node] = 0;
-    raise(select(0u, FAILURE_CHARGES, abs(charge) > MOST_CHARGE));
+    raise(select(0u, FAILURE_CHARGES, charge > MOST_CHARGE || charge < -MOST_CHARGE));
     return f32(charge);
 }
 fn load_row_pair(line: u32, place: u32) -> vec2<f32> {

@@ -22,7 +22,7 @@ pub struct ElectrostaticsInteraction {
     pub spacing: f64,
     /// Points of the splines that spread charges over nodes along each axis, and of the differences that make forces: 4 or 6.
     #[serde(default = "whole::<6>")]
-    #[schemars(extend("enum" = [4, 6]))]
+    #[schemars(range(min = 4, max = 6))]
     pub order: u32,
     /// Whether a uniform background neutralizes the charges of the particles; without it they have to add up to zero.
     #[serde(default, skip_serializing_if = "is_default")]

@@ -166,7 +166,7 @@ pub const REFUSALS: &[Refusal] = &[
         &[Stress, StressProfiles],
         "the virial of charges is one of waves, and belongs to no particle",
     ),
-    physics(Electrostatics, &[HarmonicChain], "harmonic chains are a scene by themselves"),
+    physics(Electrostatics, &[Line], "charges are clouds in three dimensions"),
     physics(StructureFactor, &[Shear], "the wave vectors of a box that shears lean with it"),
     missing(RadialDistribution, &[Shear], "pairs further than the cutoff are found round a box at rest"),
     missing(Clusters, &[Shear], "close pairs are found in cells, round a box at rest"),
@@ -177,7 +177,6 @@ pub const REFUSALS: &[Refusal] = &[
         "what a bath or a noise remembers does not change its rank with the particle",
     ),
     missing(Ranks, &[Line], "pairs in a list"),
-    missing(Ranks, &[Electrostatics], "the charges of all ranks on one mesh"),
     missing(Ranks, &[StructureFactor, Autocorrelations, Histograms, Stress, Profiles], "measured on one device"),
 ];
 

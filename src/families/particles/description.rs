@@ -3,6 +3,7 @@
 use super::CoupledLayout;
 use crate::document::PairRelaxation;
 use crate::families::Model;
+use crate::families::particles::terms::electrostatics::expected_error;
 use crate::numbers::{six_digits, three_digits};
 use crate::plan::Plan;
 
@@ -26,7 +27,11 @@ pub(super) fn list(model: &Model, plan: &Plan) -> Option<(&'static str, String)>
 
 /// What a step in which pairs relax is expected to do to temperatures and transport.
 pub(super) fn estimates(model: &Model) -> Vec<String> {
-    let Some(errors) = model.relaxation() else { return Vec::new() };
+    let of_charges = model.particles().electrostatics.as_ref().map(|electrostatics| {
+        let error = expected_error(electrostatics, model.units.lengths, electrostatics.squares()).relative;
+        format!("forces between charges off by {} % of their rms value", three_digits(100.0 * error))
+    });
+    let Some(errors) = model.relaxation() else { return of_charges.into_iter().collect() };
     let percent = |part: f64| if part.abs() < 5e-5 { "0".to_owned() } else { format!("{:+.1} %", 100.0 * part) };
     let missing = errors.missing_temperature();
     let stages = match errors.rule {
@@ -54,5 +59,6 @@ pub(super) fn estimates(model: &Model) -> Vec<String> {
         }
         _ => "diffusion unknown".to_owned(),
     });
+    found.extend(of_charges);
     found
 }

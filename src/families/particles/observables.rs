@@ -18,7 +18,8 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model)
     let electrostatics = model.particles().electrostatics.as_ref();
     let [own_energy, own_laplacian] = electrostatics.map_or([0.0; 2], |electrostatics| {
         let volume = units.lengths.iter().product();
-        [electrostatics.own_energy(), electrostatics.own_laplacian(volume)]
+        let mobile = electrostatics.mobile_part(&model.species);
+        [electrostatics.own_energy(), mobile * electrostatics.own_laplacian(volume)]
     });
     Observables {
         mass: model.mobile_mass(),
@@ -29,6 +30,7 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model)
         conservative_virial: row.number(Sum::ConservativeVirial) * quanta.pair_energy,
         gradient_squared: row.number(Sum::SquaredForce) * quanta.force_squared,
         laplacian: row.number(Sum::Curvature) * quanta.curvature + own_laplacian,
+        electrostatic_energy: row.number(Sum::ElectrostaticEnergy) * quanta.pair_energy - own_energy,
         bath_energy: row.number(Sum::BathEnergy) * quanta.pair_energy,
         bath_square: if baths > 0.0 { row.number(Sum::BathSquare) * quanta.bath_squared / baths } else { 0.0 },
         bath_products: BathProducts {
@@ -50,6 +52,7 @@ pub(super) fn columns(particles: &Particles, model: &Model) -> Vec<Column> {
     let potential = model.physics().has_potential();
     let mut columns = vec![column::TIME, column::KINETIC_ENERGY];
     columns.extend(potential.then_some(column::POTENTIAL_ENERGY));
+    columns.extend(particles.electrostatics.is_some().then_some(column::ELECTROSTATIC_ENERGY));
     columns.push(column::TOTAL_ENERGY);
     if model.has_memory() {
         columns.extend(column::BATH_ENERGIES);

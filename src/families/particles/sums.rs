@@ -15,6 +15,7 @@ pub(super) fn sums(model: &Model) -> Sums {
         .with(Sum::Momentum, 3)
         .with_if(true, &configuration)
         .with_if(particles.relaxes_in_two_stages(), &[Sum::FirstStageVirial])
+        .with_if(particles.electrostatics.is_some(), &[Sum::ElectrostaticEnergy])
         .with_if(model.has_memory(), &[Sum::BathEnergy, Sum::BathSquare, Sum::BathCount])
         .with_if(
             particles.oscillates_in_memory(),

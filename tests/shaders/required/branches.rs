@@ -10,11 +10,12 @@ pub const KNOWN: [&str; 5] = ["CELLS_X", "CELLS_Y", "CELLS_Z", "CLOSES", "QUARTE
 
 /// Laws and reports that a scene has or not: one module stands for all of them, and constants of its pipelines say which
 /// it is. What is not chosen is taken out with what it binds.
-pub const LAWS: [&str; 37] = [
+pub const LAWS: [&str; 38] = [
     "AS_PRINTED",
     "BATHS_REMEMBER",
     "BOND_BATHS_NOISY",
     "BOND_POTENTIAL",
+    "CHARGE_SUMS",
     "COLOURED_NOISE",
     "COUPLINGS_CONSERVE",
     "DISTRIBUTION",

@@ -144,6 +144,7 @@ pub fn features() -> Vec<Feature> {
                 "relax",
                 "relax_to_report",
                 "report_bonds_between",
+                "report_charges_between",
                 "report_configuration",
                 "report_motion",
                 "reported_momenta",
@@ -310,6 +311,51 @@ pub fn features() -> Vec<Feature> {
             always: true,
         },
         Feature {
+            name: "charges",
+            ground: |scene| {
+                no_analyses(scene);
+                no_shear(scene);
+                if let Some(space) = scene["space"].as_object_mut() {
+                    space.remove("walls");
+                }
+            },
+            with: |scene| {
+                let is_space = scene["space"]["box"].as_array().unwrap().len() == 3;
+                if has_particles(scene) && interaction(scene, "harmonic-chain").is_none() && is_space {
+                    set_last_group(scene, "charge", json!(1));
+                    add(scene, json!({"type": "electrostatics", "bjerrum_length": 1, "background": true}));
+                }
+            },
+            without: |scene| remove(scene, "electrostatics"),
+            own: Some(&["charge", "CHARGE", "array waves", "array symbols"]),
+            more: &[
+                "balance_charges",
+                "charge_columns",
+                "charge_fields",
+                "charge_rows",
+                "charge_spectrum",
+                "pull_charges",
+                "report_charges",
+                "report_charges_between",
+                "spread_charges",
+                "take_stock",
+                "charge_energies",
+                "charge_impulses",
+                "charged",
+                "kicks",
+                "node_charges",
+                "node_fields",
+                "node_potentials",
+                "roots",
+                "slots",
+                "symbols",
+                "waves",
+                "waves_next",
+            ],
+            instead: &["probes"],
+            always: true,
+        },
+        Feature {
             name: "body force",
             ground: nothing,
             with: |scene| {
@@ -418,11 +464,9 @@ pub fn features() -> Vec<Feature> {
                 "kernel bonds",
                 "kernel report_bonds",
                 "array bonds",
-                "array slots",
                 "constant BOND",
                 "file bonds/bonds",
                 "file bonds/bond_report",
-                "file couplings/slots",
             ]),
             more: &["bonds", "report_bonds", "stress_of_bonds", "take_stock", "forces", "kicks", "slots"],
             // Beside a table of species the prefilter reads positions then.

@@ -17,6 +17,8 @@ pub(crate) struct Configuration<'a> {
     pub state: &'a State,
     pub images: &'a Images<'a>,
     pub potential: f64,
+    /// The part of it that charges have.
+    pub electrostatic: f64,
     pub virial: f64,
     pub gradients: Vec<[f64; 3]>,
     pub laplacians: Vec<f64>,
@@ -34,6 +36,7 @@ impl<'a> Configuration<'a> {
             state,
             images,
             potential: 0.0,
+            electrostatic: 0.0,
             virial: 0.0,
             gradients: vec![[0.0; 3]; count],
             laplacians: vec![0.0; count],
@@ -73,6 +76,7 @@ pub(super) fn of_configuration(model: &Model, state: &State, images: &Images<'_>
     let squares = |particle: usize| configuration.gradients[particle].iter().map(|slope| slope * slope).sum::<f64>();
     Observables {
         potential_energy: configuration.potential,
+        electrostatic_energy: configuration.electrostatic,
         gradient_squared: (0..state.len()).filter(mobile).map(squares).sum(),
         laplacian: (0..state.len()).filter(mobile).map(|particle| configuration.laplacians[particle]).sum(),
         conservative_virial: configuration.virial,

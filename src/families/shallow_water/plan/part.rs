@@ -49,7 +49,7 @@ impl Builder<'_> {
         let before = order / 2;
         let stretches = part.part.stretches(self.water.rows(), self.water.mesh[0], [before, order - before]);
         let nodes = self.water.nodes();
-        part.sum = Some(SharedSum { array: Array::NodeMasses, after: gather, length: nodes, stretches });
+        part.sums.push(SharedSum { array: Array::NodeMasses, after: gather, length: nodes, stretches });
         let check = self.kernel("check_nodes", Entry::CheckNodeMasses, &Choices::new(), nodes);
         self.plan.before_report.push(check);
     }

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use super::{Buffer, Kernel, Options, Plan};
 use crate::document::{LaplacianSymbol, SmoothingSolver};
-use crate::families::fourier::{Fourier, scratch, table};
+use crate::families::fourier::{Fourier, scratch, table, waves};
 use crate::families::{ShallowWater, chebyshev_iterations};
 use crate::shaders::smoothing::{Load, Source, Store};
 use crate::shaders::{Array, Choices, Constant, Entry};
@@ -159,8 +159,10 @@ fn fourier(
     let mut kernels = fourier.kernels();
     kernels[0].constants.extend(constants);
     let scale = 1.0 / fourier.gain();
-    let symbols = fourier.waves().map(|[k, l, _]| (scale * transfer(water, lengths, [k, l])) as f32);
-    SmoothingPlan { order: (0..kernels.len()).collect(), kernels, buffers: fourier.buffers(symbols) }
+    let symbols = waves(fourier.mesh).map(|[k, l, _]| (scale * transfer(water, lengths, [k, l])) as f32);
+    let mut buffers = fourier.buffers();
+    buffers.push(table(Array::Symbols, symbols));
+    SmoothingPlan { order: (0..kernels.len()).collect(), kernels, buffers }
 }
 
 /// Chebyshev's polynomial for 1 - Λ²∇² with the five-point Laplacian.

@@ -81,8 +81,8 @@ impl Builder<'_> {
             .with(grid::Stored::OfRank)
             .with(pairs::Reporting::InOrder)
             .with(space::Followed::OfRank)
-            .with_if(self.is_bonded(), couplings::Slots::OfRank)
-            .with_if(self.is_bonded(), bonds::Presence::OfRank)
+            .with_if(self.keeps_slots(), couplings::Slots::OfRank)
+            .with_if(self.keeps_slots(), bonds::Presence::OfRank)
     }
 
     /// Adds the kernels that exchange particles, after which they are counted into cells by `bin`.
@@ -120,7 +120,7 @@ impl Builder<'_> {
             self.passed_on_early = vec![send, bin];
         }
         self.plan.part = Some(PlannedPart { passages, ..part });
-        if self.is_bonded() {
+        if self.keeps_slots() {
             let forget = self.kernel("forget_slots", Entry::ForgetSlots, Choices::new(), self.particles);
             self.plan.prepare.push(forget);
         }

@@ -20,52 +20,76 @@ pub(crate) fn nodes(length: f64, spacing: f64) -> Option<u32> {
     (least..=MOST).find(|nodes| fourier::is_transformable(*nodes))
 }
 
-/// What the mesh does to waves along one axis.
-struct AxisWaves {
-    /// Wave number k of each wave up to the middle, and of its two nearest aliases.
-    numbers: Vec<[f64; 3]>,
-    /// U² of each of them.
-    spread: Vec<[f64; 3]>,
-    /// Σ U² over all aliases.
-    spread_sums: Vec<f64>,
-    /// D of the difference.
-    differences: Vec<f64>,
+/// A wave along one axis, or an alias of it that the mesh takes for it.
+#[derive(Clone, Copy)]
+struct Alias {
+    /// Wave number k.
+    number: f64,
+    /// U² of the splines.
+    spread: f64,
+    /// e^(-k²σ²).
+    cloud: f64,
 }
 
-impl AxisWaves {
-    fn new(length: f64, nodes: u32, order: u32) -> Self {
+/// The mesh and one wave along one axis.
+struct AxisWave {
+    /// The wave and its two nearest aliases; those beyond are waves that no charge resolved by the mesh has.
+    aliases: [Alias; 3],
+    /// Σ U² over all aliases.
+    spread: f64,
+    /// D of the difference.
+    difference: f64,
+}
+
+impl AxisWave {
+    /// All waves of an axis up to the middle.
+    fn all(length: f64, nodes: u32, order: u32, width: f64) -> Vec<Self> {
         let spacing = length / f64::from(nodes);
-        let waves = || (0..=nodes / 2).map(|wave| TAU * f64::from(wave) / f64::from(nodes));
         let spread = |angle: f64| {
             let half = 0.5 * angle;
             let sinc = if half.abs() < 1e-12 { 1.0 } else { half.sin() / half };
             sinc.powi(2 * order as i32)
         };
-        let aliases = |angle: f64| [angle, angle - TAU, angle + TAU];
-        Self {
-            numbers: waves().map(|angle| aliases(angle).map(|alias| alias / spacing)).collect(),
-            spread: waves().map(|angle| aliases(angle).map(spread)).collect(),
-            spread_sums: waves()
-                .map(|angle| (-4..=4).map(|alias| spread(angle + TAU * f64::from(alias))).sum())
-                .collect(),
-            differences: waves().map(|angle| difference(angle, order) / spacing).collect(),
-        }
+        let alias = |angle: f64| {
+            let number = angle / spacing;
+            Alias { number, spread: spread(angle), cloud: (-(number * width).powi(2)).exp() }
+        };
+        let wave = |number: u32| {
+            let angle = TAU * f64::from(number) / f64::from(nodes);
+            Self {
+                aliases: [angle, angle - TAU, angle + TAU].map(alias),
+                spread: (-4..=4).map(|turns| spread(angle + TAU * f64::from(turns))).sum(),
+                difference: Stencil::new(order).transform(angle) / spacing,
+            }
+        };
+        (0..=nodes / 2).map(wave).collect()
     }
 }
 
-/// D of an antisymmetric difference over nodes a unit apart, of the order of the splines: its exact value is the angle.
-fn difference(angle: f64, order: u32) -> f64 {
-    let sines = |of: &[f64]| of.iter().zip(1..).map(|(weight, n)| weight * (f64::from(n) * angle).sin()).sum::<f64>();
-    let [weights, divisor] = stencil(order);
-    2.0 * sines(&weights) / divisor[0]
+/// An antisymmetric difference, of the order of the splines.
+pub(crate) struct Stencil {
+    /// Integer weights of one, two and three nodes either side.
+    pub weights: [f64; 3],
+    pub divisor: f64,
 }
 
-/// The integer weights of a difference of one, two and three nodes either side, and their divisor.
-pub(crate) fn stencil(order: u32) -> [[f64; 3]; 2] {
-    if order == 4 { [[8.0, -1.0, 0.0], [12.0; 3]] } else { [[45.0, -9.0, 1.0], [60.0; 3]] }
+impl Stencil {
+    pub(crate) fn new(order: u32) -> Self {
+        if order == 4 {
+            Self { weights: [8.0, -1.0, 0.0], divisor: 12.0 }
+        } else {
+            Self { weights: [45.0, -9.0, 1.0], divisor: 60.0 }
+        }
+    }
+
+    /// D for nodes a unit apart: for long waves the angle.
+    fn transform(&self, angle: f64) -> f64 {
+        let sines = self.weights.iter().zip(1..).map(|(weight, off)| weight * (f64::from(off) * angle).sin());
+        2.0 * sines.sum::<f64>() / self.divisor
+    }
 }
 
-/// What the mesh makes of one wave.
+/// The mesh and one wave.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Wave {
     /// The weight G of the wave for forces: potential per charge density.
@@ -74,62 +98,49 @@ pub(super) struct Wave {
     pub energy: f64,
     /// Σ |R|² over aliases, R being the exact force.
     pub exact: f64,
-    /// The part of it that the mesh gets right.
+    /// The part of it that the mesh reproduces.
     pub reproduced: f64,
 }
 
 /// All waves of a mesh.
 pub(super) struct Waves {
-    axes: [AxisWaves; 3],
+    axes: [Vec<AxisWave>; 3],
     strength: f64,
-    width: f64,
 }
 
 impl Waves {
     pub(super) fn new(electrostatics: &Electrostatics, lengths: [f64; 3]) -> Self {
         let Electrostatics { mesh, order, strength, width, .. } = *electrostatics;
-        Self { axes: std::array::from_fn(|axis| AxisWaves::new(lengths[axis], mesh[axis], order)), strength, width }
-    }
-
-    /// The potential of a unit charge in a wave of this square of its number: 4π kT lB e^(-k²σ²)/k².
-    fn spectrum(&self, square: f64) -> f64 {
-        4.0 * PI * self.strength * (-square * self.width * self.width).exp() / square
+        Self { axes: [0, 1, 2].map(|axis| AxisWave::all(lengths[axis], mesh[axis], order, width)), strength }
     }
 
     /// The wave of some numbers, up to the middle of every axis. That of all zeros has no weight: the charges that it would be of are
     /// neutral.
     pub(super) fn wave(&self, wave: [u32; 3]) -> Wave {
-        let index = wave.map(|number| number as usize);
-        if index == [0; 3] {
+        if wave == [0; 3] {
             return Wave::default();
         }
-        let axes = [0, 1, 2].map(|axis| (&self.axes[axis], index[axis]));
+        let [x, y, z] = [0, 1, 2].map(|axis| &self.axes[axis][wave[axis] as usize]);
         let [mut of_forces, mut of_energies, mut exact] = [0.0; 3];
-        for i in 0..3 {
-            for j in 0..3 {
-                for l in 0..3 {
-                    let alias = [i, j, l];
-                    let number = |axis: usize| axes[axis].0.numbers[index[axis]][alias[axis]];
-                    let k = [number(0), number(1), number(2)];
-                    let square = k.iter().map(|k| k * k).sum::<f64>();
-                    if square * self.width * self.width > 200.0 {
-                        continue;
-                    }
-                    let spectrum = self.spectrum(square);
-                    let spread = (0..3).map(|axis| axes[axis].0.spread[index[axis]][alias[axis]]).product::<f64>();
-                    let along: f64 = (0..3).map(|axis| axes[axis].0.differences[index[axis]] * k[axis]).sum();
+        for a in x.aliases {
+            for b in y.aliases {
+                for c in z.aliases {
+                    let square = a.number * a.number + b.number * b.number + c.number * c.number;
+                    // 4π kT lB e^(-k²σ²)/k²
+                    let spectrum = 4.0 * PI * self.strength * a.cloud * b.cloud * c.cloud / square;
+                    let spread = a.spread * b.spread * c.spread;
+                    let along = x.difference * a.number + y.difference * b.number + z.difference * c.number;
                     of_forces += spread * along * spectrum;
                     of_energies += spread * spectrum;
                     exact += square * spectrum * spectrum;
                 }
             }
         }
-        let sums = axes.iter().map(|(axis, index)| axis.spread_sums[*index]).product::<f64>().powi(2);
-        let differences = axes.iter().map(|(axis, index)| axis.differences[*index].powi(2)).sum::<f64>();
-        // Waves whose length is that of two nodes on every axis have no differences.
-        let has_differences =
-            differences > 1e-20 * axes.iter().map(|(axis, _)| axis.numbers[1][0].powi(2)).sum::<f64>();
-        let (potential, reproduced) = if has_differences {
+        let sums = (x.spread * y.spread * z.spread).powi(2);
+        let differences = [x, y, z].map(|axis| axis.difference * axis.difference).iter().sum::<f64>();
+        let longest = [0, 1, 2].map(|axis| self.axes[axis][1].difference.powi(2)).iter().sum::<f64>();
+        // Waves whose length is that of two nodes on every axis have no differences but for rounding.
+        let (potential, reproduced) = if differences > 1e-20 * longest {
             (of_forces / (differences * sums), of_forces * of_forces / (differences * sums))
         } else {
             (0.0, 0.0)

@@ -16,7 +16,7 @@ pub(crate) use mesh::expected_error;
 
 use super::Term;
 use crate::document::Problems;
-use crate::families::{Checked, Model};
+use crate::families::{Checked, Model, Species};
 use std::f64::consts::PI;
 
 /// Parts of an elementary charge that charges are multiples of.
@@ -106,6 +106,16 @@ impl Electrostatics {
         self.squares() * (all - 4.0 * PI * self.strength / volume)
     }
 
+    /// The part of the charges that can move, by their squares: the Laplacian of the potential with respect to the places of others does not
+    /// count.
+    pub(crate) fn mobile_part(&self, species: &[Species]) -> f64 {
+        let squares = |counts: fn(&Species) -> bool| -> f64 {
+            let charged = species.iter().zip(&self.charges).filter(|(species, _)| counts(species));
+            charged.map(|(species, charge)| species.count as f64 * f64::from(*charge).powi(2)).sum()
+        };
+        squares(|species| !species.fixed) / squares(|_| true)
+    }
+
     /// The inverse of Debye's length: κ² = 4π lB Σ q²/V.
     pub(crate) fn screening(&self, temperature: f64, volume: f64) -> f64 {
         (4.0 * PI * self.strength / temperature * self.squares() / volume).sqrt()
@@ -143,14 +153,10 @@ pub(crate) fn description(electrostatics: &Electrostatics, model: &Model) -> Vec
         three_digits(screening * electrostatics.width)
     );
     let mesh = format!(
-        "{x} × {y} × {z} nodes {} apart, {} points; expected rms error of forces {} of their rms value, for charges at random places",
+        "{x} × {y} × {z} nodes {} apart, splines of {} points; expected rms error of a force on a unit charge {}, for charges at random places",
         spacings.join(", "),
         electrostatics.order,
-        percent(error.relative)
+        three_digits(error.absolute)
     );
     vec![("charges", charges), ("charge mesh", mesh)]
-}
-
-fn percent(part: f64) -> String {
-    format!("{} %", crate::numbers::three_digits(100.0 * part))
 }

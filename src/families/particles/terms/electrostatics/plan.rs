@@ -1,10 +1,11 @@
 //! Electrostatics on the device: charges to nodes, a Fourier transform forth and back, differences, and impulses.
 
-use super::{CHARGE_PARTS, Electrostatics, mesh};
-use crate::families::fourier::{Fourier, table};
+use super::mesh::{Stencil, Waves};
+use super::{CHARGE_PARTS, Electrostatics};
+use crate::families::fourier::{self, Fourier};
 use crate::families::particles::plan::step::{Builder, GatheringKernels};
 use crate::families::particles::terms::PlannedTerm;
-use crate::plan::{Kernel, Words};
+use crate::plan::{Kernel, SharedSum, Words};
 use crate::shaders::smoothing::{Load, Store};
 use crate::shaders::{Array, Choices, Constant, Entry, charges};
 use std::f64::consts::TAU;
@@ -42,7 +43,7 @@ impl Electrostatics {
     fn fourier(&self, builder: &Builder<'_>) -> Fourier {
         Fourier {
             mesh: self.mesh,
-            names: ["charge rows", "charge columns"],
+            names: ["charge_rows", "charge_columns"],
             workgroup: builder.workgroup_size(),
             by_lanes: builder.options.butterflies_by_lanes != Some(false),
             load: Load::Charges,
@@ -57,18 +58,17 @@ impl Electrostatics {
 
     fn add_numbers(&self, builder: &mut Builder<'_>) {
         let lengths = builder.model.units.lengths;
-        let [weights, divisor] = mesh::stencil(self.order);
+        let Stencil { weights, divisor } = Stencil::new(self.order);
         let impulse = |axis: usize| {
             let spacing = lengths[axis] / f64::from(self.mesh[axis]);
-            builder.scales().impulse() * self.potential_unit() / (self.charge_units() * divisor[0] * spacing)
+            builder.scales().impulse() * self.potential_unit() / (self.charge_units() * divisor * spacing)
         };
         let impulses = [impulse(0), impulse(1), impulse(2)];
         let volume = lengths.iter().product::<f64>();
         let quanta = builder.scales().quanta;
+        let mobile = self.mobile_part(&builder.model.species);
         // Rows that went through as one come apart twice as large.
         let amplitude = 0.5 / self.charge_units();
-        let columns = u64::from(self.mesh[0] / 2 + 1);
-        let waves = columns * u64::from(self.mesh[1]) * u64::from(self.mesh[2]);
         builder.plan.constants.extend([
             (Constant::Charged, self.charged.count() as f64),
             (Constant::ChargeNodesX, f64::from(self.mesh[0])),
@@ -81,9 +81,8 @@ impl Electrostatics {
             (Constant::ChargeImpulseX, impulses[0]),
             (Constant::ChargeImpulseY, impulses[1]),
             (Constant::ChargeImpulseZ, impulses[2]),
-            (Constant::ChargeWaves, waves as f64),
             (Constant::ChargeEnergy, 0.5 * amplitude * amplitude / (volume * quanta.pair_energy)),
-            (Constant::ChargeCurvature, 2.0 * quanta.pair_energy / quanta.curvature),
+            (Constant::ChargeCurvature, 2.0 * mobile * quanta.pair_energy / quanta.curvature),
             (Constant::ChargeWidth, 2.0 * self.width * self.width),
             (Constant::WaveX, TAU / lengths[0]),
             (Constant::WaveY, TAU / lengths[1]),
@@ -93,14 +92,14 @@ impl Electrostatics {
 
     fn add_buffers(&self, fourier: &Fourier, builder: &mut Builder<'_>) {
         let lengths = builder.model.units.lengths;
-        let volume = lengths.iter().product::<f64>();
-        let waves = mesh::Waves::new(self, lengths);
-        let table_of_waves: Vec<mesh::Wave> = fourier.waves().map(|wave| waves.wave(wave)).collect();
-        let nodes = self.mesh.iter().map(|nodes| f64::from(*nodes)).product::<f64>();
-        let scale = nodes / (fourier.gain() * volume * self.charge_units() * self.potential_unit());
-        let symbols = table_of_waves.iter().map(|wave| (scale * wave.potential) as f32);
-        builder.plan.buffers.extend(fourier.buffers(symbols));
-        builder.plan.buffers.push(table(Array::ChargeEnergies, table_of_waves.iter().map(|wave| wave.energy as f32)));
+        let scale = 1.0 / (lengths.iter().product::<f64>() * self.charge_units() * self.potential_unit());
+        // A field comes back twice its nodes' number times as large, and the potential is a sum over waves.
+        let scale = scale * self.nodes() as f64 / fourier.gain();
+        builder.plan.buffers.extend(fourier.buffers());
+        for (array, scale, for_energies) in [(Array::Symbols, scale, false), (Array::ChargeEnergies, 1.0, true)] {
+            let electrostatics = self.clone();
+            builder.plan.add_long_table(array, WaveTable { electrostatics, lengths, scale, for_energies });
+        }
         builder.plan.add_long_table(Array::Charged, ChargedTable { electrostatics: self.clone() });
         builder.plan.add_buffer(Array::NodeCharges, 4 * self.nodes());
         builder.plan.add_buffer(Array::NodePotentials, 4 * self.nodes());
@@ -116,26 +115,37 @@ impl PlannedTerm for Electrostatics {
         self.add_buffers(&fourier, builder);
         let choices = self.choices(builder);
         let layers = self.charged.count() * u64::from(self.order);
-        let spread = builder.kernel("spread charges", Entry::SpreadCharges, choices.clone(), layers);
+        let spread = builder.kernel("spread_charges", Entry::SpreadCharges, choices.clone(), layers);
         let passes: Vec<usize> = fourier.kernels().into_iter().map(|kernel| builder.plan.add_kernel(kernel)).collect();
-        let fields = builder.kernel("charge fields", Entry::FindChargeFields, choices.clone(), self.nodes());
-        let mut pull = |choices: &Choices| {
-            let pull = builder.kernel("pull charges", Entry::PullCharges, choices.clone(), layers);
-            [pull, builder.kernel("balance charges", Entry::BalanceCharges, choices.clone(), self.charged.count())]
+        let fields = builder.kernel("charge_fields", Entry::FindChargeFields, choices.clone(), self.nodes());
+        let mut pulls = |choices: &Choices| {
+            let pull = builder.kernel("pull_charges", Entry::PullCharges, choices.clone(), layers);
+            [pull, builder.kernel("balance_charges", Entry::BalanceCharges, choices.clone(), self.charged.count())]
         };
-        kernels.kicks.extend([&[spread], &passes[..], &[fields], &pull(&choices)].concat());
-        let pulled = pull(&choices.clone().with(charges::Report::Observed));
+        let pull = pulls(&choices);
+        let pulled = pulls(&choices.clone().with(charges::Report::Observed));
+        kernels.kicks.extend([&[spread], &passes[..], &[fields], &pull].concat());
         let (turn, spectrum) = fourier.spectrum();
         let renamed: Vec<(Array, Array)> =
             if turn.is_multiple_of(2) { Vec::new() } else { vec![(Array::Waves, Array::WavesNext)] };
-        let spectrum = builder.plan.add_kernel(Kernel { name: "charge spectrum", ..spectrum });
+        let spectrum = builder.plan.add_kernel(Kernel { name: "charge_spectrum", ..spectrum });
         let forth = [&[spread], &passes[..turn], &[spectrum]].concat();
+        if let Some(part) = &mut builder.plan.part {
+            let division = part.part.division;
+            part.sums.push(SharedSum::everywhere(Array::NodeCharges, self.nodes(), spread, &division));
+            for kernel in [pull[0], pulled[0]] {
+                part.sums.push(SharedSum::everywhere(Array::ChargeImpulses, 3, kernel, &division));
+            }
+        }
+        // Every rank has all waves; the first reports them.
+        let reports = builder.options.part.is_none_or(|part| part.rank == 0);
         let splits = builder.splits();
         let mut report = |name, sums: f64| {
             let waves = u64::from(fourier.columns()) * u64::from(self.mesh[1]) * u64::from(self.mesh[2]);
             let groups = waves.div_ceil(builder.workgroup_size()).min(GROUPS);
             let own = vec![
                 (Constant::ChargeSums, sums),
+                (Constant::ChargeWaves, if reports { waves as f64 } else { 0.0 }),
                 (Constant::Groups, groups as f64),
                 (Constant::WaveColumns, f64::from(fourier.columns())),
                 (Constant::MeshHeight, f64::from(self.mesh[1])),
@@ -149,18 +159,42 @@ impl PlannedTerm for Electrostatics {
         };
         let all = |report: usize| [&forth[..], &[report], &passes[turn..], &[fields], &pulled].concat();
         if splits {
-            let motion = report("report charges", 1.0);
+            let motion = report("report_charges", 1.0);
             kernels.report.extend([&forth[..], &[motion]].concat());
-            let between = report("report charges between", 2.0);
+            let between = report("report_charges_between", 2.0);
             kernels.configuration.extend(all(between));
         } else {
-            let report = report("report charges", 0.0);
+            let report = report("report_charges", 0.0);
             kernels.report.extend(all(report));
         }
         let particles = builder.particles.max(1) as f64;
         let of_clouds = 12.0 * f64::from(self.order).powi(3) * self.charged.count() as f64;
         let of_nodes = 60.0 * self.nodes() as f64;
         builder.plan.operations_per_particle += (of_clouds + of_nodes) / particles;
+    }
+}
+
+/// The weights of waves up to the middle of every axis.
+#[derive(Debug, Clone, PartialEq)]
+struct WaveTable {
+    electrostatics: Electrostatics,
+    lengths: [f64; 3],
+    scale: f64,
+    for_energies: bool,
+}
+
+impl Words for WaveTable {
+    fn count(&self) -> u64 {
+        self.electrostatics.mesh.map(|nodes| u64::from(nodes / 2 + 1)).iter().product()
+    }
+
+    fn words(&self) -> Vec<u32> {
+        let waves = Waves::new(&self.electrostatics, self.lengths);
+        let weight = |wave: [u32; 3]| {
+            let wave = waves.wave(wave);
+            ((self.scale * if self.for_energies { wave.energy } else { wave.potential }) as f32).to_bits()
+        };
+        fourier::waves(self.electrostatics.mesh).map(weight).collect()
     }
 }
 

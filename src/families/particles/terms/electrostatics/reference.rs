@@ -1,6 +1,7 @@
 //! Electrostatics in float64: the same mesh, with splines, sums over waves and differences in other ways than on the device.
 
-use super::{CHARGE_PARTS, Electrostatics, mesh};
+use super::mesh::{self, Stencil};
+use super::{CHARGE_PARTS, Electrostatics};
 use crate::families::Model;
 use crate::families::particles::reference::{Configuration, Kicks, Moment, round};
 use crate::families::particles::terms::ReferenceTerm;
@@ -134,13 +135,13 @@ impl Electrostatics {
     }
 
     fn difference(&self, potential: &[Complex<f64>], node: usize, axis: usize, length: f64) -> f64 {
-        let [weights, divisor] = mesh::stencil(self.order);
+        let Stencil { weights, divisor } = Stencil::new(self.order);
         let count = self.mesh[axis] as usize;
         let stride = [1, self.mesh[0], self.mesh[0] * self.mesh[1]][axis] as usize;
         let place = node / stride % count;
         let at = |place: usize| potential[node - node / stride % count * stride + place % count * stride].re;
         let sum: f64 = (1..4).map(|off| weights[off - 1] * (at(place + off) - at(place + count - off))).sum();
-        sum / divisor[0] * count as f64 / length
+        sum / divisor * count as f64 / length
     }
 }
 
@@ -172,13 +173,14 @@ impl ReferenceTerm for Electrostatics {
     fn observe(&self, sums: &mut Configuration<'_>) {
         let solved = self.solve(sums.model, sums.state);
         sums.potential += solved.energy;
+        sums.electrostatic += solved.energy;
         sums.virial += solved.virial;
-        let each = solved.laplacian / solved.charged.len().max(1) as f64;
-        for ((particle, _), force) in solved.charged.iter().zip(&solved.forces) {
+        let of_square = solved.laplacian / self.squares();
+        for ((particle, charge), force) in solved.charged.iter().zip(&solved.forces) {
             for axis in 0..3 {
                 sums.gradients[*particle][axis] -= force[axis];
             }
-            sums.laplacians[*particle] += each;
+            sums.laplacians[*particle] += charge * charge * of_square;
         }
     }
 }

@@ -27,14 +27,22 @@ impl SceneTerm for ElectrostaticsInteraction {
 
     fn check(&self, scene: &Scene, _: &SpeciesNames<'_>, path: &str, problems: &mut Problems) {
         let lengths = &scene.space.lengths;
+        if lengths.len() == 2 {
+            problems.refuse(
+                path,
+                "in a box of two dimensions",
+                "a box of three dimensions, in which these charges are clouds",
+            );
+        }
         if lengths.len() != 3 {
-            let found = format!("in a box of {} dimensions", lengths.len());
-            problems.refuse(path, found, "a box of three dimensions, in which these charges are clouds");
             return;
         }
         if scene.temperature == 0.0 {
             let accepted = "a temperature above 0: the Bjerrum length is the distance at which two unit charges have an energy of kT";
             problems.refuse(path, "at a temperature of 0", accepted);
+        }
+        if self.order == 5 {
+            problems.refuse(format!("{path}.order"), self.order, "4 or 6 points, as many before a charge as after it");
         }
         if self.spacing > COARSEST * self.width {
             let accepted = format!(
