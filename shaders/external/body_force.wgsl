@@ -1,9 +1,9 @@
 // Body forces: the same for all particles of a species at one place. Everything that gives a particle its impulse is done in
 // integers, so that every kernel finds the same impulse on any compiler.
 //
-override PROFILE: u32;         // 0 where there are none; 1 is uniform, 2 opposed, 3 a sine
+override PROFILE: u32;         // 0 where there are none; 1 is uniform, 2 opposed, 3 a sine, 4 uniform and oscillating
 override FORCE_AXIS: u32 = 0u; // along which the force varies
-override WAVES: u32 = 1u;      // of the sine, a whole number
+override WAVES: u32 = 1u;      // of the sine, a whole number; of an oscillating force its part of a turn in a step, in 2^-32
 
 // The impulse of half a step, in integer momentum units, for a particle, and for one of a species at a place in a step.
 fn external_kick(me: Particle) -> Steps {
@@ -12,8 +12,9 @@ fn external_kick(me: Particle) -> Steps {
 }
 fn external_kick_at(fraction: Fraction, species: i32, step: u32) -> Steps {
     let impulse = external_impulse_of(species);
-    if (PROFILE == 3u) {
-        let angle = fraction[FORCE_AXIS] * WAVES;
+    if (PROFILE >= 3u) {
+        // A cosine is the sine of a quarter of a turn more.
+        let angle = select(fraction[FORCE_AXIS] * WAVES, step * WAVES + 0x40000000u, PROFILE == 4u);
         let sine = sine_of_half_turn(angle & 0x7fffffffu);
         let kick = impulse_in_step(part_of_impulse(impulse, sine), step);
         return select(kick, -kick, angle >= 0x80000000u);

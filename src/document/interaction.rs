@@ -2,7 +2,8 @@
 
 use super::{
     AnglesInteraction, Bath, BodyForceInteraction, BondsInteraction, ColouredNoiseInteraction, DpdInteraction,
-    ElectrostaticsInteraction, HarmonicChainInteraction, LangevinInteraction, TetherInteraction,
+    ElectricFieldInteraction, ElectrostaticsInteraction, HarmonicChainInteraction, LangevinInteraction,
+    TetherInteraction,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -26,6 +27,8 @@ pub enum Interaction {
     Bonds(BondsInteraction),
     /// Stiffness of chains: V = k(1 + cos θ) for each angle θ between bonds, least where the chain is straight.
     Angles(AnglesInteraction),
+    /// An electric field from outside, which acts on particles with a `charge`.
+    ElectricField(ElectricFieldInteraction),
     /// Electrostatic forces between particles with a `charge`, which are clouds of a Gaussian density.
     Electrostatics(ElectrostaticsInteraction),
     /// Harmonic chains of beads and of clusters side by side, with their particles; the only interaction of a scene.

@@ -214,6 +214,9 @@ fn check_keys(whole: &Checked, place: usize, problems: &mut Problems) {
             problems.refuse(path, "a key that cannot change in a run", STAGE_NUMBERS);
         } else if !is_right {
             problems.refuse(path, value, accepted);
+        } else if key == "time.step" && whole.model().particles().have_oscillating_forces() {
+            let found = "a change of the time step of a field that oscillates, whose phase is that of its steps";
+            problems.refuse(path, found, "one time step in all stages, or a constant field");
         } else if key == "time.step" && whole.model().has_memory() {
             let found = "a change of the time step of baths that remember";
             problems.refuse(path, found, "one time step in all stages, or baths without memory");

@@ -47,6 +47,44 @@ fn salt_water_has_the_energy_and_structure_of_its_theory() {
     }
 }
 
+/// Ions in a weak field drift at qED/kT: the relation of Nernst and Einstein, for few ions that hardly see each other.
+#[test]
+#[ignore = "minutes"]
+fn ions_drift_in_a_field_as_they_diffuse() {
+    let particles = r#"particles=[{"species":"water","count":2920},{"species":"cation","count":40,"charge":1},
+        {"species":"anion","count":40,"charge":-1}]"#;
+    let interactions = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+        {"type":"electrostatics","bjerrum_length":0.1},{"type":"electric-field","field":[1,0,0]}]"#;
+    let scene = salt(&[particles, interactions]);
+    let mut run = Device::new(&scene);
+    run.step(500);
+    let mut last = run.reported().positions;
+    let (mut drifts, mut squares) = (Vec::new(), Vec::new());
+    // Displacements over 8 units of time, much longer than velocities are correlated.
+    for _ in 0..60 {
+        let mut displacements = vec![[0.0; 3]; 80];
+        for _ in 0..20 {
+            run.step(10);
+            let now = run.reported().positions;
+            for (ion, sum) in displacements.iter_mut().enumerate() {
+                for axis in 0..3 {
+                    let way = now[2920 + ion][axis].wrapping_sub(last[2920 + ion][axis]).cast_signed();
+                    sum[axis] += f64::from(way) * 10.0 / 2_f64.powi(32);
+                }
+            }
+            last = now;
+        }
+        let signed = |(ion, way): (usize, &[f64; 3])| if ion < 40 { way[0] } else { -way[0] };
+        drifts.push(displacements.iter().enumerate().map(signed).sum::<f64>() / (80.0 * 8.0));
+        squares.push(displacements.iter().map(|way| way[1] * way[1] + way[2] * way[2]).sum::<f64>() / (160.0 * 16.0));
+    }
+    let [drift, diffusion] = [&drifts, &squares].map(|series| Measured::of_independent(series));
+    println!("drift {drift:?}, diffusion {diffusion:?}");
+    let error = drift.error.hypot(diffusion.error);
+    assert!(error < 0.05 * diffusion.mean, "{error}");
+    assert!((drift.mean - diffusion.mean).abs() < 4.0 * error, "{drift:?} {diffusion:?}");
+}
+
 /// The total momentum has one value over a hundred thousand steps.
 #[test]
 #[ignore = "minutes"]

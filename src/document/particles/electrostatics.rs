@@ -33,3 +33,16 @@ pub struct ElectrostaticsInteraction {
 fn width() -> f64 {
     0.6076
 }
+
+/// An electric field from outside, the same everywhere: a force on every particle with a `charge`, beside what charges do to each other.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ElectricFieldInteraction {
+    /// The force on a unit charge, a component for each axis of the box; of an oscillating field the amplitude.
+    #[schemars(length(min = 1, max = 3))]
+    pub field: Vec<f64>,
+    /// Oscillations in a unit of time, the field being that of `field` times cos(2π `frequency` t); left out, it is constant.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub frequency: Option<f64>,
+}

@@ -194,6 +194,11 @@ impl Particles {
         self.walls.iter().any(PlaneWalls::move_along)
     }
 
+    /// Whether forces from outside oscillate.
+    pub(crate) fn have_oscillating_forces(&self) -> bool {
+        self.body_forces.as_ref().is_some_and(|forces| forces.turn.is_some())
+    }
+
     /// Whether forces depend on the density around particles.
     pub(crate) fn have_local_densities(&self) -> bool {
         self.pair_force.as_ref().is_some_and(|force| force.many_body.is_some())

@@ -41,8 +41,9 @@ pub(super) fn warnings(particles: &Particles, scene: &Checked) -> Vec<Warning> {
 /// Charges on which nothing acts.
 fn warn_of_idle_charges(scene: &Scene, warnings: &mut Vec<Warning>) {
     let group = scene.particles.iter().position(|group| group.charge != 0.0);
-    let Some(group) = group.filter(|_| scene.places_of("electrostatics").next().is_none()) else { return };
-    let message = "no interaction `electrostatics` acts on charges".to_owned();
+    let acts = |name| scene.places_of(name).next().is_some();
+    let Some(group) = group.filter(|_| !acts("electrostatics") && !acts("electric-field")) else { return };
+    let message = "neither `electrostatics` nor an `electric-field` acts on charges".to_owned();
     warn(warnings, format!("particles[{group}].charge"), message);
 }
 

@@ -168,6 +168,7 @@ pub(crate) fn of(interaction: &Interaction) -> &dyn SceneTerm {
         Interaction::BodyForce(force) => force,
         Interaction::Bonds(bonds) => bonds,
         Interaction::Angles(angles) => angles,
+        Interaction::ElectricField(field) => field,
         Interaction::Electrostatics(electrostatics) => electrostatics,
         Interaction::HarmonicChain(chain) => chain,
     }

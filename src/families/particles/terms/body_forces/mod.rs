@@ -1,9 +1,11 @@
 //! Body forces in numbers.
 
+mod electric_field;
 pub(crate) mod plan;
 pub(crate) mod reference;
 mod scene;
 
+use scene::check_length;
 pub(crate) use scene::check_together;
 
 use super::{PlannedTerm, Term};
@@ -20,9 +22,14 @@ pub struct BodyForces {
     pub axis: usize,
     /// Waves in the box, of a sine.
     pub waves: u32,
+    /// The part of a turn that uniform forces which oscillate make in a step, in 2⁻³².
+    pub turn: Option<u32>,
     /// The force on a particle of each species.
     pub forces: Vec<[f64; 3]>,
 }
+
+/// Parts of a turn.
+const TURN: f64 = 4_294_967_296.0;
 
 /// An impulse of half a step in units of momentum: [`Self::FRACTIONS`] of one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

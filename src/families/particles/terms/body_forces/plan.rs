@@ -30,6 +30,7 @@ pub(crate) fn add_constants(model: &Model, entries_before: Option<usize>, plan: 
         return;
     };
     let profile = match forces.profile {
+        ForceProfile::Uniform if forces.turn.is_some() => 4.0,
         ForceProfile::Uniform => 1.0,
         ForceProfile::Opposed => 2.0,
         ForceProfile::Sinusoidal => 3.0,
@@ -37,7 +38,7 @@ pub(crate) fn add_constants(model: &Model, entries_before: Option<usize>, plan: 
     plan.constants.extend([
         (Constant::Profile, profile),
         (Constant::ForceAxis, forces.axis as f64),
-        (Constant::Waves, f64::from(forces.waves)),
+        (Constant::Waves, f64::from(forces.turn.unwrap_or(forces.waves))),
     ]);
     if let Some(entries) = entries_before {
         plan.constants.push((Constant::BodyEntries, entries as f64));

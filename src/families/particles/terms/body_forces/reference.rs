@@ -20,7 +20,11 @@ fn impulse(model: &Model, forces: &BodyForces, species: u32, place: [u32; 3], st
     let full = forces.impulse(model, species as usize);
     let turns = f64::from(place[forces.axis]) / 4_294_967_296.0;
     let part = match forces.profile {
-        ForceProfile::Uniform => 1.0,
+        // A whole number of parts of a turn a step.
+        ForceProfile::Uniform => forces.turn.map_or(1.0, |turn| {
+            let angle = (step as u32).wrapping_mul(turn);
+            (TAU * f64::from(angle) / 4_294_967_296.0).cos()
+        }),
         ForceProfile::Opposed => {
             if turns < 0.5 {
                 1.0

@@ -21,10 +21,7 @@ impl SceneTerm for BodyForceInteraction {
 
     fn check(&self, scene: &Scene, names: &SpeciesNames<'_>, path: &str, problems: &mut Problems) {
         let dimension = scene.space.lengths.len();
-        if self.force.len() != dimension {
-            let found = format!("{} components", self.force.len());
-            problems.refuse(format!("{path}.force"), found, format!("{dimension}, one for each axis of the box"));
-        }
+        check_length(&self.force, scene, &format!("{path}.force"), problems);
         let varies = !self.profile.is_uniform();
         match self.axis {
             None if varies => {
@@ -65,6 +62,7 @@ impl SceneTerm for BodyForceInteraction {
             profile: self.profile,
             axis: self.axis.map_or(0, |axis| axis as usize),
             waves: self.waves.unwrap_or(1),
+            turn: None,
             forces: vec![[0.0; 3]; species.len()],
         });
         let is_named = |species: &Species| self.species.as_ref().is_none_or(|names| names.contains(&species.name));
@@ -77,16 +75,28 @@ impl SceneTerm for BodyForceInteraction {
     }
 }
 
+/// A vector has a component for each axis.
+pub(super) fn check_length(vector: &[f64], scene: &Scene, path: &str, problems: &mut Problems) {
+    let dimension = scene.space.lengths.len();
+    if vector.len() != dimension {
+        let found = format!("{} components", vector.len());
+        problems.refuse(path, found, format!("{dimension}, one for each axis of the box"));
+    }
+}
+
 /// Several add up, but vary in the same way.
 pub(crate) fn check_together(scene: &Scene, problems: &mut Problems) {
     let mut ways = scene.interactions().iter().enumerate().filter_map(|(index, interaction)| match interaction {
-        Interaction::BodyForce(force) => Some((index, (force.profile, force.axis, force.waves.unwrap_or(1)))),
+        Interaction::BodyForce(force) => Some((index, (force.profile, force.axis, force.waves.unwrap_or(1), None))),
+        Interaction::ElectricField(field) => Some((index, (ForceProfile::Uniform, None, 1, field.frequency))),
         _ => None,
     });
     let Some((earlier, known)) = ways.next() else { return };
     for (index, _) in ways.filter(|(_, way)| *way != known) {
-        let found = format!("a body force of another profile, axis or number of waves than interactions[{earlier}]");
-        let accepted = "the same for all body forces of a scene; their strength may differ from species to species";
+        let found = format!(
+            "a force from outside of another profile, axis, number of waves or frequency than interactions[{earlier}]"
+        );
+        let accepted = "the same for all body forces and electric fields of a scene; their strength may differ from species to species";
         problems.refuse(format!("interactions[{index}]"), found, accepted);
     }
 }
@@ -94,7 +104,8 @@ pub(crate) fn check_together(scene: &Scene, problems: &mut Problems) {
 /// Refuses forces whose impulses the integers of momenta do not hold, or lose.
 pub(super) fn check_impulses(scene: &Checked, forces: &BodyForces, problems: &mut Problems) {
     let model = scene.model();
-    let path = format!("interactions[{}].force", scene.places_of("body-force").next().unwrap_or(0));
+    let place = |name, key| Some(format!("interactions[{}].{key}", scene.places_of(name).next()?));
+    let path = place("body-force", "force").or_else(|| place("electric-field", "field")).unwrap_or_default();
     let most = LARGEST * model.units.momentum / (0.5 * model.time_step);
     let least = model.units.momentum / (0.5 * model.time_step) / FixedImpulse::FRACTIONS * 256.0;
     for (species, force) in model.species.iter().zip(&forces.forces) {

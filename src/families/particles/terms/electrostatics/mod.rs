@@ -13,6 +13,7 @@ mod reference;
 mod scene;
 
 pub(crate) use mesh::expected_error;
+pub(crate) use scene::{charge, charge_of_species, charged_species};
 
 use super::Term;
 use crate::document::Problems;

@@ -78,23 +78,17 @@ impl SceneTerm for ElectrostaticsInteraction {
     }
 
     fn members(&self, scene: &Scene, names: &SpeciesNames<'_>) -> Option<String> {
-        let is_charged =
-            |name: &&str| scene.particles.iter().any(|group| group.species == **name && charge(group.charge) != 0);
-        Some(names.names().iter().filter(|name| is_charged(name)).copied().collect::<Vec<_>>().join(", "))
+        Some(charged_species(scene, names))
     }
 
     fn add(&self, scene: &Scene, species: &mut Vec<Species>, particles: &mut Particles) {
-        let of = |species: &Species| {
-            let group = scene.particles.iter().find(|group| group.species == species.name);
-            group.map_or(0, |group| charge(group.charge))
-        };
         let length = |axis: usize| scene.space.lengths.get(axis).copied().unwrap_or(1.0);
         particles.electrostatics = Some(Electrostatics {
             strength: self.bjerrum_length * scene.temperature,
             width: self.width,
             mesh: [0, 1, 2].map(|axis| mesh::nodes(length(axis), self.spacing).unwrap_or(mesh::MOST)),
             order: self.order,
-            charges: species.iter().map(of).collect(),
+            charges: species.iter().map(|species| charge_of_species(scene, &species.name)).collect(),
             charged: charged(scene),
         });
     }
@@ -113,21 +107,26 @@ impl SceneTerm for ElectrostaticsInteraction {
     }
 }
 
+/// The charge of the particles of a species, in 2⁻¹⁶ of an elementary one.
+pub(crate) fn charge_of_species(scene: &Scene, species: &str) -> i32 {
+    scene.particles.iter().find(|group| group.species == species).map_or(0, |group| charge(group.charge))
+}
+
+/// The species with a charge, by name.
+pub(crate) fn charged_species(scene: &Scene, names: &SpeciesNames<'_>) -> String {
+    let charged = names.names().iter().copied().filter(|name| charge_of_species(scene, name) != 0);
+    charged.collect::<Vec<_>>().join(", ")
+}
+
 /// A charge in 2⁻¹⁶ of an elementary one.
-fn charge(charge: f64) -> i32 {
+pub(crate) fn charge(charge: f64) -> i32 {
     (charge * CHARGE_PARTS).round() as i32
 }
 
 /// The particles of a scene with a charge.
 fn charged(scene: &Scene) -> Charged {
     let names = SpeciesNames::of(scene);
-    let of_species: Vec<i32> = names
-        .names()
-        .iter()
-        .map(|name| {
-            scene.particles.iter().find(|group| group.species == **name).map_or(0, |group| charge(group.charge))
-        })
-        .collect();
+    let of_species: Vec<i32> = names.names().iter().map(|name| charge_of_species(scene, name)).collect();
     let mut runs: Vec<Run> = Vec::new();
     let mut add = |first: u64, count: u64, charge: i32| {
         if charge == 0 || count == 0 {
