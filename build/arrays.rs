@@ -108,7 +108,6 @@ pub const ARRAYS: &[Array] = &[
     table("charged", "array<vec2<u32>>", "particles with a charge: id and charge"),
     array("node_charges", "array<i32>", "charge of each node of a mesh"),
     array("node_potentials", "array<i32>", "electrostatic potential at each node"),
-    array("node_fields", "array<vec4<i32>>", "differences of the potential around each node"),
     array("charge_impulses", "array<i32>", "impulses on all charges together, a component each"),
     table("charge_energies", "array<f32>", "energy of each wave of charges, up to the middle of every axis"),
     array("tethers", "array<vec4<u32>>", "where each particle is tied to, by id"),

@@ -1,7 +1,6 @@
 // Charges on a periodic mesh of three dimensions, by which particles that are clouds of charge act on each other.
 //
-// Weights of splines are integers, so that charges are gathered by the weights that they were spread with, whatever a compiler does to
-// sums of products.
+// Weights of splines are integers, whatever a compiler does to sums of products.
 //
 // Slots without defaults, chosen by src/families/particles/terms/electrostatics/plan.rs:
 // - charges/spline: `ORDER` points of a spline along an axis, and their weights (`weights_along`). Variants four, six.
@@ -19,62 +18,64 @@ fn mesh_place(fraction: u32, count: u32) -> MeshPlace {
     return MeshPlace(high >> 16u, (high << 16u) | (low & 0xffffu));
 }
 
-// One layer of a cloud of charge: nodes at one place along z under its spline.
-struct CloudLayer {
-    first: vec2<u32>,      // first node along x and y
-    row: u32,              // nodes before the layer
+// A cloud of charge: the first node under its spline, and the weights along each axis.
+struct Cloud {
+    first: vec3<u32>,
     along_x: SplineWeights,
     along_y: SplineWeights,
-    share: f32,            // weight of the layer, times the charge
+    along_z: SplineWeights,
 }
 
-// The first node under a spline along an axis.
-fn first_node(cell: u32, count: u32) -> u32 { return (cell + count + 1u - ORDER / 2u) % count; }
+// A node so many after another one, of as many at most as there are.
 fn node_after(first: u32, index: u32, count: u32) -> u32 {
     let node = first + index;
     return select(node, node - count, node >= count);
 }
 
-fn cloud_layer(index: u32, slot: u32) -> CloudLayer {
-    let word = charged[index / ORDER];
-    let layer = index % ORDER;
-    let position = particle_at(slot).position;
+fn cloud_at(position: vec4<u32>) -> Cloud {
     let x = mesh_place(position.x, CHARGE_NODES_X);
     let y = mesh_place(position.y, CHARGE_NODES_Y);
     let z = mesh_place(position.z, CHARGE_NODES_Z);
-    let along_z = weights_along(z.offset);
-    let node_z = node_after(first_node(z.cell, CHARGE_NODES_Z), layer, CHARGE_NODES_Z);
-    return CloudLayer(
-        vec2<u32>(first_node(x.cell, CHARGE_NODES_X), first_node(y.cell, CHARGE_NODES_Y)),
-        node_z * CHARGE_NODES_Y,
+    let before = ORDER / 2u - 1u;
+    return Cloud(
+        vec3<u32>(
+            node_after(x.cell, CHARGE_NODES_X - before, CHARGE_NODES_X),
+            node_after(y.cell, CHARGE_NODES_Y - before, CHARGE_NODES_Y),
+            node_after(z.cell, CHARGE_NODES_Z - before, CHARGE_NODES_Z),
+        ),
         weights_along(x.offset),
         weights_along(y.offset),
-        along_z.values[layer] * (bitcast<f32>(word.y) * CHARGE_UNIT),
+        weights_along(z.offset),
     );
 }
-// The charge that a layer brings to one of its nodes: products alone, which are rounded alike wherever they are computed.
-fn charge_on_node(cloud: CloudLayer, i: u32, j: u32) -> f32 {
-    return round(cloud.along_x.values[i] * (cloud.along_y.values[j] * cloud.share));
-}
-fn node_of_layer(cloud: CloudLayer, i: u32, j: u32) -> u32 {
-    let row = cloud.row + node_after(cloud.first.y, j, CHARGE_NODES_Y);
-    return row * CHARGE_NODES_X + node_after(cloud.first.x, i, CHARGE_NODES_X);
-}
 
-// Spreads charges over the nodes of the mesh. One invocation a layer of a cloud; reads `charged`, `slots` and particles, adds to
-// `node_charges`.
+// Products alone, which are rounded alike wherever they are computed.
+fn spread_on(node: u32, weight: i32, of_row: f32) { atomicAdd(&node_charges[node], i32(round(f32(weight) * of_row))); }
+
+// Layers of a cloud, across z, that an invocation works on; a whole number of times it makes ORDER.
+override CLOUD_LAYERS: u32;
+
+// Spreads charges over the nodes of the mesh. One invocation some layers of a cloud; reads `charged`, `slots` and particles, adds to
+// `node_charges`, clears `charge_impulses`.
 @compute @workgroup_size(WORKGROUP)
 fn spread_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index < 3u) { charge_impulses[index] = 0; }
-    if (index >= CHARGED * ORDER) { return; }
-    let slot = slots[charged[index / ORDER].x];
+    let shares = ORDER / CLOUD_LAYERS;
+    if (index >= CHARGED * shares) { return; }
+    let word = charged[index / shares];
+    let slot = slots[word.x];
     // Whoever of several ranks owns a particle spreads its charge.
     if (!is_known(slot) || !is_own(particle_at(slot).position)) { return; }
-    let cloud = cloud_layer(index, slot);
-    for (var j = 0u; j < ORDER; j++) {
-        for (var i = 0u; i < ORDER; i++) {
-            atomicAdd(&node_charges[node_of_layer(cloud, i, j)], i32(charge_on_node(cloud, i, j)));
+    var cloud = cloud_at(particle_at(slot).position);
+    let charge = bitcast<f32>(word.y) * CHARGE_UNIT;
+    let begin = index % shares * CLOUD_LAYERS;
+    for (var k = begin; k < begin + CLOUD_LAYERS; k++) {
+        let layer = node_after(cloud.first.z, k, CHARGE_NODES_Z) * CHARGE_NODES_Y;
+        let of_layer = f32(cloud.along_z.values[k]) * charge;
+        for (var j = 0u; j < ORDER; j++) {
+            let row = (layer + node_after(cloud.first.y, j, CHARGE_NODES_Y)) * CHARGE_NODES_X;
+            spread_row(row, cloud.first.x, cloud.along_x, f32(cloud.along_y.values[j]) * of_layer);
         }
     }
 }
@@ -84,36 +85,44 @@ override DIFFERENCE_ONE: i32;
 override DIFFERENCE_TWO: i32;
 override DIFFERENCE_THREE: i32;
 
-fn potential_of_node(x: u32, y: u32, z: u32) -> i32 {
-    return node_potentials[(z * CHARGE_NODES_Y + y) * CHARGE_NODES_X + x];
-}
-// The node so many after one; `before` counts nodes back, as many ahead of a whole turn.
-fn node_before(node: u32, index: u32, count: u32) -> u32 { return node_after(node, count - index, count); }
+// Nodes along an axis by which differences are gathered: those under a spline and half as many either side.
+const REACH: u32 = 2u * ORDER;
+var<private> plain_x: PlainWeights;
+var<private> plain_y: PlainWeights;
+var<private> plain_z: PlainWeights;
+var<private> slopes_x: SplineSlopes;
+var<private> slopes_y: SplineSlopes;
+var<private> slopes_z: SplineSlopes;
 
-// Finds the differences of the potential around each node: integers, so that what charges give each other is opposite. One invocation a
-// node; reads `node_potentials`, writes `node_fields`.
-@compute @workgroup_size(WORKGROUP)
-fn find_charge_fields(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
-    let node = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (node >= CHARGE_NODES_X * CHARGE_NODES_Y * CHARGE_NODES_Z) { return; }
-    let x = node % CHARGE_NODES_X;
-    let y = node / CHARGE_NODES_X % CHARGE_NODES_Y;
-    let z = node / (CHARGE_NODES_X * CHARGE_NODES_Y);
-    var weights = array<i32, 3>(DIFFERENCE_ONE, DIFFERENCE_TWO, DIFFERENCE_THREE);
-    var field = vec3<i32>(0);
-    for (var index = 1u; index <= ORDER / 2u; index++) {
-        let along_x = potential_of_node(node_after(x, index, CHARGE_NODES_X), y, z)
-            - potential_of_node(node_before(x, index, CHARGE_NODES_X), y, z);
-        let along_y = potential_of_node(x, node_after(y, index, CHARGE_NODES_Y), z)
-            - potential_of_node(x, node_before(y, index, CHARGE_NODES_Y), z);
-        let along_z = potential_of_node(x, y, node_after(z, index, CHARGE_NODES_Z))
-            - potential_of_node(x, y, node_before(z, index, CHARGE_NODES_Z));
-        field += weights[index - 1u] * vec3<i32>(along_x, along_y, along_z);
+fn potential_at(node: u32) -> f32 { return f32(node_potentials[node]); }
+fn is_under_spline(node: u32) -> bool { return node - ORDER / 2u < ORDER; }
+
+// The differences of the potential that a layer of nodes adds to those of a cloud. Fused products, so that all plans round alike.
+fn slopes_of_layer(first: vec3<u32>, layer: u32) -> vec3<f32> {
+    let along_z = node_after(first.z, layer, CHARGE_NODES_Z) * CHARGE_NODES_Y;
+    let under_z = is_under_spline(layer);
+    let plain = select(0.0, plain_z.values[min(layer - ORDER / 2u, ORDER - 1u)], under_z);
+    let slope = slopes_z.values[layer];
+    var sums = vec3<f32>(0.0);
+    for (var j = 0u; j < ORDER; j++) {
+        let row = (along_z + node_after(first.y, j + ORDER / 2u, CHARGE_NODES_Y)) * CHARGE_NODES_X;
+        var of_row = vec2<f32>(0.0);
+        if (under_z) { of_row = slope_of_row(row, first.x); } else { of_row.x = potential_of_row(row, first.x); }
+        sums.x = fma(of_row.y, plain_y.values[j] * plain, sums.x);
+        sums.y = fma(of_row.x, slopes_y.values[j + ORDER / 2u] * plain, sums.y);
+        sums.z = fma(of_row.x, plain_y.values[j] * slope, sums.z);
     }
-    node_fields[node] = vec4<i32>(field, 0);
+    if (!under_z) { return sums; }
+    // Rows beyond the spline along y.
+    for (var j = 0u; j < ORDER; j++) {
+        let beyond = select(j, j + ORDER, j >= ORDER / 2u);
+        let row = (along_z + node_after(first.y, beyond, CHARGE_NODES_Y)) * CHARGE_NODES_X;
+        sums.y = fma(potential_of_row(row, first.x), slopes_y.values[beyond] * plain, sums.y);
+    }
+    return sums;
 }
 
-// Impulse of half a step per unit of charge on a node and of a difference.
+// Impulse of half a step per unit of charge and of a sum of differences.
 override CHARGE_IMPULSE_X: f32;
 override CHARGE_IMPULSE_Y: f32;
 override CHARGE_IMPULSE_Z: f32;
@@ -122,25 +131,40 @@ override CHARGE_IMPULSE_Z: f32;
 // Default: nothing. The plan chooses `observed` for reports.
 fn note_charge(slot: u32, kick: Steps) {}
 
-// Gathers the impulses on charges. One invocation a layer of a cloud; reads `charged`, `slots`, particles and `node_fields`, adds to
-// `kicks` and `charge_impulses`.
+// Gathers the impulses on charges. One invocation some layers of a cloud, each with one beyond it; reads `charged`, `slots`, particles and
+// `node_potentials`, adds to `kicks` and `charge_impulses`.
 @compute @workgroup_size(WORKGROUP)
 fn pull_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    if (index >= CHARGED * ORDER) { return; }
-    let slot = slots[charged[index / ORDER].x];
+    let shares = ORDER / CLOUD_LAYERS;
+    if (index >= CHARGED * shares) { return; }
+    let word = charged[index / shares];
+    let slot = slots[word.x];
     if (!is_known(slot)) { return; }
-    let cloud = cloud_layer(index, slot);
-    var field = vec3<f32>(0.0);
-    for (var j = 0u; j < ORDER; j++) {
-        for (var i = 0u; i < ORDER; i++) {
-            field -= charge_on_node(cloud, i, j) * vec3<f32>(node_fields[node_of_layer(cloud, i, j)].xyz);
-        }
+    let cloud = cloud_at(particle_at(slot).position);
+    plain_x = plain_weights(cloud.along_x);
+    plain_y = plain_weights(cloud.along_y);
+    plain_z = plain_weights(cloud.along_z);
+    slopes_x = slopes_along(cloud.along_x);
+    slopes_y = slopes_along(cloud.along_y);
+    slopes_z = slopes_along(cloud.along_z);
+    let first = vec3<u32>(
+        node_after(cloud.first.x, CHARGE_NODES_X - ORDER / 2u, CHARGE_NODES_X),
+        node_after(cloud.first.y, CHARGE_NODES_Y - ORDER / 2u, CHARGE_NODES_Y),
+        node_after(cloud.first.z, CHARGE_NODES_Z - ORDER / 2u, CHARGE_NODES_Z),
+    );
+    let scale = -bitcast<f32>(word.y) * vec3<f32>(CHARGE_IMPULSE_X, CHARGE_IMPULSE_Y, CHARGE_IMPULSE_Z);
+    let begin = index % shares * CLOUD_LAYERS;
+    var kick = Steps(0);
+    var possible = true;
+    for (var layer = begin; layer < begin + CLOUD_LAYERS; layer++) {
+        // One of the two is under the spline. What a layer adds is rounded by itself, however many an invocation works on.
+        let impulse = slopes_of_layer(first, layer) * scale;
+        let other = slopes_of_layer(first, layer + ORDER) * scale;
+        possible = possible && all_within(impulse, IMPULSE_LIMIT) && all_within(other, IMPULSE_LIMIT);
+        kick += select(Steps(0), Steps(round(impulse)) + Steps(round(other)), possible);
     }
-    let impulse = field * vec3<f32>(CHARGE_IMPULSE_X, CHARGE_IMPULSE_Y, CHARGE_IMPULSE_Z);
-    let possible = all_within(impulse, IMPULSE_LIMIT);
     raise(select(FAILURE_IMPULSE, 0u, possible));
-    let kick = select(Steps(0), Steps(round(impulse)), possible);
     let own_kick = select(Steps(0), kick, is_own(particle_at(slot).position));
     atomicAdd(&charge_impulses[0], own_kick.x);
     atomicAdd(&charge_impulses[1], own_kick.y);

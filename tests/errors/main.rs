@@ -9,6 +9,7 @@ mod cost;
 mod couplings;
 mod damage;
 mod directories;
+mod electrostatics;
 mod fuzzing;
 mod many_body;
 mod molecules;

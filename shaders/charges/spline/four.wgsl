@@ -1,6 +1,7 @@
-// Splines of four points: the recursion M(n, x) = (x M(n-1, x) + (n - x) M(n-1, x-1))/(n - 1) in integers of 2^-28.
+// Splines of four points: the recursion M(n, x) = (x M(n-1, x) + (n - x) M(n-1, x-1))/(n - 1) in integers of 2^-28. Written out, because
+// arrays whose elements are known are no memory.
 const ORDER: u32 = 4u;
-struct SplineWeights { values: array<f32, 4> }
+struct SplineWeights { values: array<i32, 4> }
 
 // A weight times a number of wholes and a fraction in 2^-32.
 fn weight_times(weight: u32, wholes: u32, fraction: u32) -> u32 { return wholes * weight + high_of_product(fraction, weight); }
@@ -17,10 +18,78 @@ fn weights_along(after: u32) -> SplineWeights {
     let c1 = (weight_times(b0, 2u, after) + weight_times(b1, 1u, before)) / 3u;
     let c2 = (weight_times(b1, 1u, after) + weight_times(b2, 2u, before)) / 3u;
     let c3 = weight_times(b2, 0u, after) / 3u;
-    return SplineWeights(array<f32, 4>(
-        f32((c0 + 8u) >> 4u),
-        f32((c1 + 8u) >> 4u),
-        f32((c2 + 8u) >> 4u),
-        f32((c3 + 8u) >> 4u),
+    return SplineWeights(array<i32, 4>(
+        i32((c0 + 8u) >> 4u),
+        i32((c1 + 8u) >> 4u),
+        i32((c2 + 8u) >> 4u),
+        i32((c3 + 8u) >> 4u),
+    ));
+}
+
+// Spreads the charge of a row of a cloud, from the first node under its spline on.
+fn spread_row(row: u32, first: u32, weights: SplineWeights, of_row: f32) {
+    spread_on(row + node_after(first, 0u, CHARGE_NODES_X), weights.values[0], of_row);
+    spread_on(row + node_after(first, 1u, CHARGE_NODES_X), weights.values[1], of_row);
+    spread_on(row + node_after(first, 2u, CHARGE_NODES_X), weights.values[2], of_row);
+    spread_on(row + node_after(first, 3u, CHARGE_NODES_X), weights.values[3], of_row);
+}
+
+// The weights by which a spline gathers antisymmetric differences, from half as many nodes before it on.
+struct SplineSlopes { values: array<f32, 8> }
+fn slopes_along(weights: SplineWeights) -> SplineSlopes {
+    let w = weights.values;
+    return SplineSlopes(array<f32, 8>(
+        f32(-DIFFERENCE_TWO * w[0]),
+        f32(-DIFFERENCE_ONE * w[0] - DIFFERENCE_TWO * w[1]),
+        f32(-DIFFERENCE_ONE * w[1] - DIFFERENCE_TWO * w[2]),
+        f32(DIFFERENCE_ONE * (w[0] - w[2]) - DIFFERENCE_TWO * w[3]),
+        f32(DIFFERENCE_ONE * (w[1] - w[3]) + DIFFERENCE_TWO * w[0]),
+        f32(DIFFERENCE_ONE * w[2] + DIFFERENCE_TWO * w[1]),
+        f32(DIFFERENCE_ONE * w[3] + DIFFERENCE_TWO * w[2]),
+        f32(DIFFERENCE_TWO * w[3]),
+    ));
+}
+
+// The potential of a row of nodes weighed by the spline along x; and in `slope_of_row` by its slopes as well, which reach further.
+fn potential_of_row(row: u32, first: u32) -> f32 {
+    var sum = plain_x.values[0] * potential_at(row + node_after(first, 2u, CHARGE_NODES_X));
+    sum = fma(plain_x.values[1], potential_at(row + node_after(first, 3u, CHARGE_NODES_X)), sum);
+    sum = fma(plain_x.values[2], potential_at(row + node_after(first, 4u, CHARGE_NODES_X)), sum);
+    sum = fma(plain_x.values[3], potential_at(row + node_after(first, 5u, CHARGE_NODES_X)), sum);
+    return sum;
+}
+fn slope_of_row(row: u32, first: u32) -> vec2<f32> {
+    let p0 = potential_at(row + node_after(first, 0u, CHARGE_NODES_X));
+    let p1 = potential_at(row + node_after(first, 1u, CHARGE_NODES_X));
+    let p2 = potential_at(row + node_after(first, 2u, CHARGE_NODES_X));
+    let p3 = potential_at(row + node_after(first, 3u, CHARGE_NODES_X));
+    let p4 = potential_at(row + node_after(first, 4u, CHARGE_NODES_X));
+    let p5 = potential_at(row + node_after(first, 5u, CHARGE_NODES_X));
+    let p6 = potential_at(row + node_after(first, 6u, CHARGE_NODES_X));
+    let p7 = potential_at(row + node_after(first, 7u, CHARGE_NODES_X));
+    var plain = plain_x.values[0] * p2;
+    plain = fma(plain_x.values[1], p3, plain);
+    plain = fma(plain_x.values[2], p4, plain);
+    plain = fma(plain_x.values[3], p5, plain);
+    var slope = slopes_x.values[0] * p0;
+    slope = fma(slopes_x.values[1], p1, slope);
+    slope = fma(slopes_x.values[2], p2, slope);
+    slope = fma(slopes_x.values[3], p3, slope);
+    slope = fma(slopes_x.values[4], p4, slope);
+    slope = fma(slopes_x.values[5], p5, slope);
+    slope = fma(slopes_x.values[6], p6, slope);
+    slope = fma(slopes_x.values[7], p7, slope);
+    return vec2<f32>(plain, slope);
+}
+
+// Weights as real numbers.
+struct PlainWeights { values: array<f32, 4> }
+fn plain_weights(weights: SplineWeights) -> PlainWeights {
+    let w = weights.values;
+    return PlainWeights(array<f32, 4>(
+        f32(w[0]),
+        f32(w[1]),
+        f32(w[2]),
+        f32(w[3]),
     ));
 }

@@ -331,7 +331,6 @@ pub fn features() -> Vec<Feature> {
             more: &[
                 "balance_charges",
                 "charge_columns",
-                "charge_fields",
                 "charge_rows",
                 "charge_spectrum",
                 "pull_charges",
@@ -344,7 +343,6 @@ pub fn features() -> Vec<Feature> {
                 "charged",
                 "kicks",
                 "node_charges",
-                "node_fields",
                 "node_potentials",
                 "roots",
                 "slots",

@@ -93,9 +93,8 @@ pub(crate) fn check_together(scene: &Scene, problems: &mut Problems) {
     });
     let Some((earlier, known)) = ways.next() else { return };
     for (index, _) in ways.filter(|(_, way)| *way != known) {
-        let found = format!(
-            "a force from outside of another profile, axis, number of waves or frequency than interactions[{earlier}]"
-        );
+        let found =
+            format!("a body force of another profile, axis, number of waves or frequency than interactions[{earlier}]");
         let accepted = "the same for all body forces and electric fields of a scene; their strength may differ from species to species";
         problems.refuse(format!("interactions[{index}]"), found, accepted);
     }

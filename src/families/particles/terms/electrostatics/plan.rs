@@ -5,7 +5,7 @@ use super::{CHARGE_PARTS, Electrostatics};
 use crate::families::fourier::{self, Fourier};
 use crate::families::particles::plan::step::{Builder, GatheringKernels};
 use crate::families::particles::terms::PlannedTerm;
-use crate::plan::{Kernel, SharedSum, Words};
+use crate::plan::{Kernel, SharedSum, Traversal, Words};
 use crate::shaders::smoothing::{Load, Store};
 use crate::shaders::{Array, Choices, Constant, Entry, charges};
 use std::f64::consts::TAU;
@@ -51,6 +51,11 @@ impl Electrostatics {
         }
     }
 
+    /// Layers of a cloud that an invocation works on: all where invocations are few at a time and would find the same weights again.
+    fn layers_of_invocation(&self, builder: &Builder<'_>) -> u32 {
+        if builder.traversal == Traversal::Clusters { self.order } else { 1 }
+    }
+
     fn choices(&self, builder: &Builder<'_>) -> Choices {
         let spline = if self.order == 4 { charges::Spline::Four } else { charges::Spline::Six };
         builder.choices().with(spline).and(&builder.kicks())
@@ -61,7 +66,8 @@ impl Electrostatics {
         let Stencil { weights, divisor } = Stencil::new(self.order);
         let impulse = |axis: usize| {
             let spacing = lengths[axis] / f64::from(self.mesh[axis]);
-            builder.scales().impulse() * self.potential_unit() / (self.charge_units() * divisor * spacing)
+            // Three weights are in 2⁻²⁴.
+            builder.scales().impulse() * self.potential_unit() * 2_f64.powi(-72) / (divisor * spacing)
         };
         let impulses = [impulse(0), impulse(1), impulse(2)];
         let volume = lengths.iter().product::<f64>();
@@ -74,6 +80,7 @@ impl Electrostatics {
             (Constant::ChargeNodesX, f64::from(self.mesh[0])),
             (Constant::ChargeNodesY, f64::from(self.mesh[1])),
             (Constant::ChargeNodesZ, f64::from(self.mesh[2])),
+            (Constant::CloudLayers, f64::from(self.layers_of_invocation(builder))),
             (Constant::ChargeUnit, self.charge_units() * 2_f64.powi(-72)),
             (Constant::DifferenceOne, weights[0]),
             (Constant::DifferenceTwo, weights[1]),
@@ -103,7 +110,6 @@ impl Electrostatics {
         builder.plan.add_long_table(Array::Charged, ChargedTable { electrostatics: self.clone() });
         builder.plan.add_buffer(Array::NodeCharges, 4 * self.nodes());
         builder.plan.add_buffer(Array::NodePotentials, 4 * self.nodes());
-        builder.plan.add_buffer(Array::NodeFields, 16 * self.nodes());
         builder.plan.add_buffer(Array::ChargeImpulses, 12);
     }
 }
@@ -114,17 +120,16 @@ impl PlannedTerm for Electrostatics {
         self.add_numbers(builder);
         self.add_buffers(&fourier, builder);
         let choices = self.choices(builder);
-        let layers = self.charged.count() * u64::from(self.order);
+        let layers = self.charged.count() * u64::from(self.order / self.layers_of_invocation(builder));
         let spread = builder.kernel("spread_charges", Entry::SpreadCharges, choices.clone(), layers);
         let passes: Vec<usize> = fourier.kernels().into_iter().map(|kernel| builder.plan.add_kernel(kernel)).collect();
-        let fields = builder.kernel("charge_fields", Entry::FindChargeFields, choices.clone(), self.nodes());
         let mut pulls = |choices: &Choices| {
             let pull = builder.kernel("pull_charges", Entry::PullCharges, choices.clone(), layers);
             [pull, builder.kernel("balance_charges", Entry::BalanceCharges, choices.clone(), self.charged.count())]
         };
         let pull = pulls(&choices);
         let pulled = pulls(&choices.clone().with(charges::Report::Observed));
-        kernels.kicks.extend([&[spread], &passes[..], &[fields], &pull].concat());
+        kernels.kicks.extend([&[spread], &passes[..], &pull].concat());
         let (turn, spectrum) = fourier.spectrum();
         let renamed: Vec<(Array, Array)> =
             if turn.is_multiple_of(2) { Vec::new() } else { vec![(Array::Waves, Array::WavesNext)] };
@@ -157,7 +162,7 @@ impl PlannedTerm for Electrostatics {
             builder.leaves_rows(kernel, rows);
             kernel
         };
-        let all = |report: usize| [&forth[..], &[report], &passes[turn..], &[fields], &pulled].concat();
+        let all = |report: usize| [&forth[..], &[report], &passes[turn..], &pulled].concat();
         if splits {
             let motion = report("report_charges", 1.0);
             kernels.report.extend([&forth[..], &[motion]].concat());
@@ -169,7 +174,7 @@ impl PlannedTerm for Electrostatics {
         }
         let particles = builder.particles.max(1) as f64;
         let of_clouds = 12.0 * f64::from(self.order).powi(3) * self.charged.count() as f64;
-        let of_nodes = 60.0 * self.nodes() as f64;
+        let of_nodes = 40.0 * self.nodes() as f64;
         builder.plan.operations_per_particle += (of_clouds + of_nodes) / particles;
     }
 }
