@@ -21,7 +21,11 @@ pub(super) fn is_of_stages(key: &str) -> bool {
 
 /// True if a number in this place may change between steps.
 fn is_changeable(key: &str) -> bool {
-    CHANGEABLE.iter().any(|known| key == known.trim_end_matches('.') || known.ends_with('.') && key.starts_with(known))
+    // The phase of what oscillates is that of the step: with another frequency it would jump.
+    !key.ends_with(".frequency")
+        && CHANGEABLE
+            .iter()
+            .any(|known| key == known.trim_end_matches('.') || known.ends_with('.') && key.starts_with(known))
 }
 
 /// A key with dots only, and what is wrong with it, if its number may not change between steps.

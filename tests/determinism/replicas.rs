@@ -78,6 +78,13 @@ fn replicas_give_the_bytes_of_each_alone() {
         (built_in("polymer-melt", &melt), true),
         (built_in("shear", &["space.box=[6,6,6]"]), false),
         (built_in("drop", &[]), false),
+        (
+            built_in(
+                "salt-water",
+                &["space.box=[6,6,6]", "particles.0.count=500", "particles.1.count=60", "particles.2.count=60"],
+            ),
+            false,
+        ),
         (cells(300, &[]), false),
         (water(&["particles.0.count=1024"]), false),
     ] {

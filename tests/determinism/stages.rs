@@ -24,12 +24,17 @@ fn end_of(scene: &Checked, directory: &Path, slabs: u32) -> State {
 fn a_staged_run_has_the_bytes_of_a_simulation_whose_numbers_change() {
     let memory = r#"interactions.0.bath={"type":"memory","rate":3}"#;
     let shear = r#"space.shear={"rate":0.7,"gradient":"y"}"#;
+    let ions = r#"particles=[{"species":"P","count":80,"charge":1.5},{"species":"M","count":120,"charge":-1}]"#;
+    let charges = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+        {"type":"electrostatics","bjerrum_length":1.1}]"#;
     for (changes, key, value) in [
         (&[SPLITTING][..], "interactions.0.friction", 9.0),
         (&[GROOT_WARREN], "temperature", 2.0),
         (&[PREDICTED], "interactions.0.repulsion", 60.0),
         (&[COTTER_REICH, memory], "temperature", 0.5),
         (&[SPLITTING, shear], "space.shear.rate", -1.3),
+        (&[SPLITTING, ions, charges], "interactions.1.bjerrum_length", 3.0),
+        (&[COTTER_REICH, ions, charges], "temperature", 1.5),
     ] {
         let space = ["space.box=[4,4,5]", r#"output={"energies":{"every":4}}"#];
         let plain = fluid(&[&space[..], changes].concat());

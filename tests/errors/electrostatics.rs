@@ -61,7 +61,7 @@ fn the_mesh_resolves_the_charges_and_fits() {
     SALT.refused_with(&["interactions.1.order=5"], &["interactions[1].order: found 5", "4 or 6 points"]);
     SALT.refused_with(&["interactions.1.order=8"], &["interactions[1].order"]);
     SALT.refused_with(&["interactions.1.bjerrum_length=0"], &["interactions[1].bjerrum_length"]);
-    let coarse = SALT.warnings(&["interactions.1.spacing=0.9"]);
+    let coarse = SALT.warnings(&["interactions.1.spacing=0.9", "interactions.1.order=4"]);
     assert!(
         coarse.len() == 1 && coarse[0].starts_with("interactions[1].spacing: forces between charges"),
         "{coarse:?}"
@@ -76,7 +76,7 @@ fn scenes_without_what_charges_need() {
     SALT.refused_with(&[r#"space.shear={"rate":0.1,"gradient":"z"}"#], &["electrostatics", "shear", "not implemented"]);
     let two =
         r#"interactions=[{"type":"electrostatics","bjerrum_length":1},{"type":"electrostatics","bjerrum_length":2}]"#;
-    SALT.refused_with(&[two], &["interactions[1]: found a second `electrostatics` interaction"]);
+    SALT.refused_with(&[two], &["interactions[1]: a second `electrostatics` interaction"]);
     let idle = SALT.warnings(&[r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5}]"#]);
     assert_eq!(idle, ["particles[1].charge: neither `electrostatics` nor an `electric-field` acts on charges"]);
 }
@@ -106,6 +106,13 @@ fn fields() {
     let steady = r#"interactions=[{"type":"electric-field","field":[1,0,0]},{"type":"body-force","force":[1,0,0]}]"#;
     SALT.accepted(&[steady]);
     // The phase of a field is that of its steps.
+    SALT.refused_with(
+        &[
+            &field(r#","frequency":0.5"#),
+            r#"stages=[{"steps":50},{"steps":50,"set":{"interactions.0.frequency":0.6}}]"#,
+        ],
+        &["stages[1].set.interactions.0.frequency: found a key that cannot change in a run"],
+    );
     let stages = r#"stages=[{"steps":50},{"steps":50,"set":{"time.step":0.01}}]"#;
     SALT.accepted(&[&field(""), stages]);
     SALT.refused_with(
