@@ -99,7 +99,7 @@ impl Electrostatics {
         self.strength * self.squares() / (2.0 * self.width * PI.sqrt())
     }
 
-    /// What waves count of the Laplacian of the potential for charges each by itself, which a charge that moves takes along: 1/V Σ_k (k²
+    /// What waves count of the Laplacian of the potential for charges each by itself, which a charge that moves takes along: `1/V Σ_k` (k²
     /// times the spectrum) Σ q², but for waves beyond those of the mesh ∫ d³k/(2π)³.
     pub(crate) fn own_laplacian(&self, volume: f64) -> f64 {
         // All waves less that of all zeros.

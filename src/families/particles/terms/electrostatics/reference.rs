@@ -193,7 +193,7 @@ mod tests {
     use crate::families::reference::Reference;
     use serde_json::{Value, json};
 
-    fn charges(lengths: [f64; 3], positions: &Value, charges: &[f64], more: Value) -> Reference {
+    fn charges(lengths: [f64; 3], positions: &Value, charges: &[f64], more: &Value) -> Reference {
         let groups = positions.as_array().unwrap().iter().zip(charges).enumerate().map(|(index, (position, charge))| {
             json!({"species": format!("S{index}"), "charge": charge, "placement": {"type": "listed", "positions": [position]},
                 "velocities": {"type": "rest"}})
@@ -216,7 +216,7 @@ mod tests {
         for (distance, expected) in [(0.5, 0.209_405), (1.0, 0.305_322), (2.0, 0.210_959), (3.0, 0.094_572), (5.0, 0.0)]
         {
             let places = json!([[2.3, 4.1, 7.7], [2.3 + distance, 4.1, 7.7]]);
-            let mut reference = charges([10.0; 3], &places, &[1.0, -1.0], json!({"spacing": 0.3}));
+            let mut reference = charges([10.0; 3], &places, &[1.0, -1.0], &json!({"spacing": 0.3}));
             let unit = reference.state().momenta[0][0];
             assert_eq!(unit, 0);
             let momentum = |reference: &Reference| f64::from(reference.state().momenta[0][0]);
@@ -241,7 +241,7 @@ mod tests {
                 .map(|index| if (index + index / edge + index / edge / edge) % 2 == 0 { 1.0 } else { -1.0 })
                 .collect();
             let length = f64::from(edge) * spacing;
-            let reference = charges([length; 3], &json!(places), &signs, json!({"spacing": 0.35}));
+            let reference = charges([length; 3], &json!(places), &signs, &json!({"spacing": 0.35}));
             let energy = reference.observe().unwrap().potential_energy / f64::from(edge * edge * edge);
             assert!((energy - expected).abs() < 2e-4, "{spacing}: {energy}");
         }

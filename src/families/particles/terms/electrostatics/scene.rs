@@ -12,6 +12,8 @@ use crate::numbers::grouped;
 
 /// Distances of nodes, in widths of a charge, beyond which a mesh resolves nothing of them.
 const COARSEST: f64 = 2.0;
+/// The largest impulse of half a step in units of momentum: several of them still fit the integers.
+const LARGEST: f64 = (1_u64 << 27) as f64;
 /// A relative error of forces that deserves a second look.
 const COARSE: f64 = 0.01;
 
@@ -162,7 +164,6 @@ pub(super) fn check_capacity(scene: &Checked, electrostatics: &Electrostatics, p
         electrostatics.charges.iter().map(|charge| f64::from(charge.unsigned_abs())).fold(0.0, f64::max) / CHARGE_PARTS;
     let force = 0.3 * electrostatics.contact() / electrostatics.width * charge * charge;
     let impulse = 0.5 * model.time_step * force / model.units.momentum;
-    const LARGEST: f64 = (1_u64 << 27) as f64;
     if impulse > LARGEST {
         let found = format!("charges that push each other by {force:.3e}");
         let accepted =
