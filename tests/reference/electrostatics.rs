@@ -77,7 +77,8 @@ fn fields_are_those_of_the_reference() {
             );
         }
     }
-    let mut alone = serde_json::to_value(&*salt([5.0; 3], INTEGRATORS[0], &json!({}), &[oscillating.clone()])).unwrap();
+    let mut alone =
+        serde_json::to_value(&*salt([5.0; 3], INTEGRATORS[0], &json!({}), std::slice::from_ref(&oscillating))).unwrap();
     alone["interactions"].as_array_mut().unwrap().remove(1);
     let alone = crate::support::scene(&alone.to_string());
     assert!(alone.model().particles().electrostatics.is_none());
