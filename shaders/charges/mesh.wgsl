@@ -53,7 +53,7 @@ fn cloud_at(position: vec4<u32>) -> Cloud {
 fn spread_on(node: u32, weight: i32, of_row: f32) { atomicAdd(&node_charges[node], i32(round(f32(weight) * of_row))); }
 
 // Layers of a cloud, across z, that an invocation works on; a whole number of times it makes ORDER.
-override CLOUD_LAYERS: u32;
+override CLOUD_SHARE: u32;
 
 // Spreads charges over the nodes of the mesh. One invocation some layers of a cloud; reads `charged`, `slots` and particles, adds to
 // `node_charges`, clears `charge_impulses`.
@@ -61,7 +61,7 @@ override CLOUD_LAYERS: u32;
 fn spread_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
     if (index < 3u) { charge_impulses[index] = 0; }
-    let shares = ORDER / CLOUD_LAYERS;
+    let shares = ORDER / CLOUD_SHARE;
     if (index >= CHARGED * shares) { return; }
     let word = charged[index / shares];
     let slot = slots[word.x];
@@ -69,8 +69,8 @@ fn spread_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     if (!is_known(slot) || !is_own(particle_at(slot).position)) { return; }
     var cloud = cloud_at(particle_at(slot).position);
     let charge = bitcast<f32>(word.y) * CHARGE_UNIT;
-    let begin = index % shares * CLOUD_LAYERS;
-    for (var k = begin; k < begin + CLOUD_LAYERS; k++) {
+    let begin = index % shares * CLOUD_SHARE;
+    for (var k = begin; k < begin + CLOUD_SHARE; k++) {
         let layer = node_after(cloud.first.z, k, CHARGE_NODES_Z) * CHARGE_NODES_Y;
         let of_layer = f32(cloud.along_z.values[k]) * charge;
         for (var j = 0u; j < ORDER; j++) {
@@ -85,8 +85,7 @@ override DIFFERENCE_ONE: i32;
 override DIFFERENCE_TWO: i32;
 override DIFFERENCE_THREE: i32;
 
-// Nodes along an axis by which differences are gathered: those under a spline and half as many either side.
-const REACH: u32 = 2u * ORDER;
+// Weights along each axis, in a gathering of differences: of the nodes under a spline, and of half as many either side as well.
 var<private> plain_x: PlainWeights;
 var<private> plain_y: PlainWeights;
 var<private> plain_z: PlainWeights;
@@ -136,7 +135,7 @@ fn note_charge(slot: u32, kick: Steps) {}
 @compute @workgroup_size(WORKGROUP)
 fn pull_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = linear_workgroup(workgroup) * WORKGROUP + lane;
-    let shares = ORDER / CLOUD_LAYERS;
+    let shares = ORDER / CLOUD_SHARE;
     if (index >= CHARGED * shares) { return; }
     let word = charged[index / shares];
     let slot = slots[word.x];
@@ -154,10 +153,10 @@ fn pull_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
         node_after(cloud.first.z, CHARGE_NODES_Z - ORDER / 2u, CHARGE_NODES_Z),
     );
     let scale = -bitcast<f32>(word.y) * vec3<f32>(CHARGE_IMPULSE_X, CHARGE_IMPULSE_Y, CHARGE_IMPULSE_Z);
-    let begin = index % shares * CLOUD_LAYERS;
+    let begin = index % shares * CLOUD_SHARE;
     var kick = Steps(0);
     var possible = true;
-    for (var layer = begin; layer < begin + CLOUD_LAYERS; layer++) {
+    for (var layer = begin; layer < begin + CLOUD_SHARE; layer++) {
         // One of the two is under the spline. What a layer adds is rounded by itself, however many an invocation works on.
         let impulse = slopes_of_layer(first, layer) * scale;
         let other = slopes_of_layer(first, layer + ORDER) * scale;

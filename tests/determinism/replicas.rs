@@ -81,7 +81,13 @@ fn replicas_give_the_bytes_of_each_alone() {
         (
             built_in(
                 "salt-water",
-                &["space.box=[6,6,6]", "particles.0.count=500", "particles.1.count=60", "particles.2.count=60"],
+                &[
+                    "space.box=[6,6,6]",
+                    "particles.0.count=500",
+                    "particles.1.count=60",
+                    "particles.2.count=60",
+                    "output={}",
+                ],
             ),
             false,
         ),

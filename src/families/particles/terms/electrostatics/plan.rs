@@ -80,7 +80,7 @@ impl Electrostatics {
             (Constant::ChargeNodesX, f64::from(self.mesh[0])),
             (Constant::ChargeNodesY, f64::from(self.mesh[1])),
             (Constant::ChargeNodesZ, f64::from(self.mesh[2])),
-            (Constant::CloudLayers, f64::from(self.layers_of_invocation(builder))),
+            (Constant::CloudShare, f64::from(self.layers_of_invocation(builder))),
             (Constant::ChargeUnit, self.charge_units() * 2_f64.powi(-72)),
             (Constant::DifferenceOne, weights[0]),
             (Constant::DifferenceTwo, weights[1]),
