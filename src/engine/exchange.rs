@@ -308,11 +308,11 @@ impl<'a> Exchange<'a> {
             for piece in sum.pieces(stretch) {
                 let places = sums.iter_mut().skip(piece.first as usize).take(piece.count as usize);
                 for (place, word) in places.zip(words.by_ref()) {
-                    *place = if word == i32::MIN { i64::MIN } else { place.saturating_add(word.into()) };
+                    *place = sum.with(*place, word);
                 }
             }
         }
-        let sums: Vec<i32> = sums.into_iter().map(|sum| i32::try_from(sum).unwrap_or(i32::MIN)).collect();
+        let sums: Vec<i32> = sums.into_iter().map(|all| sum.word(all)).collect();
         array.write(&self.gpu, 0, bytemuck::cast_slice(&sums))?;
         self.traffic.exchanging += computed.elapsed();
         Ok(())

@@ -28,7 +28,9 @@ pub(crate) use kernel::{folded, generator, switch};
 pub(crate) use layout::content;
 pub use layout::{Layout, Length, Misfit, Places, StateLayout};
 pub use options::{Hardware, Options, Storage, Traversal};
-pub use part::{Cells, Division, Domain, Part, ParticleWords, Passage, PlannedPart, Rows, SharedSum, Stretch, Wider};
+pub use part::{
+    Beyond, Cells, Division, Domain, Part, ParticleWords, Passage, PlannedPart, Rows, SharedSum, Stretch, Wider,
+};
 pub(crate) use part::{FREE_SHARE, Halo};
 pub use paths::Paths;
 pub(crate) use physics::{Measured, Need, Ordered, PhysicsPlan, Reported};

@@ -371,14 +371,25 @@ impl ParticleWords {
 /// An array of integers that all ranks add to within a step, and then have whole.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SharedSum {
-    /// The array, of signed words. The least integer stands for one that is out of range, on one rank or in all.
+    /// The array, of signed words.
     pub array: Array,
+    /// The fate of sums that a word does not hold.
+    pub beyond: Beyond,
     /// The kernel after which it is summed, as an index into [`super::Plan::kernels`].
     pub after: usize,
     /// Words of the array.
     pub length: u64,
     /// Where each rank adds, in order of the ranks: everywhere else it has zeros.
     pub stretches: Vec<Stretch>,
+}
+
+/// The fate of a sum beyond the range of a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Beyond {
+    /// The least integer stands for it, on one rank or in all.
+    Marked,
+    /// Its lowest 32 bits, those of parts of it too: the sum of all is in range, though its parts may not be.
+    Wrapped,
 }
 
 /// Words of an array that goes on at its beginning where it ends.
@@ -392,9 +403,25 @@ pub struct Stretch {
 
 impl SharedSum {
     /// A sum of an array to which every rank adds anywhere.
-    pub(crate) fn everywhere(array: Array, length: u64, after: usize, division: &Division) -> Self {
+    pub(crate) fn everywhere(array: Array, beyond: Beyond, length: u64, after: usize, division: &Division) -> Self {
         let all = Stretch { first: 0, count: length };
-        Self { array, after, length, stretches: vec![all; division.ranks() as usize] }
+        Self { array, beyond, after, length, stretches: vec![all; division.ranks() as usize] }
+    }
+
+    /// A sum with a word of another rank.
+    pub(crate) fn with(&self, sum: i64, word: i32) -> i64 {
+        match self.beyond {
+            Beyond::Marked if word == i32::MIN => i64::MIN,
+            Beyond::Marked | Beyond::Wrapped => sum.saturating_add(word.into()),
+        }
+    }
+
+    /// The word of a sum.
+    pub(crate) fn word(&self, sum: i64) -> i32 {
+        match self.beyond {
+            Beyond::Marked => i32::try_from(sum).unwrap_or(i32::MIN),
+            Beyond::Wrapped => sum as i32,
+        }
     }
 
     /// The parts of a stretch in the array, each from where on and how many words: one, or two of a stretch that goes past the end.
@@ -594,7 +621,18 @@ mod tests {
                 assert_eq!(stretch.count, 10 * u64::from((end - start + 3).min(count)));
             }
         }
-        let sum = SharedSum { array: Array::NodeMasses, after: 0, length: 50, stretches: Vec::new() };
+        let marked = Beyond::Marked;
+        let sum = SharedSum { array: Array::NodeMasses, beyond: marked, after: 0, length: 50, stretches: Vec::new() };
+        let of =
+            |sum: &SharedSum, words: [i32; 3]| sum.word(words.into_iter().fold(0, |all, word| sum.with(all, word)));
+        assert_eq!(
+            [of(&sum, [7, -9, 4]), of(&sum, [i32::MAX, 1, 0]), of(&sum, [5, i32::MIN, 7])],
+            [2, i32::MIN, i32::MIN]
+        );
+        // Parts of 3 000 000 000, -2 999 999 000 and -900, as words have them.
+        let wrapped = SharedSum { beyond: Beyond::Wrapped, ..sum.clone() };
+        let parts = [3_000_000_000_i64, -2_999_999_000, -900].map(|part| part as i32);
+        assert_eq!([of(&wrapped, parts), of(&wrapped, [i32::MIN, i32::MIN, 3])], [100, 3]);
         let pieces = |first, count| sum.pieces(Stretch { first, count }).map(|piece| (piece.first, piece.count));
         assert_eq!((pieces(10, 40), pieces(40, 30)), ([(10, 40), (0, 0)], [(40, 10), (0, 20)]));
     }

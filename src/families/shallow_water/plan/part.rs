@@ -3,7 +3,7 @@
 
 use super::WATER;
 use super::steps::Builder;
-use crate::plan::{Domain, ParticleWords, Passage, PlannedPart, SharedSum};
+use crate::plan::{Beyond, Domain, ParticleWords, Passage, PlannedPart, SharedSum};
 use crate::shaders::{Array, Choices, Constant, Entry, grid, mesh, water};
 use std::ops::Range;
 
@@ -49,7 +49,13 @@ impl Builder<'_> {
         let before = order / 2;
         let stretches = part.part.stretches(self.water.rows(), self.water.mesh[0], [before, order - before]);
         let nodes = self.water.nodes();
-        part.sums.push(SharedSum { array: Array::NodeMasses, after: gather, length: nodes, stretches });
+        part.sums.push(SharedSum {
+            array: Array::NodeMasses,
+            beyond: Beyond::Marked,
+            after: gather,
+            length: nodes,
+            stretches,
+        });
         let check = self.kernel("check_nodes", Entry::CheckNodeMasses, &Choices::new(), nodes);
         self.plan.before_report.push(check);
     }

@@ -34,7 +34,7 @@ impl Builder<'_> {
         self.model.particles().are_bonded()
     }
 
-    /// Whether kernels find particles by number: the ends of bonds and angles, and charges.
+    /// True if kernels find particles by number: the ends of bonds and angles, and charges.
     pub(super) fn keeps_slots(&self) -> bool {
         self.is_bonded() || self.model.particles().electrostatics.is_some()
     }

@@ -5,7 +5,7 @@ use super::{CHARGE_PARTS, Electrostatics};
 use crate::families::fourier::{self, Fourier};
 use crate::families::particles::plan::step::{Builder, GatheringKernels};
 use crate::families::particles::terms::PlannedTerm;
-use crate::plan::{Kernel, SharedSum, Traversal, Words};
+use crate::plan::{Beyond, Kernel, SharedSum, Traversal, Words};
 use crate::shaders::smoothing::{Load, Store};
 use crate::shaders::{Array, Choices, Constant, Entry, charges};
 use std::f64::consts::TAU;
@@ -137,9 +137,9 @@ impl PlannedTerm for Electrostatics {
         let forth = [&[spread], &passes[..turn], &[spectrum]].concat();
         if let Some(part) = &mut builder.plan.part {
             let division = part.part.division;
-            part.sums.push(SharedSum::everywhere(Array::NodeCharges, self.nodes(), spread, &division));
+            part.sums.push(SharedSum::everywhere(Array::NodeCharges, Beyond::Marked, self.nodes(), spread, &division));
             for kernel in [pull[0], pulled[0]] {
-                part.sums.push(SharedSum::everywhere(Array::ChargeImpulses, 3, kernel, &division));
+                part.sums.push(SharedSum::everywhere(Array::ChargeImpulses, Beyond::Wrapped, 3, kernel, &division));
             }
         }
         // Every rank has all waves; the first reports them.
