@@ -6,6 +6,7 @@ mod arrays;
 mod check;
 mod enumerations;
 mod radices;
+mod splines;
 mod wgsl;
 
 use std::collections::BTreeMap;
@@ -33,6 +34,7 @@ fn main() -> io::Result<()> {
     let mut files = written;
     files.extend(accessors::files());
     files.extend(radices::variants());
+    files.extend(splines::variants());
     let code = enumerations::generate(&files, &sources);
     fs::write(PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default()).join("shaders.rs"), code)
 }

@@ -3,7 +3,8 @@
 // Weights of splines are integers, whatever a compiler does to sums of products.
 //
 // Slots without defaults, chosen by src/families/particles/terms/electrostatics/plan.rs:
-// - charges/spline: `ORDER` points of a spline along an axis, and their weights (`weights_along`). Variants four, six.
+// - charges/spline: `ORDER` points of a spline along an axis, their weights (`weights_along`, `slopes_along`), and sums over a row of
+//   nodes. Variants four, six, made by build/splines.rs.
 override CHARGED: u32; // particles with a charge
 override CHARGE_NODES_X: u32;
 override CHARGE_NODES_Y: u32;

@@ -14,7 +14,7 @@ override LINES: u32;  // number of lines
 override ROW_LENGTH: u32; // of the mesh
 override SPAN: u32;   // length of the transforms that the passes before have finished
 override ROOTS: u32;  // of the table of roots of unity: a multiple of the length of every line
-// Of a mesh of three dimensions.
+// A mesh of three dimensions:
 override WAVE_COLUMNS: u32; // waves along x that are kept
 override MESH_HEIGHT: u32;  // nodes along y
 override MESH_DEPTH: u32;  // nodes along z
