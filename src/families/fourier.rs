@@ -287,7 +287,7 @@ fn in_passes(length: u32, passes: u32, most: u32) -> Option<Vec<u32>> {
     found.next()
 }
 
-/// Whether a line of some nodes can be transformed.
+/// True if a line of some nodes can be transformed.
 pub(crate) fn is_transformable(length: u32) -> bool {
     length >= 2 && length.is_multiple_of(2) && !radices(length).is_empty()
 }

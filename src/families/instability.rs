@@ -6,7 +6,7 @@ use crate::plan::{Failure, FailureKind, Plan};
 
 /// A run that left the range where its numbers mean anything.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("the run became unstable at step {step}: {quantity}; {}", advice(*.suggested_step))]
+#[error("the run became unstable at step {step}: {quantity}; {}", advice(*.suggested_step, .remedy))]
 pub struct Instability {
     /// The first step at which it was seen.
     pub step: u64,
@@ -14,6 +14,8 @@ pub struct Instability {
     pub quantity: String,
     /// A time step worth trying, where that is what helps.
     pub suggested_step: Option<f64>,
+    /// The remedy where no time step helps.
+    pub remedy: &'static str,
 }
 
 impl Instability {
@@ -35,7 +37,9 @@ impl Instability {
             }),
             (FailureKind::Energy, &|| format!("the internal energy of cell {place} became negative")),
             (FailureKind::Charges, &|| {
-                "charges crowd: around a node of their mesh is more than its integers hold".to_owned()
+                "charges of one sign crowd: the potential at a node of their mesh leaves its integers, which hold 64 times that of the \
+                 largest charge by itself"
+                    .to_owned()
             }),
             (FailureKind::Impulse, &|| "the impulses on a particle are too large or not a number".to_owned()),
             (FailureKind::Displacement, &|| {
@@ -44,10 +48,16 @@ impl Instability {
         ];
         let words = all.iter().find(|(kind, _)| failure.is(*kind)).map(|(_, words)| words());
         let quantity = words.unwrap_or_else(|| model.physics().momentum_out_of_range(plan));
-        // Where masses lie at the start is no matter of the step.
-        let from_the_start = (failure.is(FailureKind::Crowding) || failure.is(FailureKind::Depth)) && failure.step == 0;
+        // The places of masses and charges at the start are no matter of the step.
+        let of_places = [FailureKind::Crowding, FailureKind::Depth, FailureKind::Charges];
+        let from_the_start = of_places.into_iter().any(|kind| failure.is(kind)) && failure.step == 0;
+        let remedy = if failure.is(FailureKind::Charges) {
+            "give charges other places at the start, or less charge"
+        } else {
+            "give more particles a cell, a smoothing of another length, or the five-point symbol"
+        };
         let suggested_step = (!from_the_start).then(|| round_down(plan.suggested_step, 1));
-        Self { step: failure.step, quantity, suggested_step }
+        Self { step: failure.step, quantity, suggested_step, remedy }
     }
 }
 
@@ -59,12 +69,9 @@ fn node(plan: &Plan, node: u32) -> String {
     format!("mesh node ({k}, {l}), where x = {:.4} and y = {:.4}", place(k, 0, columns), place(l, 1, rows))
 }
 
-fn advice(suggested_step: Option<f64>) -> String {
+fn advice(suggested_step: Option<f64>, remedy: &str) -> String {
     match suggested_step {
         Some(step) => format!("try a time step of {} or less", brief_step(step)),
-        None => {
-            "no time step helps: give more particles a cell, a smoothing of another length, or the five-point symbol"
-                .to_owned()
-        }
+        None => format!("no time step helps: {remedy}"),
     }
 }

@@ -17,6 +17,9 @@ const MIXTURE_MEMORY: &str = r#"interactions=[{"type":"dpd","repulsion":25,"fric
     "bath":{"type":"memory","rate":150,"scheme":"symmetric"}}]"#;
 const EVERYTHING: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"tether","stiffness":3},
     {"type":"langevin","friction":2,"bath":{"type":"memory","rate":5,"scheme":"exponential"}}]"#;
+const IONS: &str = r#"particles=[{"species":"A","count":120,"charge":-1},{"species":"B","count":48,"charge":2.5}]"#;
+const CHARGED: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+    {"type":"electrostatics","bjerrum_length":1.1},{"type":"electric-field","field":[1,0,0],"frequency":0.4}]"#;
 /// Which sampler measures diffusion.
 const DIFFUSION: usize = 2;
 const COUPLED: &str = r#"integrator.type="cotter-reich""#;
@@ -34,13 +37,14 @@ fn sampled(changes: &[&str]) -> Checked {
 /// A list that holds for some steps; without it a step of these scenes outruns any, and each makes a list.
 const MARGIN: &str = "interactions.0.skin=0.3";
 
-/// Scenes that between them have every kind of memory.
+/// Scenes that between them have every kind of memory, and charges in a field, whose phase goes on.
 fn scenes() -> Vec<Checked> {
     vec![
         sampled(&[MEMORY]),
         sampled(&[MEMORY, MARGIN]),
         sampled(&[MIXTURE, MIXTURE_MEMORY, "space.box=[9,7]"]),
         sampled(&[MIXTURE, EVERYTHING, r#"noise={"generator":"threefry2x32-20"}"#]),
+        sampled(&[IONS, CHARGED]),
     ]
 }
 

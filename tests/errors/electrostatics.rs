@@ -83,8 +83,22 @@ fn scenes_without_what_charges_need() {
 
 #[test]
 fn charges_too_strong_for_integers() {
-    let strong = ["interactions.1.bjerrum_length=1e12"];
+    let few = ["particles.1.count=1", "particles.2.count=1", "particles.1.charge=128", "particles.2.charge=-128"];
+    let strong = [&few[..], &["interactions.1.bjerrum_length=10"]].concat();
     SALT.refused_with(&strong, &["interactions[1].bjerrum_length: found charges that push each other by"]);
+}
+
+/// ω² = 4π lB Σq²/mV = 2.26 lB.
+#[test]
+fn charges_that_swing_too_fast_for_a_step() {
+    let swing = |length: f64| format!("interactions.1.bjerrum_length={length}");
+    let warnings = SALT.warnings(&[&swing(1200.0)]);
+    assert!(warnings.len() == 1 && warnings[0].contains("swing against each other by 1.04 radians"), "{warnings:?}");
+    SALT.accepted(&[&swing(4400.0)]);
+    SALT.refused_with(
+        &[&swing(4450.0)],
+        &["interactions[1].bjerrum_length: found charges that swing against each other by 2.01 radians", "less than 2"],
+    );
 }
 
 #[test]

@@ -282,7 +282,7 @@ fn unstable(number: usize, scene: &Checked, batch: u64) {
     match outcome {
         Err(EngineError::Unstable(failure)) => {
             let error = Instability::new(&failure, engine.plan(), &model);
-            let Instability { step, quantity, suggested_step } = &error;
+            let Instability { step, quantity, suggested_step, .. } = &error;
             assert!(*step < batch, "{error}");
             assert!(!quantity.is_empty());
             let suggested_step = suggested_step.unwrap();

@@ -4,6 +4,7 @@ use mesoscope::plan::Options;
 use mesoscope::scene::Checked;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
+use std::fmt::Write as _;
 
 use crate::support::{
     INTEGRATORS, engine, largest_difference, observables, reference, same_observables, start, units_of_a_step,
@@ -62,6 +63,34 @@ fn check(scene: &Checked, what: &str) {
     let [a, b] = [found, expected].map(|observables| observables.from_body_forces);
     assert_eq!(a.momentum, b.momentum, "{what}");
     assert!((a.work - b.work).abs() < 1e-4 * (1.0 + b.work.abs()), "{what}: {} {}", a.work, b.work);
+}
+
+/// Charges of a file, whose species follow in no order, in copies of its box.
+#[test]
+fn charges_of_copies_are_those_of_their_species() {
+    let place = tempfile::tempdir().unwrap();
+    let file = place.path().join("state.xyz");
+    let mut text = String::from("24\nLattice=\"4 0 0 0 5 0 0 0 4.5\" Properties=species:S:1:pos:R:3\n");
+    for index in 0..24_u32 {
+        let species = ["W", "P", "M", "M", "W", "P", "W", "W"][(index * 5 % 8) as usize];
+        let at = [7, 11, 13].map(|step| f64::from(index * step % 24) / 24.0);
+        writeln!(text, "{species} {:.4} {:.4} {:.4}", 4.0 * at[0], 5.0 * at[1], 4.5 * at[2]).unwrap();
+    }
+    std::fs::write(&file, text).unwrap();
+    let scene = crate::support::scene(
+        &json!({
+            "title": "copies", "space": {"box": [8, 5, 9]}, "time": {"step": 0.01, "steps": 1}, "temperature": 1,
+            "integrator": {"type": "cotter-reich"},
+            "state": {"file": file, "replicate": [2, 1, 2], "velocities": "thermal"},
+            "particles": [{"species": "W"}, {"species": "P", "charge": 1.5}, {"species": "M", "charge": -1.5}],
+            "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5},
+                {"type": "electrostatics", "bjerrum_length": 1.1}],
+            "output": {"energies": {"every": 1}},
+        })
+        .to_string(),
+    );
+    assert_eq!(scene.model().particle_count(), 96);
+    check(&scene, "copies");
 }
 
 /// Fields that are constant and that oscillate, also where nothing else acts on charges.

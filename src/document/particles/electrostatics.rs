@@ -24,7 +24,7 @@ pub struct ElectrostaticsInteraction {
     #[serde(default = "whole::<6>")]
     #[schemars(range(min = 4, max = 6))]
     pub order: u32,
-    /// Whether a uniform background neutralizes the charges of the particles; without it they have to add up to zero.
+    /// A uniform background that neutralizes the charges of the particles, if true; without it they have to add up to zero.
     #[serde(default, skip_serializing_if = "is_default")]
     pub background: bool,
 }

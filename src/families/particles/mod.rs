@@ -194,7 +194,7 @@ impl Particles {
         self.walls.iter().any(PlaneWalls::move_along)
     }
 
-    /// Whether forces from outside oscillate.
+    /// True if forces from outside oscillate.
     pub(crate) fn have_oscillating_forces(&self) -> bool {
         self.body_forces.as_ref().is_some_and(|forces| forces.turn.is_some())
     }

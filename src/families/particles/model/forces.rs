@@ -46,7 +46,7 @@ fn moved<const LENGTH: usize>(masses: [Option<f64>; LENGTH]) -> f64 {
 
 /// Who the particles of a scene are and, where it says so, where they are.
 pub(crate) struct Particles<'a> {
-    scene: &'a Scene,
+    pub scene: &'a Scene,
     groups: Vec<NumberedGroup<'a>>,
     species: NumberedSpecies<'a>,
     /// Masses of the species, by their places; none of what is held.

@@ -158,29 +158,59 @@ pub(crate) struct ForceError {
     pub relative: f64,
 }
 
+/// Nodes along an axis with whose waves the error of larger meshes is found too: it is one of short waves, of which all boxes have the same density.
+const SAMPLED: u32 = 64;
+/// A part e^(-k²σ²) of charges beyond which waves have no force.
+const NO_CLOUD: f64 = 1e-12;
+
 /// The error of the forces between charges at random places, of which the squares add up to `squares`.
 pub(crate) fn expected_error(electrostatics: &Electrostatics, lengths: [f64; 3], squares: f64) -> ForceError {
-    let waves = Waves::new(electrostatics, lengths);
-    let mesh = electrostatics.mesh;
-    let [mut exact, mut wrong] = [0.0; 2];
-    for z in 0..=mesh[2] / 2 {
-        for y in 0..=mesh[1] / 2 {
-            for x in 0..=mesh[0] / 2 {
-                let wave = waves.wave([x, y, z]);
-                // Waves of the other sign along an axis.
-                let at_edge = |number: u32, nodes: u32| number == 0 || 2 * number == nodes;
-                let alike: f64 = [(x, mesh[0]), (y, mesh[1]), (z, mesh[2])]
-                    .map(|(n, of)| if at_edge(n, of) { 1.0 } else { 2.0 })
-                    .iter()
-                    .product();
-                exact += alike * wave.exact;
-                wrong += alike * (wave.exact - wave.reproduced).max(0.0);
+    let mesh = electrostatics.mesh.map(|nodes| nodes.min(SAMPLED));
+    let edges = [0, 1, 2].map(|axis| lengths[axis] * f64::from(mesh[axis]) / f64::from(electrostatics.mesh[axis]));
+    let waves = Waves::new(&Electrostatics { mesh, ..electrostatics.clone() }, edges);
+    let wrong: f64 = fourier::waves(mesh)
+        .map(|wave| {
+            let Wave { exact, reproduced, .. } = waves.wave(wave);
+            number_alike(wave, mesh) * (exact - reproduced).max(0.0)
+        })
+        .sum();
+    let volume = lengths.iter().product::<f64>();
+    let absolute = (squares / volume * wrong / edges.iter().product::<f64>()).sqrt();
+    let force = (squares * Waves::new(electrostatics, lengths).squares_of_forces(electrostatics.mesh)).sqrt() / volume;
+    ForceError { absolute, relative: if force > 0.0 { absolute / force } else { 0.0 } }
+}
+
+/// Waves of the same numbers, of either sign along every axis.
+fn number_alike(wave: [u32; 3], mesh: [u32; 3]) -> f64 {
+    let along = |axis: usize| if wave[axis] == 0 || 2 * wave[axis] == mesh[axis] { 1.0 } else { 2.0 };
+    along(0) * along(1) * along(2)
+}
+
+impl Waves {
+    /// Σ k² times the square of the spectrum over all waves of a mesh, without aliases.
+    fn squares_of_forces(&self, mesh: [u32; 3]) -> f64 {
+        let [x, y, z] = &self.axes;
+        let mut sum = 0.0;
+        for (n, c) in (0..).zip(z) {
+            for (m, b) in (0..).zip(y) {
+                let across = b.aliases[0].cloud * c.aliases[0].cloud;
+                if across < NO_CLOUD {
+                    break;
+                }
+                let rest = b.aliases[0].number.powi(2) + c.aliases[0].number.powi(2);
+                for (l, a) in (0..).zip(x) {
+                    let (square, cloud) = (rest + a.aliases[0].number.powi(2), across * a.aliases[0].cloud);
+                    if cloud < NO_CLOUD {
+                        break;
+                    }
+                    if square > 0.0 {
+                        sum += number_alike([l, m, n], mesh) * cloud * cloud / square;
+                    }
+                }
             }
         }
+        (4.0 * PI * self.strength).powi(2) * sum
     }
-    let volume = lengths.iter().product::<f64>();
-    let scale = squares.sqrt() / volume;
-    ForceError { absolute: scale * wrong.sqrt(), relative: if exact > 0.0 { (wrong / exact).sqrt() } else { 0.0 } }
 }
 
 #[cfg(test)]
@@ -198,6 +228,33 @@ mod tests {
             assert!((error.absolute / found - 1.0).abs() < 0.04, "{nodes} {order}: {error:?}");
             assert!((error.relative / (found / 0.955) - 1.0).abs() < 0.1, "{nodes} {order}: {error:?}");
         }
+    }
+
+    /// That of a large mesh is that of a smaller one of its spacing and density.
+    #[test]
+    fn errors_are_no_matter_of_the_box() {
+        let error = |nodes: u32| {
+            let length = 0.5 * f64::from(nodes);
+            let electrostatics = Electrostatics { mesh: [nodes; 3], ..Electrostatics::default() };
+            expected_error(&electrostatics, [length; 3], 0.2 * length.powi(3))
+        };
+        // Twice the nodes, whose waves are all summed here.
+        let [sampled, whole] = [SAMPLED, 96].map(|nodes| {
+            let electrostatics = Electrostatics { mesh: [nodes; 3], ..Electrostatics::default() };
+            let length = 0.5 * f64::from(nodes);
+            let waves = Waves::new(&electrostatics, [length; 3]);
+            let wrong = |wave| {
+                let Wave { exact, reproduced, .. } = waves.wave(wave);
+                number_alike(wave, electrostatics.mesh) * (exact - reproduced)
+            };
+            fourier::waves(electrostatics.mesh).map(wrong).sum::<f64>() / length.powi(3)
+        });
+        assert!((sampled / whole - 1.0).abs() < 1e-6, "{sampled} {whole}");
+        assert!((error(96).absolute / (0.2 * whole).sqrt() - 1.0).abs() < 1e-6);
+        // Over the force, which long waves add to: it tends to that of all of space as 1 - L₀/L.
+        let [small, large, huge] = [48, 96, 384].map(|nodes| 1.0 / error(nodes).relative.powi(2));
+        let limit = large + (large - small);
+        assert!(small < large && large < huge && (huge / limit - 1.0).abs() < 0.03, "{small} {large} {huge}");
     }
 
     #[test]

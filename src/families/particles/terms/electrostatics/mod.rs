@@ -7,11 +7,13 @@
 //! Charges are spread in integers, and the potential of a node is rounded to an integer once, so that the force on all charges
 //! together is one of rounding; that is taken back, unit by unit, and the total momentum stays what it is to the last bit.
 
+mod description;
 mod mesh;
 mod plan;
 mod reference;
 mod scene;
 
+pub(crate) use description::description;
 pub(crate) use mesh::expected_error;
 pub(crate) use scene::{charge, charge_of_species, charged_species};
 
@@ -99,8 +101,8 @@ impl Electrostatics {
         self.strength * self.squares() / (2.0 * self.width * PI.sqrt())
     }
 
-    /// What waves count of the Laplacian of the potential for charges each by itself, which a charge that moves takes along: `1/V Σ_k` (k²
-    /// times the spectrum) Σ q², but for waves beyond those of the mesh ∫ d³k/(2π)³.
+    /// The Laplacian of the potential that waves count for charges each by itself, which a charge that moves takes along: `1/V Σ_k` (k²
+    /// times the spectrum) Σ q², a sum that is an integral ∫ d³k/(2π)³ but for the wave of all zeros.
     pub(crate) fn own_laplacian(&self, volume: f64) -> f64 {
         // All waves less that of all zeros.
         let all = 4.0 * PI * self.strength / (8.0 * PI.powf(1.5) * self.width.powi(3));
@@ -122,6 +124,20 @@ impl Electrostatics {
         (4.0 * PI * self.strength / temperature * self.squares() / volume).sqrt()
     }
 
+    /// The square of the frequency at which all charges of one sign swing against those of the other: 4π kT lB/V Σ q²/m of those that can move.
+    fn plasma_frequency_squared(&self, model: &Model) -> f64 {
+        let charged = model.species.iter().zip(&self.charges).filter(|(species, _)| !species.fixed);
+        let of_species = |(species, charge): (&Species, &i32)| {
+            species.count as f64 * (f64::from(*charge) / CHARGE_PARTS).powi(2) / species.mass
+        };
+        4.0 * PI * self.strength / model.units.lengths.iter().product::<f64>() * charged.map(of_species).sum::<f64>()
+    }
+
+    /// The part of a turn, in radians, that these swings make in a step.
+    fn swing(&self, model: &Model) -> f64 {
+        self.plasma_frequency_squared(model).sqrt() * model.time_step
+    }
+
     /// The potential of a unit charge at its centre.
     fn contact(&self) -> f64 {
         self.strength / (self.width * PI.sqrt())
@@ -136,28 +152,4 @@ impl Term for Electrostatics {
     fn check_capacity(&self, scene: &Checked, problems: &mut Problems) {
         scene::check_capacity(scene, self, problems);
     }
-}
-
-/// The Bjerrum length, the length of Debye, and the mesh with its error, in words for `check`.
-pub(crate) fn description(electrostatics: &Electrostatics, model: &Model) -> Vec<(&'static str, String)> {
-    use crate::numbers::{grouped, three_digits};
-    let lengths = model.units.lengths;
-    let volume = lengths.iter().product::<f64>();
-    let error = expected_error(electrostatics, lengths, electrostatics.squares());
-    let [x, y, z] = electrostatics.mesh;
-    let spacings = [0, 1, 2].map(|axis| three_digits(lengths[axis] / f64::from(electrostatics.mesh[axis])));
-    let screening = electrostatics.screening(model.temperature, volume);
-    let charges = format!(
-        "{} particles with a charge, Debye length {}, κσ {}",
-        grouped(electrostatics.charged.count()),
-        three_digits(1.0 / screening),
-        three_digits(screening * electrostatics.width)
-    );
-    let mesh = format!(
-        "{x} × {y} × {z} nodes {} apart, splines of {} points; expected rms error of a force on a unit charge {}, for charges at random places",
-        spacings.join(", "),
-        electrostatics.order,
-        three_digits(error.absolute)
-    );
-    vec![("charges", charges), ("charge mesh", mesh)]
 }

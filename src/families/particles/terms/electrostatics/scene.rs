@@ -5,15 +5,20 @@ use crate::document::{
     ElectrostaticsInteraction, NumberedSpecies, Problems, Scene, SpeciesNames, Warning, number_of_copies,
 };
 use crate::families::particles::combinations::Feature;
+use crate::families::particles::model::forces;
 use crate::families::particles::terms::SceneTerm;
 use crate::families::warnings::warn;
 use crate::families::{Checked, Model, Particles, Species};
 use crate::numbers::grouped;
+use std::f64::consts::PI;
 
 /// Distances of nodes, in widths of a charge, beyond which a mesh resolves nothing of them.
 const COARSEST: f64 = 2.0;
 /// The largest impulse of half a step in units of momentum: several of them still fit the integers.
 const LARGEST: f64 = (1_u64 << 27) as f64;
+/// Radians of the swings of charges in a step, from which on a step is unstable, and up to which it is advisable.
+const LIMIT: f64 = 2.0;
+const FAST: f64 = 1.0;
 /// A relative error of forces that deserves a second look.
 const COARSE: f64 = 0.01;
 
@@ -79,6 +84,12 @@ impl SceneTerm for ElectrostaticsInteraction {
         }
     }
 
+    fn momentum(&self, particles: &forces::Particles<'_>) -> f64 {
+        let charges = particles.scene.particles.iter().map(|group| group.charge.abs());
+        let energy = particles.scene.temperature * self.bjerrum_length / (self.width * PI.sqrt());
+        (particles.heaviest_mobile() * energy).sqrt() * charges.fold(0.0, f64::max)
+    }
+
     fn members(&self, scene: &Scene, names: &SpeciesNames<'_>) -> Option<String> {
         Some(charged_species(scene, names))
     }
@@ -97,6 +108,16 @@ impl SceneTerm for ElectrostaticsInteraction {
 
     fn warn(&self, model: &Model, path: &str, warnings: &mut Vec<Warning>) {
         let Some(electrostatics) = &model.particles().electrostatics else { return };
+        let swing = electrostatics.swing(model);
+        if swing > FAST {
+            let message = format!(
+                "charges swing against each other by {swing:.2} radians in one step of {}; {LIMIT} is the limit of stability, and up to \
+                 {FAST}, a step of {:.3e}, is advisable",
+                model.time_step,
+                FAST * model.time_step / swing
+            );
+            warn(warnings, format!("{path}.bjerrum_length"), message);
+        }
         let error = expected_error(electrostatics, model.units.lengths, electrostatics.squares());
         if error.relative > COARSE {
             let message = format!(
@@ -155,10 +176,18 @@ fn charged(scene: &Scene) -> Charged {
     Charged { runs, period: 0, copies: 1 }
 }
 
-/// Refuses charges so strong that their impulses leave the integers of momenta.
+/// Refuses charges so strong that a step is unstable, or that their impulses leave the integers of momenta.
 pub(super) fn check_capacity(scene: &Checked, electrostatics: &Electrostatics, problems: &mut Problems) {
     let model = scene.model();
     let path = format!("interactions[{}].bjerrum_length", scene.places_of("electrostatics").next().unwrap_or(0));
+    let swing = electrostatics.swing(model);
+    if swing >= LIMIT {
+        let found =
+            format!("charges that swing against each other by {swing:.2} radians in one step of {}", model.time_step);
+        let accepted = format!("less than {LIMIT}, with a `time.step` below {:.3e}", LIMIT * model.time_step / swing);
+        problems.refuse(&path, found, accepted);
+        return;
+    }
     // The largest force of one unit charge on another is .3 of the energy in contact over the width.
     let charge =
         electrostatics.charges.iter().map(|charge| f64::from(charge.unsigned_abs())).fold(0.0, f64::max) / CHARGE_PARTS;

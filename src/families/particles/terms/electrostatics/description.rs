@@ -1,0 +1,28 @@
+//! Charges and their mesh, in words for `check`.
+
+use super::{Electrostatics, expected_error};
+use crate::families::Model;
+use crate::numbers::{grouped, three_digits};
+
+/// The Bjerrum length, the length of Debye, and the mesh with its error, in words for `check`.
+pub(crate) fn description(electrostatics: &Electrostatics, model: &Model) -> Vec<(&'static str, String)> {
+    let lengths = model.units.lengths;
+    let volume = lengths.iter().product::<f64>();
+    let error = expected_error(electrostatics, lengths, electrostatics.squares());
+    let [x, y, z] = electrostatics.mesh;
+    let spacings = [0, 1, 2].map(|axis| three_digits(lengths[axis] / f64::from(electrostatics.mesh[axis])));
+    let screening = electrostatics.screening(model.temperature, volume);
+    let charges = format!(
+        "{} particles with a charge, Debye length {}, κσ {}",
+        grouped(electrostatics.charged.count()),
+        three_digits(1.0 / screening),
+        three_digits(screening * electrostatics.width)
+    );
+    let mesh = format!(
+        "{x} × {y} × {z} nodes {} apart, splines of {} points; expected rms error of a force on a unit charge {}, for charges at random places",
+        spacings.join(", "),
+        electrostatics.order,
+        three_digits(error.absolute)
+    );
+    vec![("charges", charges), ("charge mesh", mesh)]
+}
