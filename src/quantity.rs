@@ -114,10 +114,11 @@ pub(crate) const QUANTITIES: [Quantity; 31] = [
     settling("potential_energy", "U", Energy, "potential energy; free energy of cells")
         .looks("potential", 1)
         .assessed(),
+    settling("electrostatic_energy", "U_q", Energy, "the part of the potential energy that charges have together")
+        .assessed(),
     settling("pressure_conservative", "p_C", Pressure, "without friction and noise").looks("conservative part", 1),
     quantity("internal_energy", "E_i", Energy, "internal energy of all cells").looks("internal", 5),
     quantity("total_energy", "E", Energy, "K + U; of cells with an energy of their own, K + E_i").looks("total", 2),
-    settling("electrostatic_energy", "U_q", Energy, "the part of the potential energy that charges have together"),
     quantity("bath_energy", "E_b", Energy, "energy of the variables of baths with memory").looks("bath", 3),
     quantity("extended_energy", "E + E_b", Energy, "total energy and that of baths").looks("total with bath", 4),
     settling("bath_square", "⟨h²⟩", BATH, "mean square of the variables h of baths"),

@@ -255,7 +255,15 @@ impl Scene {
     }
 }
 
+/// Parts of an elementary charge that charges are multiples of.
+pub(crate) const CHARGE_PARTS: f64 = 65536.0;
+
 impl ParticleGroup {
+    /// The charge of a particle in 2⁻¹⁶ of an elementary one.
+    pub(crate) fn charge_parts(&self) -> i32 {
+        (self.charge * CHARGE_PARTS).round() as i32
+    }
+
     /// True if its species is named, or none is.
     pub(crate) fn is_among(&self, species: Option<&[String]>) -> bool {
         species.is_none_or(|names| names.contains(&self.species))

@@ -36,7 +36,7 @@ pub(crate) use error::did_you_mean;
 pub use error::{Problem, SceneError, Warning};
 pub use file_start::{EarlierRun, FileLinks, FilePlaces, FileStart, KeptStart, MeshFields, Origin, Surroundings};
 pub use files::{Checkpoint, Energies, Trajectory, TrajectoryFormat};
-pub(crate) use groups::NumberedGroup;
+pub(crate) use groups::{CHARGE_PARTS, NumberedGroup};
 pub use groups::{Chain, FileType, ParticleGroup, Placement, Velocities, WallSide};
 pub use integrator::{CellIntegrator, Integrator, PairRelaxation, WaterIntegrator};
 pub use interaction::Interaction;

@@ -1,6 +1,6 @@
 //! What a run measures and writes: the keys, and of each analysis what it asks for, its id and its names.
 
-use super::defaults::whole;
+use super::defaults::{is_default, whole};
 use super::{
     Axis, Checkpoint, CorrelatedQuantity, CountedQuantity, DecayFit, Energies, Fields, Frame, PlotStyle,
     ProfiledQuantity, Snapshot, Trajectory,
@@ -221,6 +221,9 @@ pub struct StructureFactor {
     /// The species whose pairs are taken; left out, pairs of all particles.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub species: Option<CountedPairs>,
+    /// True for the structure factor of charge, in which every particle counts by its charge; without `species`.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub charges: bool,
 }
 
 /// Pairs of species: `"A"` for pairs of A, `["A", "B"]` for pairs of A with B, `"all-pairs"` for every two species by themselves.

@@ -1,7 +1,7 @@
 //! The physics a scene asks for, in numbers: species, pair coefficients, cutoff, units. No scene syntax and no wgpu.
 
 use super::{Family, Particles, Physics, PictureKind, ShallowWater, TimeAxis, Voronoi, particles, speeds};
-use crate::document::{Distribution, Generator, Output, Scene};
+use crate::document::{CHARGE_PARTS, Distribution, Generator, Output, Scene};
 use crate::noise;
 use crate::plan::{Plan, Quanta, StateLayout};
 use crate::state::Units;
@@ -19,6 +19,8 @@ pub struct Species {
     pub fixed: bool,
     /// True if they make up layers behind walls, which absorb the momentum that they are given.
     pub frozen: bool,
+    /// Charge of one particle in elementary charges, a multiple of 2⁻¹⁶.
+    pub charge: f64,
 }
 
 impl Species {
@@ -32,7 +34,8 @@ impl Species {
             } else {
                 let name = group.species.clone();
                 let (fixed, frozen) = (group.is_held(), group.is_frozen());
-                species.push(Self { name, mass: group.mass, count, fixed, frozen });
+                let charge = f64::from(group.charge_parts()) / CHARGE_PARTS;
+                species.push(Self { name, mass: group.mass, count, fixed, frozen, charge });
             }
         }
         species

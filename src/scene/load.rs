@@ -14,7 +14,7 @@ use crate::families::{self, StepCheck};
 
 use super::path::related;
 use super::shape::{Schema, Substitute};
-use super::start::Fits;
+use super::start::{Fits, Given};
 use super::{
     FileStart, KeptStart, Problem, Problems, Scene, SceneError, StateFiles, System, SystemKind, Warning, builtin,
     nearest, overrides, semantics, shape, shorten, start, text,
@@ -214,7 +214,7 @@ impl WrittenScene {
         let system = kind_of_system(&document, &mut problems);
         problems.append(shape::check(&SHAPE, &mut document, system, substitute));
         let groups = document.get("particles").and_then(Value::as_array).into_iter().flatten();
-        let masses = groups.map(|group| group.get("mass").is_some()).collect();
+        let given = groups.map(Given::of_group).collect();
         // What the shape check has mended may be readable, and then everything can be said at once.
         if !problems.is_empty() {
             fill_in(&mut document, substitute);
@@ -223,7 +223,7 @@ impl WrittenScene {
             families::complete(&mut scene, integrator, colour);
             scene
         });
-        Ok(Reading { problems, scene, notices, masses })
+        Ok(Reading { problems, scene, notices, given })
     }
 
     fn check_from(&self, step: StepCheck, source: Source<'_>) -> Result<Checked, SceneError> {
@@ -237,7 +237,7 @@ impl WrittenScene {
                 // Numbers that stand in for refused ones are not compared with a file.
                 Source::File(..) if reading.problems.iter().any(|known| says_where_particles_are(&known.path)) => {}
                 Source::File(files, fits) => {
-                    unreadable = start::read(scene, &reading.masses, (name, files), fits, &mut reading.notices)?;
+                    unreadable = start::read(scene, &reading.given, (name, files), fits, &mut reading.notices)?;
                     let known: Vec<&str> = reading.problems.iter().map(|known| known.path.as_str()).collect();
                     unreadable.retain(|found| known.iter().all(|known| !related(known, &found.path)));
                 }
@@ -366,8 +366,8 @@ struct Reading {
     scene: serde_json::Result<Scene>,
     /// What was shortened for a run of so many steps, or is not used of a file.
     notices: Vec<Warning>,
-    /// Which groups give their mass.
-    masses: Vec<bool>,
+    /// What each group gives itself.
+    given: Vec<Given>,
 }
 
 impl Scene {

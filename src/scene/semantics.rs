@@ -228,6 +228,19 @@ fn check_wave_numbers(factor: &StructureFactor, scene: &Scene, problems: &mut Pr
     let periodic = scene.space.lengths.iter().zip(scene.space.walls.of_axes()).filter(|(_, walls)| walls.is_none());
     let longest = periodic.map(|(length, _)| *length).fold(0.0, f64::max);
     let path = "output.structure_factor";
+    if factor.charges {
+        if factor.species.is_some() {
+            problems.refuse(
+                format!("{path}.species"),
+                "together with `charges`",
+                "one of them: charges are of all species",
+            );
+        }
+        if scene.particles.iter().all(|group| group.charge_parts() == 0 || group.is_frozen()) {
+            let accepted = "a `charge` other than 0 in one of `particles`";
+            problems.refuse(format!("{path}.charges"), "no particle with a charge", accepted);
+        }
+    }
     if longest == 0.0 {
         problems.refuse(path, "between walls on all sides", "an axis without walls, along which there are waves");
         return;
@@ -238,7 +251,8 @@ fn check_wave_numbers(factor: &StructureFactor, scene: &Scene, problems: &mut Pr
             format!("at least {least:.4}, the wave number of one wave along the longest periodic edge of the box");
         problems.refuse(format!("{path}.range"), factor.range, accepted);
     }
-    let is_told_apart = factor.species.is_some() || scene.particles.iter().any(ParticleGroup::is_frozen);
+    let is_told_apart =
+        factor.species.is_some() || factor.charges || scene.particles.iter().any(ParticleGroup::is_frozen);
     let species = if is_told_apart { scene.particles.len() } else { 1 };
     let waves = u64::from(factor.bins) * u64::from(factor.vectors) * species.max(1) as u64;
     if waves > MOST_WAVES {

@@ -46,6 +46,7 @@ pub(crate) struct AtomStyle {
 pub(super) struct Words<'a, 'b> {
     pub id: &'a str,
     pub kind: &'a str,
+    pub charge: Option<&'a str>,
     pub position: &'b [&'a str],
     /// Three, or none.
     pub images: &'b [&'a str],
@@ -129,7 +130,6 @@ impl AtomStyle {
     /// What its lines have that no scene uses, in words.
     pub(super) fn unused(&self) -> Vec<String> {
         let noun = |column: &Column| match column {
-            Charge => Some("charges".to_owned()),
             Density => Some("densities".to_owned()),
             _ => None,
         };
@@ -151,7 +151,7 @@ impl AtomStyle {
 
     /// Divides a line; none where it has not these columns, or what no scene uses is not what it should be.
     pub(super) fn split<'a, 'b>(&self, words: &'b [&'a str]) -> Option<Words<'a, 'b>> {
-        let mut found = Words { id: "", kind: "", position: &[], images: &[] };
+        let mut found = Words { id: "", kind: "", charge: None, position: &[], images: &[] };
         let mut rest = words;
         for column in &self.columns {
             let (here, after) = rest.split_at_checked(column.width())?;
@@ -160,7 +160,12 @@ impl AtomStyle {
                 Kind => found.kind = here[0],
                 Place => found.position = here,
                 Molecule => _ = here[0].parse::<i64>().ok()?,
-                Charge | Density => _ = here[0].parse::<f64>().ok().filter(|number| number.is_finite())?,
+                Charge | Density => {
+                    here[0].parse::<f64>().ok().filter(|number| number.is_finite())?;
+                    if *column == Charge {
+                        found.charge = Some(here[0]);
+                    }
+                }
             }
             rest = after;
         }
@@ -186,9 +191,9 @@ mod tests {
         let line = ["7", "2", "1.5", "2.5", "3.5", "-0.25", "11", "0.125", "0", "-1", "2"];
         let style = AtomStyle::of("hybrid charge full mdpd").unwrap();
         let words = style.split(&line).unwrap();
-        assert_eq!((words.id, words.kind, words.position), ("7", "2", &line[2..5]));
+        assert_eq!((words.id, words.kind, words.position, words.charge), ("7", "2", &line[2..5], Some("-0.25")));
         assert_eq!(words.images, ["0", "-1", "2"]);
-        assert_eq!(style.unused(), ["charges", "densities"]);
+        assert_eq!(style.unused(), ["densities"]);
         assert!(style.split(&line[..8]).unwrap().images.is_empty());
         for count in [7, 9, 10] {
             assert!(style.split(&line[..count]).is_none(), "{count}");

@@ -2,15 +2,15 @@
 //! <https://github.com/libAtoms/extxyz>.
 //!
 //! Columns that are read: `pos`; `species_name`, as this program writes it, else `species`, else `type`, else the atomic number `Z`;
-//! `velo`, `velocities`, `velocity` or `vel`, else `momenta` over `masses`; `masses` or `mass`; `map_shift` or `images`; `id`. Without
+//! `velo`, `velocities`, `velocity` or `vel`, else `momenta` over `masses`; `masses` or `mass`; `initial_charges`, `charges`, `charge` or `q`; `map_shift` or `images`; `id`. Without
 //! `Properties`, a line is a species and a position.
 
 use super::keys::Keys;
 use super::lines::Lines;
 use super::tally::Tally;
 use super::{
-    FROZEN, Fits, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements, elements, frozen_layers,
-    place_of_frame, shortened, triclinic, vector,
+    CHARGE, FROZEN, Fits, MASS, Mistake, Mistakes, NumbersOfSpecies, ParticleFile, box_mistake, displacements,
+    elements, frozen_layers, place_of_frame, shortened, triclinic, vector,
 };
 use crate::state::MOST_PARTICLES;
 use std::collections::{HashMap, HashSet};
@@ -103,6 +103,7 @@ struct Columns {
     velocity: Option<usize>,
     momentum: Option<usize>,
     mass: Option<usize>,
+    charge: Option<usize>,
     image: Option<usize>,
     id: Option<usize>,
 }
@@ -195,6 +196,7 @@ impl Columns {
                 "velo" | "velocities" | "velocity" | "vel" => (&mut columns.velocity, 3),
                 "momenta" => (&mut columns.momentum, 3),
                 "masses" | "mass" => (&mut columns.mass, 1),
+                "initial_charges" | "charges" | "charge" | "q" => (&mut columns.charge, 1),
                 "map_shift" | "images" => (&mut columns.image, 3),
                 "id" => (&mut columns.id, 1),
                 other => {
@@ -242,6 +244,7 @@ struct Particle<'a> {
     position: [f64; 3],
     velocity: Option<[f64; 3]>,
     mass: Option<f64>,
+    charge: Option<f64>,
     image: Option<[i64; 3]>,
     id: Option<u64>,
 }
@@ -262,7 +265,9 @@ impl Columns {
         let position = numbers(self.position.unwrap_or(0))?;
         let velocity = self.velocity.map(numbers).transpose()?;
         let momentum = self.momentum.filter(|_| velocity.is_none()).map(numbers).transpose()?;
-        let mass = self.mass.map(|first| real(words[first]).ok_or_else(|| wrong(first, 1, "a mass"))).transpose()?;
+        let number = |first: usize, noun: &str| real(words[first]).ok_or_else(|| wrong(first, 1, noun));
+        let mass = self.mass.map(|first| number(first, "a mass")).transpose()?;
+        let charge = self.charge.map(|first| number(first, "a charge")).transpose()?;
         let turns = |first: usize| vector(here(first, 3), |word| word.parse().ok());
         let turns = |first: usize| turns(first).ok_or_else(|| wrong(first, 3, "three whole numbers"));
         let image = self.image.map(turns).transpose()?;
@@ -273,7 +278,7 @@ impl Columns {
             return Err(wrong(first, 1, "an atomic number"));
         }
         let over_mass = momentum.zip(mass).map(|(momentum, mass)| momentum.map(|part| part / mass));
-        Ok(Particle { species: words[first], position, velocity: velocity.or(over_mass), mass, image, id })
+        Ok(Particle { species: words[first], position, velocity: velocity.or(over_mass), mass, charge, image, id })
     }
 }
 
@@ -286,7 +291,7 @@ fn particles(
     let count = usize::try_from(count).unwrap_or(usize::MAX);
     file.positions.reserve(count);
     let mut mistakes = Mistakes::default();
-    let mut masses = SpeciesMasses::default();
+    let [mut masses, mut charges] = [MASS, CHARGE].map(NumbersOfSpecies::new);
     let mut known: HashMap<String, u32> = HashMap::new();
     for particle in 0..count {
         let place = format!("line {}", lines.number() + 1);
@@ -324,6 +329,9 @@ fn particles(
         if let Some(mass) = read.mass {
             masses.add(species as usize, mass, || particle.to_string());
         }
+        if let Some(charge) = read.charge {
+            charges.add(species as usize, charge, || particle.to_string());
+        }
         file.velocities.extend(read.velocity);
         if let Some(image) = read.image {
             let turns = image.map(i32::try_from);
@@ -344,7 +352,10 @@ fn particles(
         let symbols = symbols.collect();
         file.numerals = std::mem::replace(&mut file.species, symbols);
     }
-    file.masses = masses.finish(&file.species, &mut mistakes);
+    let (masses, mass_mistakes) = masses.finish(&file.species);
+    file.masses = masses;
+    mistakes.extend(mass_mistakes);
+    (file.charges, file.charge_mistakes) = charges.finish(&file.species);
     mistakes.refuse()?;
     Ok(file)
 }

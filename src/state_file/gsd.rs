@@ -5,8 +5,8 @@
 
 use super::file_layer::{Chunk, Cursor, GsdError, GsdReader, until_zero};
 use super::{
-    FROZEN_IN_GSD, Fits, Links, Mistake, Mistakes, ParticleFile, SpeciesMasses, box_mistake, displacements,
-    frozen_layers, place_of_frame, triclinic,
+    CHARGE, FROZEN_IN_GSD, Fits, Links, MASS, Mistake, Mistakes, NumbersOfSpecies, ParticleFile, SharedNumber,
+    box_mistake, displacements, frozen_layers, place_of_frame, triclinic,
 };
 use crate::state::MOST_PARTICLES;
 use std::collections::HashMap;
@@ -207,11 +207,17 @@ impl Gsd {
         let velocities = self.of_particles("particles/velocity", count, first_serves)?.unwrap_or_default();
         let images = self.of_particles::<3>("particles/image", count, first_serves)?.unwrap_or_default();
         let mut mistakes = Mistakes::default();
-        let mut masses = SpeciesMasses::default();
-        let of_particles = self.of_particles::<1>("particles/mass", count, first_serves)?.unwrap_or_default();
-        for (particle, ([mass], species)) in of_particles.into_iter().zip(&types).enumerate() {
-            masses.add(*species as usize, mass, || particle.to_string());
-        }
+        let mut of_species = |name: &str, shared: SharedNumber| -> Result<_, Mistakes> {
+            let mut numbers = NumbersOfSpecies::new(shared);
+            let of_particles = self.of_particles::<1>(name, count, first_serves)?.unwrap_or_default();
+            for (particle, ([number], species)) in of_particles.into_iter().zip(&types).enumerate() {
+                numbers.add(*species as usize, number, || particle.to_string());
+            }
+            Ok(numbers.finish(&species))
+        };
+        let (masses, mass_mistakes) = of_species("particles/mass", MASS)?;
+        let (charges, charge_mistakes) = of_species("particles/charge", CHARGE)?;
+        mistakes.extend(mass_mistakes);
         let dimension = self.number("configuration/dimensions")?.filter(|number| [2, 3].contains(number));
         let (lengths, displacements, dimension) = self.lengths(dimension.map(|number| number as usize))?;
         let is_image = |image: &[f64; 3]| image.iter().all(|turns| i32::try_from(*turns as i64).is_ok());
@@ -219,13 +225,14 @@ impl Gsd {
             let found = format!("found images of particle {particle} beyond 32 bits: {:?}", images[particle]);
             mistakes.push(Mistake::new(self.place(), found, "images from -2147483648 to 2147483647"));
         }
-        let masses = masses.finish(&species, &mut mistakes);
         let (bonds, angles) = (self.links("bonds")?, self.links("angles")?);
         mistakes.refuse()?;
         Ok(ParticleFile {
             labelled: true,
             types,
             masses,
+            charges,
+            charge_mistakes,
             dimension: Some(dimension),
             origin: lengths.map(|length| -0.5 * length),
             lengths: Some(lengths),
@@ -265,8 +272,8 @@ impl Gsd {
     /// Arrays of particles and of topology that are read by nobody.
     fn unused(&self) -> Vec<String> {
         const NAMES: &str = "\
-            particles/charge particles/diameter particles/body particles/moment_inertia particles/orientation \
-            particles/angmom particles/type_shapes dihedrals/group impropers/group constraints/group pairs/group";
+            particles/diameter particles/body particles/moment_inertia particles/orientation particles/angmom \
+            particles/type_shapes dihedrals/group impropers/group constraints/group pairs/group";
         let is_there = |name: &&str| self.entry_or_first(name, true).is_some_and(|entry| entry.rows > 0);
         NAMES.split(' ').filter(is_there).map(|name| format!("`{name}`")).collect()
     }

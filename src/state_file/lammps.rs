@@ -6,7 +6,10 @@
 use super::atom_style::{AtomStyle, HYBRID};
 use super::lines::Lines;
 use super::tally::Tally;
-use super::{FORMATS, Fits, Links, Mistake, Mistakes, ParticleFile, box_mistake, shortened, triclinic, vector};
+use super::{
+    CHARGE, FORMATS, Fits, Links, Mistake, Mistakes, NumbersOfSpecies, ParticleFile, box_mistake, shortened, triclinic,
+    vector,
+};
 use crate::state::MOST_PARTICLES;
 use std::collections::HashMap;
 use std::fs::File;
@@ -123,6 +126,7 @@ struct Reader<'a> {
     ahead: Option<(&'static str, String)>,
     kinds: [Types; 3],
     masses: Vec<Option<f64>>,
+    charges: NumbersOfSpecies,
     atoms: Vec<Atom>,
     velocities: Vec<(u64, [f64; 3])>,
     bonds: Vec<([u64; 2], u32)>,
@@ -143,6 +147,7 @@ pub(super) fn read(
         ahead: None,
         kinds: Default::default(),
         masses: Vec::new(),
+        charges: NumbersOfSpecies::new(CHARGE),
         atoms: Vec::new(),
         velocities: Vec::new(),
         bonds: Vec::new(),
@@ -410,6 +415,10 @@ impl Reader<'_> {
         let image = (!atom.images.is_empty()).then(|| vector(atom.images, |word| word.parse().ok()));
         let accepted = "images, whole numbers from -2147483648 to 2147483647";
         let image = image.map(|image| image.ok_or(accepted)).transpose()?;
+        // A style has finite numbers.
+        if let Some(charge) = atom.charge.and_then(|word| word.parse().ok()) {
+            self.charges.add(kind as usize, charge, || id.to_string());
+        }
         self.atoms.push(Atom { id, kind, position, image });
         Ok(())
     }
@@ -463,12 +472,15 @@ impl Reader<'_> {
         }
         self.mistakes.refuse()?;
         self.masses.resize(self.kinds[0].count as usize, None);
+        let (charges, charge_mistakes) = self.charges.finish(&self.kinds[0].names());
         let bounds = self.header.bounds.map(Option::unwrap_or_default);
         Ok(ParticleFile {
             species: self.kinds[0].names(),
             labelled: !self.kinds[0].labels.is_empty(),
             types: self.atoms.iter().map(|atom| atom.kind).collect(),
             masses: self.masses,
+            charges,
+            charge_mistakes,
             origin: bounds.map(|[low, _]| low),
             lengths: Some(bounds.map(|[low, high]| high - low)),
             positions: self.atoms.iter().map(|atom| atom.position).collect(),

@@ -56,6 +56,10 @@ pub struct ParticleFile {
     pub numbers: Vec<u64>,
     /// Masses of the species, where the file has them.
     pub masses: Vec<Option<f64>>,
+    /// Charges of the species, where the file has them.
+    pub charges: Vec<Option<f64>>,
+    /// What keeps the charges from being used, where they are.
+    pub charge_mistakes: Vec<Mistake>,
     /// Number of dimensions, where the file says so.
     pub dimension: Option<usize>,
     /// The lower corner of the box.
@@ -474,36 +478,59 @@ pub(crate) fn frozen_layers(place: impl Into<String>, count: u64) -> Mistake {
     Mistake::new(place, found, accepted)
 }
 
-/// Masses of species from those of particles: of one species all are the same.
-#[derive(Debug, Default)]
-struct SpeciesMasses {
-    masses: Vec<Option<f64>>,
+/// A number that all particles of a species share.
+#[derive(Debug, Clone, Copy)]
+struct SharedNumber {
+    noun: &'static str,
+    is_possible: fn(f64) -> bool,
+    accepted: &'static str,
+}
+
+const MASS: SharedNumber = SharedNumber {
+    noun: "masses",
+    is_possible: |mass| mass.is_finite() && mass > 0.0,
+    accepted: "one mass for a species, greater than zero: give particles of another mass another species",
+};
+const CHARGE: SharedNumber = SharedNumber {
+    noun: "charges",
+    is_possible: |charge| (-1024.0..=1024.0).contains(&charge),
+    accepted: "one charge for a species, from -1024 to 1024: give particles of another charge another species",
+};
+
+/// A number of species from those of particles: of one species all are the same.
+#[derive(Debug)]
+struct NumbersOfSpecies {
+    of: SharedNumber,
+    numbers: Vec<Option<f64>>,
     different: Vec<Tally>,
 }
 
-impl SpeciesMasses {
-    fn add(&mut self, species: usize, mass: f64, particle: impl FnOnce() -> String) {
-        if species >= self.masses.len() {
-            self.masses.resize(species + 1, None);
+impl NumbersOfSpecies {
+    fn new(of: SharedNumber) -> Self {
+        Self { of, numbers: Vec::new(), different: Vec::new() }
+    }
+
+    fn add(&mut self, species: usize, number: f64, particle: impl FnOnce() -> String) {
+        if species >= self.numbers.len() {
+            self.numbers.resize(species + 1, None);
             self.different.resize_with(species + 1, Tally::default);
         }
-        let known = *self.masses[species].get_or_insert(mass);
-        // A mass that is no number is not even equal to itself.
-        if known != mass || !(mass.is_finite() && mass > 0.0) {
+        let known = *self.numbers[species].get_or_insert(number);
+        // What is no number is not even equal to itself.
+        if known != number || !(self.of.is_possible)(number) {
             self.different[species].add(particle);
         }
     }
 
-    /// The masses of all species; what differs within one is a mistake.
-    fn finish(mut self, species: &[String], mistakes: &mut Mistakes) -> Vec<Option<f64>> {
-        for (index, tally) in self.different.into_iter().enumerate() {
-            let Some(known) = self.masses[index] else { continue };
-            let what = format!("of `{}` with other masses than {known}", species[index]);
-            let accepted = "one mass for a species, greater than zero: give particles of another mass another species";
-            mistakes.extend(tally.mistake("particle", &what, accepted));
-        }
-        self.masses.resize(species.len(), None);
-        self.masses
+    /// The numbers of all species, and the mistakes: numbers that differ within one.
+    fn finish(mut self, species: &[String]) -> (Vec<Option<f64>>, Vec<Mistake>) {
+        let mistake = |(index, tally): (usize, Tally)| {
+            let what = format!("of `{}` with other {} than {}", species[index], self.of.noun, self.numbers[index]?);
+            tally.mistake("particle", &what, self.of.accepted)
+        };
+        let mistakes = std::mem::take(&mut self.different).into_iter().enumerate().filter_map(mistake).collect();
+        self.numbers.resize(species.len(), None);
+        (self.numbers, mistakes)
     }
 }
 

@@ -265,8 +265,7 @@ impl Request {
                 return false;
             }
             ["temperature", "space", "particles"].iter().any(|start| key.starts_with(start))
-                || key.starts_with("interactions")
-                    && ["repulsion", "friction", "viscosity", "stiffness"].contains(&last)
+                || key.starts_with("interactions") && OF_PHYSICS.contains(&last)
         };
         self.sweep.keys().into_iter().filter(is_physical).collect()
     }
@@ -300,6 +299,20 @@ fn check_finer(option: &str, argument: &str) -> Result<(), StudyError> {
     }
     Ok(())
 }
+
+/// Keys of interactions that say what these are, and not how they are computed.
+const OF_PHYSICS: [&str; 10] = [
+    "repulsion",
+    "friction",
+    "viscosity",
+    "stiffness",
+    "cutoff",
+    "strength",
+    "bjerrum_length",
+    "width",
+    "field",
+    "frequency",
+];
 
 #[cfg(test)]
 mod tests {

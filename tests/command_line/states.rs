@@ -42,13 +42,24 @@ fn melt() -> Value {
     })
 }
 
+/// The same with charges.
+fn charged_melt() -> Value {
+    let mut scene = melt();
+    for (group, charge) in [(0, -0.75), (1, 0.5)] {
+        scene["particles"][group]["charge"] = json!(charge);
+    }
+    let interactions = scene["interactions"].as_array_mut().unwrap();
+    interactions.push(json!({"type": "electrostatics", "bjerrum_length": 1.1}));
+    scene
+}
+
 /// The scene with the file of a state, and groups that leave out what the file says.
 fn with_state(scene: &Value, state: Value) -> Value {
     let mut scene = scene.clone();
     scene["state"] = state;
     scene.as_object_mut().unwrap().remove("space");
     for group in scene["particles"].as_array_mut().unwrap() {
-        for key in ["count", "mass", "chain"] {
+        for key in ["count", "mass", "charge", "chain"] {
             group.as_object_mut().unwrap().remove(key);
         }
     }
@@ -80,7 +91,7 @@ fn difference(a: &State, b: &State) -> [f64; 2] {
 #[test]
 fn what_was_written_is_read_back() {
     let place = tempfile::tempdir().unwrap();
-    let text = melt();
+    let text = charged_melt();
     let written = scene::parse("melt", &text.to_string(), &[]).unwrap();
     let (model, mut state) = start(&written);
     // Somewhere else than at the start, and round the box.
@@ -121,6 +132,7 @@ fn what_was_written_is_read_back() {
         assert_eq!((&found.species, &found.images), (&state.species, &state.images), "{file}");
         let masses: Vec<f64> = read.species.iter().map(|species| species.mass).collect();
         assert_eq!(masses, [1.5, 1.0], "{file}");
+        assert_eq!([0, 1].map(|species| read.species[species].charge), [-0.75, 0.5], "{file}");
         let bonds = |model: &mesoscope::families::Model| {
             model.particles().bonds.as_ref().map_or(0, |bonds| bonds.iter().count())
         };

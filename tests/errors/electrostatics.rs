@@ -82,6 +82,22 @@ fn scenes_without_what_charges_need() {
 }
 
 #[test]
+fn structure_factors_of_charge() {
+    let factor = |more: &str| format!(r#"output.structure_factor={{"every":10,"range":6,"charges":true{more}}}"#);
+    SALT.accepted(&[&factor("")]);
+    SALT.refused_with(
+        &[&factor(r#","species":"water""#)],
+        &["output.structure_factor.species: found together with `charges`; accepted: one of them"],
+    );
+    let neutral =
+        ["particles.1.charge=0", "particles.2.charge=0", "interactions.1={\"type\":\"langevin\",\"friction\":1}"];
+    SALT.refused_with(
+        &[&neutral[..], &[&factor("")]].concat(),
+        &["output.structure_factor.charges: found no particle with a charge; accepted: a `charge` other than 0"],
+    );
+}
+
+#[test]
 fn charges_too_strong_for_integers() {
     let few = ["particles.1.count=1", "particles.2.count=1", "particles.1.charge=128", "particles.2.charge=-128"];
     let strong = [&few[..], &["interactions.1.bjerrum_length=10"]].concat();

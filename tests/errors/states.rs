@@ -530,6 +530,62 @@ fn atoms(heading: &str, lines: [&str; 4]) -> String {
     )
 }
 
+/// Charges of a file are those of its species, where groups give none; what differs within a species cannot be.
+#[test]
+fn charges_of_lammps() {
+    let alike = ["1 1 1 -.5 1 1 1", "2 1 2 0.5 2 2 2", "3 2 1 -0.5 3 3 3", "4 2 2 0.5 4 4 4"];
+    let different = ["1 1 1 0.0 1 1 1", "2 1 2 0.5 2 2 2", "3 2 1 -0.5 3 3 3", "4 2 2 0.5 4 4 4"];
+    let read = |lines: [&str; 4], groups: Value, acts: bool| {
+        let place = Place::of("init", atoms("Atoms # full", lines));
+        let interactions =
+            if acts { json!([{"type": "electrostatics", "bjerrum_length": 1, "spacing": 0.6}]) } else { json!([]) };
+        let changes = [
+            ("/state/velocities", json!("rest")),
+            ("/particles", groups),
+            ("/interactions", interactions),
+            ("/output/structure_factor", json!({"every": 1, "range": 3, "charges": true})),
+        ];
+        let changes = if acts { &changes[..] } else { &changes[..3] };
+        fs::write(place.path().join("scene.json"), text("init", changes)).unwrap();
+        let scene = scene::load(place.path().join("scene.json").to_str().unwrap(), &[]);
+        match scene {
+            Ok(scene) => {
+                let charges = scene.model().species.iter().map(|species| species.charge).collect::<Vec<_>>();
+                let notices = scene.notices().iter().map(ToString::to_string);
+                let notices: Vec<String> = notices.filter(|notice| notice.contains("charge")).collect();
+                Ok((charges, notices))
+            }
+            Err(SceneError::Invalid { problems, .. }) => Err(problems.iter().map(ToString::to_string).collect()),
+            Err(error) => panic!("{error}"),
+        }
+    };
+    let (none, given) = (
+        json!([{"species": "A"}, {"species": "B"}]),
+        |charge: f64| json!([{"species": "A", "charge": -charge}, {"species": "B", "charge": charge}]),
+    );
+    assert_eq!(read(alike, none.clone(), true), Ok((vec![-0.5, 0.5], Vec::new())));
+    assert_eq!(read(alike, none.clone(), false), Ok((vec![-0.5, 0.5], Vec::new())));
+    let unused = |name: &str, charge: f64, index: usize, given: f64| {
+        format!("state.file: the charge {charge} of `{name}` is not used: particles[{index}] gives {given}")
+    };
+    let expected = vec![unused("A", -0.5, 0, -1.0), unused("B", 0.5, 1, 1.0)];
+    assert_eq!(read(alike, given(1.0), true), Ok((vec![-1.0, 1.0], expected)));
+    let differ = "state.file: not used of `init`: charges, which differ within a species".to_owned();
+    assert_eq!(read(different, given(1.0), true), Ok((vec![-1.0, 1.0], vec![differ.clone()])));
+    assert_eq!(read(different, none.clone(), false), Ok((vec![0.0, 0.0], vec![differ])));
+    let refusal = |species: &str, particle: u32, known: &str| {
+        format!(
+            "state.file: `init`: found particle {particle} of `{species}` with other charges than {known}; accepted: one charge for a \
+             species, from -1024 to 1024: give particles of another charge another species"
+        )
+    };
+    assert_eq!(read(different, none.clone(), true), Err(vec![refusal("1", 3, "0")]));
+    let large = ["1 1 1 -.5 1 1 1", "2 1 2 1025 2 2 2", "3 2 1 -0.5 3 3 3", "4 2 2 1025 4 4 4"];
+    let all = "state.file: `init`: found particles 2, 4 of `2` with other charges than 1025; accepted: one charge for a species, from -1024 \
+               to 1024: give particles of another charge another species";
+    assert_eq!(read(large, none, true), Err(vec![all.to_owned()]));
+}
+
 /// Six columns are a molecule, a charge or a density; only five are of one style. The scene may say which it is.
 #[test]
 fn styles_of_lammps_are_not_guessed() {
@@ -560,14 +616,14 @@ fn styles_of_lammps_are_not_guessed() {
     let unused = |what: &str| Ok(vec![format!("state.file: not used of `init`: {what}")]);
     for (heading, lines, style, expected) in [
         ("Atoms", plain, None, Ok(Vec::new())),
-        ("Atoms # charge", charged, None, unused("charges")),
-        ("Atoms", charged, Some("charge"), unused("charges")),
+        ("Atoms # charge", charged, None, unused("charges, which differ within a species")),
+        ("Atoms", charged, Some("charge"), unused("charges, which differ within a species")),
         ("Atoms # of my own", charged, Some("mdpd"), unused("densities")),
         ("Atoms # mdpd", charged, None, unused("densities")),
-        ("Atoms #full", full, None, unused("charges")),
-        ("Atoms", full, Some("full"), unused("charges")),
-        ("Atoms # hybrid", hybrid, Some("hybrid molecular charge"), unused("charges")),
-        ("Atoms # hybrid bond charge", hybrid, None, unused("charges")),
+        ("Atoms #full", full, None, unused("charges, which differ within a species")),
+        ("Atoms", full, Some("full"), unused("charges, which differ within a species")),
+        ("Atoms # hybrid", hybrid, Some("hybrid molecular charge"), unused("charges, which differ within a species")),
+        ("Atoms # hybrid bond charge", hybrid, None, unused("charges, which differ within a species")),
         ("Atoms # atomic", plain, Some("atomic"), Ok(Vec::new())),
     ] {
         assert_eq!(read(&atoms(heading, lines), style), expected, "{heading} {style:?}");

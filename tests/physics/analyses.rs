@@ -316,6 +316,48 @@ fn density_waves_are_those_of_the_reference() {
     }
 }
 
+/// The structure factor of charge is the sum of those of all pairs of species, each weighed by the two charges and the numbers of particles.
+#[test]
+fn charges_scatter_as_pairs_of_species_do() {
+    let species = [(40.0, 1.5), (60.0, -1.0), (100.0, 0.0)];
+    let measured = |more: &str| {
+        let directory = tempfile::tempdir().unwrap();
+        let output = format!(r#"output.structure_factor={{"every":10,"range":8,"bins":12,"vectors":9{more}}}"#);
+        let outcome = run(
+            fluid(&[
+                r#"particles=[{"species":"A","count":40,"charge":1.5},{"species":"B","count":60,"charge":-1},{"species":"C","count":100}]"#,
+                r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},{"type":"electrostatics","bjerrum_length":5}]"#,
+                "space.box=[4,4,4]",
+                "time.step=0.02",
+                "time.steps=100",
+                "time.equilibration=0",
+                &output,
+            ]),
+            directory.path(),
+        );
+        (outcome, table(directory.path(), "structure_factor.csv"))
+    };
+    let (_, pairs) = measured(r#","species":"all-pairs""#);
+    let (outcome, charges) = measured(r#","charges":true"#);
+    assert_eq!(charges.columns[2..], ["charge_structure_factor", "charge_structure_factor_error"]);
+    assert_eq!(outcome.summary.results["structure_factor"]["charges"], true);
+    let all: f64 = species.iter().map(|(count, charge)| count * charge * charge).sum();
+    for (row, charged) in pairs.rows.iter().zip(&charges.rows) {
+        let mut expected = 0.0;
+        let mut column = 2;
+        for (b, (of_b, q_b)) in species.iter().enumerate() {
+            for (a, (of_a, q_a)) in species[..=b].iter().enumerate() {
+                let times = if a == b { 1.0 } else { 2.0 };
+                expected += times * q_a * q_b * (of_a * of_b).sqrt() * row[column] / all;
+                column += 2;
+            }
+        }
+        assert!((charged[2] - expected).abs() < 1e-9, "{row:?} {charged:?} {expected}");
+    }
+    // Charges screen each other: long waves of charge are weaker than those of charges at random places.
+    assert!(charges.rows[0][2] < 0.5, "{:?}", charges.rows[0]);
+}
+
 /// Particles on a cubic lattice scatter with all their number where the wave vector is one of the reciprocal lattice, and not at all elsewhere.
 #[test]
 fn a_lattice_scatters_where_its_planes_do() {

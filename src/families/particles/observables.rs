@@ -2,6 +2,7 @@
 
 use super::space::walls::plan as walls;
 use super::sums::sums;
+use crate::families::particles::terms::electrostatics::Electrostatics;
 use crate::families::{BathProducts, Column, Model, Observables, OnWalls, Particles, Transfer, column};
 use crate::plan::Plan;
 use crate::shaders::Sum;
@@ -18,7 +19,7 @@ pub(super) fn observables(step: u64, values: &[i64], plan: &Plan, model: &Model)
     let electrostatics = model.particles().electrostatics.as_ref();
     let [own_energy, own_laplacian] = electrostatics.map_or([0.0; 2], |electrostatics| {
         let volume = units.lengths.iter().product();
-        let mobile = electrostatics.mobile_part(&model.species);
+        let mobile = Electrostatics::mobile_part(&model.species);
         [electrostatics.own_energy(), mobile * electrostatics.own_laplacian(volume)]
     });
     Observables {

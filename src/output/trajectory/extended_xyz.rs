@@ -90,8 +90,9 @@ fn write_frame(text: &mut Vec<u8>, description: &Description, state: &Reported) 
     writeln!(
         text,
         "Lattice=\"{x} 0 0 {second} {y} 0 {third} 0 {z}\" \
-         Properties=species:S:1:pos:R:3:velo:R:3:masses:R:1:momenta:R:3{}{}{} pbc=\"{periodic}\" Step={} \
+         Properties=species:S:1:pos:R:3:velo:R:3:masses:R:1:momenta:R:3{}{}{}{} pbc=\"{periodic}\" Step={} \
          Time={time} {}={}{frozen}",
+        if description.are_charged() { ":initial_charges:R:1" } else { "" },
         if description.shear.is_none() { ":map_shift:I:3" } else { "" },
         if description.numbers.is_some() { ":id:I:1" } else { "" },
         if named { ":species_name:S:1" } else { "" },
@@ -114,6 +115,9 @@ fn write_frame(text: &mut Vec<u8>, description: &Description, state: &Reported) 
         let [p, q, r] = velocity.map(|value| (mass * value) as f32);
         let symbol = symbols[species];
         write!(text, "{symbol} {x} {y} {z} {u} {v} {w} {} {p} {q} {r}", mass as f32)?;
+        if description.are_charged() {
+            write!(text, " {}", description.species[species].charge as f32)?;
+        }
         if description.shear.is_none() {
             let [i, j, k] = state.image(particle);
             write!(text, " {i} {j} {k}")?;

@@ -2,7 +2,7 @@
 //!
 //! The box is centred: positions lie in `[-L/2, L/2)`. A two-dimensional box has Lz = 0, as HOOMD wants it; it knows no line,
 //! which is written as a plane on which all particles have y = 0. Every frame has its step, its time (`log/time`) and the
-//! particles' images: position plus image times box is the way since the start. What never changes (box, types, masses,
+//! particles' images: position plus image times box is the way since the start. What never changes (box, types, masses, charges,
 //! bonds, angles, the id of the run as the text `log/run_id`) is written in the first frame, from which readers take it for all others.
 //!
 //! Where boundaries shear, every frame has its box, whose tilt `xy` or `xz` says how far they are displaced, and no images.
@@ -228,6 +228,10 @@ fn write_constants(frame: &mut Frame, description: &Description, state: &Reporte
     frame.scalars("particles/N", [state.len() as u32])?;
     frame.arrays("particles/types", description.species.iter().map(|species| type_name(&species.name)))?;
     frame.scalars("particles/typeid", state.species.iter().copied())?;
+    if description.are_charged() {
+        let charge = |species: &u32| description.species[*species as usize].charge as f32;
+        frame.scalars("particles/charge", state.species.iter().map(charge))?;
+    }
     if let Some(frozen) = description.frozen_particles(state) {
         frame.scalars(FROZEN_IN_GSD, [frozen as u32])?;
     }
@@ -336,7 +340,7 @@ const INTEGERS: [&str; 8] =
 fn is_ours(name: &str, chunk: Chunk) -> bool {
     let [byte, integer, long, real, double] = [u8::KIND, u32::KIND, u64::KIND, f32::KIND, f64::KIND];
     let expected = match name {
-        "configuration/box" | "particles/mass" => (real, 1),
+        "configuration/box" | "particles/mass" | "particles/charge" => (real, 1),
         "configuration/dimensions" | RUN => (byte, 1),
         _ if INTEGERS.contains(&name) => (integer, 1),
         "particles/types" | "bonds/types" | "angles/types" => (i8::KIND, NAME as u32),

@@ -156,6 +156,11 @@ impl Description {
         tilts
     }
 
+    /// True if particles have charges.
+    fn are_charged(&self) -> bool {
+        self.species.iter().any(|species| species.charge != 0.0)
+    }
+
     /// Particles in layers behind walls, if there are any.
     fn frozen_particles(&self, state: &Reported) -> Option<usize> {
         let frozen = state.species.iter().filter(|species| self.species[**species as usize].frozen).count();

@@ -66,6 +66,12 @@ const STRUCTURE_FACTOR: &[Quantity] = &[
         NUMBER,
         "⟨ρ_a ρ_b*⟩/√(N_a N_b), 1 for pairs of an ideal gas within a species and 0 between two",
     ),
+    quantity(
+        "charge_structure_factor",
+        "S_ZZ",
+        NUMBER,
+        "⟨ρ_Z ρ_Z*⟩/Σq², ρ_Z(q) = Σ q e^(-iq·r) of the charges, 1 for charges at random places",
+    ),
     quantity("vectors", "n", NUMBER, "wave vectors of the bin, of every two that point against each other one"),
     quantity("peak_wave_number", "q_p", WAVE_NUMBER, "wave number of the maximum"),
     quantity("peak_height", "S(q_p)", NUMBER, "height of the maximum"),

@@ -22,9 +22,12 @@ use serde_json::{Value, json};
 /// Columns of the table, and names in the result.
 const WAVE_NUMBER: &str = "wave_number";
 const VALUE: &str = "structure_factor";
+const OF_CHARGE: &str = "charge_structure_factor";
 const VECTORS: &str = "vectors";
 const PEAK_WAVE_NUMBER: &str = "peak_wave_number";
 const PEAK_HEIGHT: &str = "peak_height";
+/// True in the result of charges.
+const CHARGES: &str = "charges";
 
 /// The unit of amplitudes.
 const UNIT: f64 = 1.0 / 16_777_216.0;
@@ -112,7 +115,7 @@ impl Descriptor for StructureFactor {
         let curves = || sets.curves.iter().enumerate();
         let suffix = |place: usize| sets.pairs.suffix(sets.curves[place].place);
         let columns = curves().flat_map(|(place, _)| {
-            let name = format!("{VALUE}{}", suffix(place));
+            let name = format!("{}{}", sets.value, suffix(place));
             [name.clone(), format!("{name}_error")]
         });
         let names = [WAVE_NUMBER, VECTORS].map(str::to_owned).into_iter().chain(columns);
@@ -139,6 +142,9 @@ impl Descriptor for StructureFactor {
                 if let Some(pair) = sets.pairs.names(curve.place, model) {
                     found[SPECIES] = json!(pair);
                 }
+                if asked.charges {
+                    found[CHARGES] = json!(true);
+                }
                 found
             });
             Ok(sets.pairs.result(found.collect()))
@@ -152,21 +158,24 @@ impl Descriptor for StructureFactor {
 
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let wave_numbers = drawn.column(WAVE_NUMBER);
-        let columns = drawn.table.columns.iter().filter(|name| name.starts_with(VALUE) && !name.ends_with("_error"));
+        let columns = drawn.table.columns.iter().filter(|name| name.contains(VALUE) && !name.ends_with("_error"));
+        let symbol = symbol(drawn.result);
         let curve = |(column, result): (&String, &Value)| {
             let points = wave_numbers.iter().zip(drawn.column(column)).map(|(q, value)| [*q, value]).collect();
-            let name = pair_in_words(names(result)).unwrap_or_else(|| "S(q)".to_owned());
+            let name = pair_in_words(names(result)).unwrap_or_else(|| symbol.to_owned());
             Series::line(&name, points).with_band(drawn.column(&format!("{column}_error"))).with_ink(drawn.ink(result))
         };
-        let mut panel = Panel::new("Wave number q (1/length unit)", "Structure factor S(q)");
+        let of_charge = if drawn.result[CHARGES].is_boolean() { " of charge" } else { "" };
+        let mut panel = Panel::new("Wave number q (1/length unit)", &format!("Structure factor{of_charge} {symbol}"));
         panel.x.range = wave_numbers.last().map(|last| [0.0, *last]);
         panel.series = columns.zip(results_of(drawn.result)).map(curve).collect();
-        let panel = panel.with_reference("ideal gas", 1.0);
+        let panel =
+            panel.with_reference(if of_charge.is_empty() { "ideal gas" } else { "charges at random places" }, 1.0);
         Chart { title: drawn.title().to_owned(), panels: vec![panel], ..Chart::default() }
     }
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        printed_peaks(result, "S(q)", [PEAK_HEIGHT, PEAK_WAVE_NUMBER])
+        printed_peaks(result, symbol(result), [PEAK_HEIGHT, PEAK_WAVE_NUMBER])
     }
 
     fn finds(&self, scene: &Checked) -> Vec<&'static str> {
@@ -174,6 +183,11 @@ impl Descriptor for StructureFactor {
         let pairs = asked.map(|asked| SpeciesPairs::of(asked.species.as_ref(), scene.model()));
         pairs.filter(|pairs| !pairs.are_all()).map_or_else(Vec::new, |_| vec![PEAK_WAVE_NUMBER, PEAK_HEIGHT])
     }
+}
+
+/// The symbol of a result.
+fn symbol(result: &Value) -> &'static str {
+    if result[CHARGES].is_boolean() { "S_ZZ(q)" } else { "S(q)" }
 }
 
 /// The edges of the box that positions are periodic along.
@@ -185,6 +199,8 @@ fn edges(model: &Model) -> [Option<f64>; 3] {
 /// The density of particles that a wave of a species has, or of all; and the pairs of these whose products are taken.
 struct Sets {
     pairs: SpeciesPairs,
+    /// The column.
+    value: &'static str,
     /// Species by their numbers; one that stands for all where waves are of none.
     species: Vec<i32>,
     are_of_species: bool,
@@ -195,16 +211,18 @@ struct Sets {
 struct Curve {
     /// Its place among the pairs of species.
     place: usize,
-    /// Places among the species of the two densities.
-    of: [Vec<usize>; 2],
-    /// `√(N_a N_b)`.
+    /// Places among the species of the two densities, and what a particle counts there.
+    of: [Vec<(usize, f64)>; 2],
+    /// `√(N_a N_b)`, where particles do not count as one with the squares of what they count.
     particles: f64,
 }
 
 impl Curve {
     /// `Re ρ_a ρ_b*` over `√(N_a N_b)`.
     fn product(&self, amplitudes: &[[f64; 2]]) -> f64 {
-        let density = |places: &[usize], part: usize| places.iter().map(|place| amplitudes[*place][part]).sum::<f64>();
+        let density = |places: &[(usize, f64)], part: usize| -> f64 {
+            places.iter().map(|(place, weight)| weight * amplitudes[*place][part]).sum()
+        };
         [0, 1].map(|part| density(&self.of[0], part) * density(&self.of[1], part)).iter().sum::<f64>() / self.particles
     }
 }
@@ -214,7 +232,8 @@ impl Sets {
         let pairs = SpeciesPairs::of(asked.species.as_ref(), model);
         let count =
             |number: usize| model.species.get(number).filter(|found| !found.frozen).map_or(0, |found| found.count);
-        let free: Vec<usize> = (0..model.species.len()).filter(|number| count(*number) > 0).collect();
+        let counts = |number: &usize| count(*number) > 0 && !(asked.charges && model.species[*number].charge == 0.0);
+        let free: Vec<usize> = (0..model.species.len()).filter(counts).collect();
         let numbers = match pairs {
             SpeciesPairs::Between(pair) => {
                 let mut numbers = pair.to_vec();
@@ -224,11 +243,19 @@ impl Sets {
             SpeciesPairs::Alike | SpeciesPairs::All(_) => free.clone(),
         };
         // Frozen particles have no part in the density of all.
-        let is_whole = pairs == SpeciesPairs::Alike && model.frozen_particles() == 0;
-        let place = |number: usize| numbers.iter().position(|known| *known == number).into_iter().collect::<Vec<_>>();
+        let is_whole = pairs == SpeciesPairs::Alike && !asked.charges && model.frozen_particles() == 0;
+        let place = |number: usize| {
+            let place = numbers.iter().position(|known| *known == number);
+            place.map(|place| (place, 1.0)).into_iter().collect::<Vec<_>>()
+        };
         let curves: Vec<Curve> = if pairs == SpeciesPairs::Alike {
-            let all: Vec<usize> = if is_whole { vec![0] } else { (0..numbers.len()).collect() };
-            let particles = free.iter().map(|number| count(*number)).sum::<u64>() as f64;
+            let weight = |number: usize| if asked.charges { model.species[number].charge } else { 1.0 };
+            let all: Vec<(usize, f64)> = if is_whole {
+                vec![(0, 1.0)]
+            } else {
+                numbers.iter().enumerate().map(|(place, number)| (place, weight(*number))).collect()
+            };
+            let particles = free.iter().map(|number| weight(*number).powi(2) * count(*number) as f64).sum();
             vec![Curve { place: 0, of: [all.clone(), all], particles }]
         } else {
             let pair = |(index, [a, b]): (usize, [usize; 2])| Curve {
@@ -241,6 +268,7 @@ impl Sets {
         let species = if is_whole { vec![0] } else { numbers.iter().map(|number| *number as i32).collect() };
         Self {
             pairs,
+            value: if asked.charges { OF_CHARGE } else { VALUE },
             species,
             are_of_species: !is_whole,
             curves: curves.into_iter().filter(|curve| curve.particles > 0.0).collect(),

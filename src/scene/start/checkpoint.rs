@@ -141,6 +141,7 @@ fn of_state(model: &Model, state: &State) -> Result<ParticleFile, Mistake> {
         labelled: true,
         types: state.species.clone(),
         masses: model.species.iter().map(|species| Some(species.mass)).collect(),
+        charges: model.species.iter().map(|species| Some(species.charge)).collect(),
         dimension: Some(model.units.dimension),
         lengths: Some(model.units.edges()),
         displacements: displacements(model, model.clock(state.step)),

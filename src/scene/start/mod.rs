@@ -24,15 +24,37 @@ use weight::Weighing;
 
 pub use weight::Fits;
 
-/// Reads the file of a scene's state, if it has one, which lies beside a scene of that name or where `files` says; `masses` says which
-/// groups give theirs. Completes the scene by the box, the numbers of particles, masses and the checksum. Notices say what is not used.
+/// The numbers that a group of a scene gives itself, and not a file.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Given {
+    mass: bool,
+    charge: bool,
+}
+
+impl Given {
+    /// Those of a group as it is written.
+    pub(super) fn of_group(group: &serde_json::Value) -> Self {
+        let has = |key| group.get(key).is_some();
+        Self { mass: has("mass"), charge: has("charge") }
+    }
+}
+
+/// A number of groups that a file may have.
+struct Adopted {
+    noun: &'static str,
+    is_given: fn(&Given) -> bool,
+    number: fn(&mut ParticleGroup) -> &mut f64,
+}
+
+/// Reads the file of a scene's state, if it has one, which lies beside a scene of that name or where `files` says; `given` says which
+/// numbers groups give themselves. Completes the scene by the box, the numbers of particles, masses, charges and the checksum. Notices say what is not used.
 /// `fits` decides of the number of particles before they are read or placed.
 ///
 /// # Errors
 /// [`SceneError::StateChanged`] if the file is not what it was, and what `fits` returns.
 pub(super) fn read(
     scene: &mut Scene,
-    masses: &[bool],
+    given: &[Given],
     (name, files): (&str, &StateFiles),
     fits: Option<&Fits<'_>>,
     notices: &mut Vec<Warning>,
@@ -48,7 +70,7 @@ pub(super) fn read(
     if !problems.is_empty() {
         return Ok(problems);
     }
-    let Some(state) = scene.state.clone() else { return of_molecules(scene, masses, fits, problems, notices) };
+    let Some(state) = scene.state.clone() else { return of_molecules(scene, given, fits, problems, notices) };
     let path = files.path(name, &state.file);
     let weighing = Weighing::of(scene, fits);
     let read = particles(&path, &state, &|count| weighing.file(count));
@@ -68,13 +90,13 @@ pub(super) fn read(
     };
     let checksum = places::checksum(&file);
     files.check(&path, &state, &checksum)?;
-    Ok(adopted(scene, masses, Reader::new(&state, &file, run, Some(checksum)), "state.file", notices))
+    Ok(adopted(scene, given, Reader::new(&state, &file, run, Some(checksum)), "state.file", notices))
 }
 
 /// Places the molecules of a scene and completes it, as by a file.
 fn of_molecules(
     scene: &mut Scene,
-    masses: &[bool],
+    given: &[Given],
     fits: Option<&Fits<'_>>,
     mut problems: Problems,
     notices: &mut Vec<Warning>,
@@ -96,18 +118,18 @@ fn of_molecules(
         outside: OutsidePositions::Refuse,
         checksum: None,
     };
-    Ok(adopted(scene, masses, Reader::new(&state, &file, None, None), MOLECULES, notices))
+    Ok(adopted(scene, given, Reader::new(&state, &file, None, None), MOLECULES, notices))
 }
 
 /// Takes what a reader has into a scene; the mistakes.
 fn adopted(
     scene: &mut Scene,
-    masses: &[bool],
+    given: &[Given],
     mut reader: Reader<'_>,
     path: &str,
     notices: &mut Vec<Warning>,
 ) -> Problems {
-    reader.adopt(scene, masses);
+    reader.adopt(scene, given);
     notices.extend(reader.notices.into_iter().map(|message| Warning { path: path.to_owned(), message }));
     reader.problems
 }
@@ -261,7 +283,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Takes what the file says into the scene; stops where the rest would have no meaning.
-    fn adopt(&mut self, scene: &mut Scene, masses: &[bool]) {
+    fn adopt(&mut self, scene: &mut Scene, given: &[Given]) {
         let Some(lengths) = self.adopt_box(scene) else { return };
         let dimension = scene.space.lengths.len();
         if !self.adopt_displacement(scene) {
@@ -290,7 +312,7 @@ impl<'a> Reader<'a> {
         let Some(species) = self.species(scene) else { return };
         self.adopt_types(scene, &species);
         self.adopt_counts(scene, &species);
-        self.adopt_masses(scene, masses, &species);
+        self.adopt_numbers(scene, given, &species);
         self.check_types(scene);
         if !self.problems.is_empty() {
             return;
@@ -309,7 +331,7 @@ impl<'a> Reader<'a> {
             None => FileStart { origin: self.checksum.is_some().then_some(Origin::Anew), ..start },
         };
         self.note_what_is_not_used(scene, dimension, unused);
-        self.note_missing_masses(scene, masses, &species);
+        self.note_missing_masses(scene, given, &species);
         scene.kept = KeptStart::of(shared(start));
     }
 
@@ -573,31 +595,49 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Masses that the scene leaves out are those of the file.
-    fn adopt_masses(&mut self, scene: &mut Scene, given: &[bool], species: &[Option<u8>]) {
+    /// Masses and charges that the scene leaves out are those of the file.
+    fn adopt_numbers(&mut self, scene: &mut Scene, given: &[Given], species: &[Option<u8>]) {
         let names = SpeciesNames::of(scene).to_owned();
-        for (kind, mass) in self.file.masses.iter().enumerate() {
-            let (Some(mass), Some(Some(place))) = (mass, species.get(kind)) else { continue };
-            let name = &names[usize::from(*place)];
-            for (index, group) in scene.particles.iter_mut().enumerate().filter(|(_, group)| group.species == *name) {
-                if !given.get(index).copied().unwrap_or(false) {
-                    group.mass = *mass;
-                } else if (group.mass - mass).abs() > ROUNDING * mass {
-                    self.notices.push(format!(
-                        "the mass {mass} of `{name}` is not used: particles[{index}] gives {}",
-                        group.mass
-                    ));
+        let mass = Adopted { noun: "mass", is_given: |given| given.mass, number: |group| &mut group.mass };
+        let charge = Adopted { noun: "charge", is_given: |given| given.charge, number: |group| &mut group.charge };
+        self.check_charges(scene, given);
+        let charges = if self.file.charge_mistakes.is_empty() { self.file.charges.as_slice() } else { &[] };
+        for (adopted, numbers) in [(mass, self.file.masses.as_slice()), (charge, charges)] {
+            for (kind, number) in numbers.iter().enumerate() {
+                let (Some(number), Some(Some(place))) = (number, species.get(kind)) else { continue };
+                let name = &names[usize::from(*place)];
+                for (index, group) in scene.particles.iter_mut().enumerate().filter(|(_, group)| group.species == *name)
+                {
+                    let known = (adopted.number)(group);
+                    if !given.get(index).is_some_and(adopted.is_given) {
+                        *known = *number;
+                    } else if (*known - number).abs() > ROUNDING * number.abs() {
+                        let noun = adopted.noun;
+                        self.notices.push(format!(
+                            "the {noun} {number} of `{name}` is not used: particles[{index}] gives {known}"
+                        ));
+                    }
                 }
             }
         }
     }
 
+    /// Charges that differ within a species are a mistake where they matter: something depends on charges, and a group gives none.
+    fn check_charges(&mut self, scene: &Scene, given: &[Given]) {
+        let acts = |one: &Interaction| matches!(one, Interaction::Electrostatics(_) | Interaction::ElectricField(_));
+        let is_counted = scene.output.structure_factor.as_ref().is_some_and(|factor| factor.charges);
+        let matters = is_counted || scene.interactions().iter().any(acts);
+        if matters && !given.iter().all(|given| given.charge) {
+            refuse(self.state, self.file.charge_mistakes.clone(), &mut self.problems);
+        }
+    }
+
     /// Says which species have no mass, neither in the file nor in the scene.
-    fn note_missing_masses(&mut self, scene: &Scene, given: &[bool], species: &[Option<u8>]) {
+    fn note_missing_masses(&mut self, scene: &Scene, given: &[Given], species: &[Option<u8>]) {
         let names = SpeciesNames::of(scene);
         let is_given = |name: &str| {
             let mut groups = scene.particles.iter().zip(given);
-            groups.any(|(group, given)| group.species == name && *given)
+            groups.any(|(group, given)| group.species == name && given.mass)
         };
         let lacking: Vec<&str> = (0..species.len())
             .filter(|kind| self.counts[*kind] > 0 && self.file.masses.get(*kind).copied().flatten().is_none())
@@ -678,6 +718,9 @@ impl<'a> Reader<'a> {
         }
         if self.state.velocities != StateVelocities::File && !self.file.velocities.is_empty() {
             unused.push("velocities".to_owned());
+        }
+        if !self.file.charge_mistakes.is_empty() {
+            unused.push("charges, which differ within a species".to_owned());
         }
         if !self.file.tethers.is_empty() && !any(&|one| matches!(one, Interaction::Tether(_))) {
             unused.push("the points that its particles are tied to".to_owned());

@@ -154,6 +154,10 @@ pub(super) fn checksum(file: &ParticleFile) -> String {
         add("displacements", bytemuck::cast_slice(&file.displacements));
     }
     add("masses", bytemuck::cast_slice(&masses));
+    let charges: Vec<f64> = file.charges.iter().map(|charge| charge.unwrap_or(0.0)).collect();
+    if charges.iter().any(|charge| *charge != 0.0) {
+        add("charges", bytemuck::cast_slice(&charges));
+    }
     for links in &file.bonds {
         add(&links.name, bytemuck::cast_slice(&links.members));
     }

@@ -4,7 +4,7 @@ use super::{BodyForces, TURN, check_length};
 use crate::document::{ElectricFieldInteraction, ForceProfile, Problems, Scene, SpeciesNames};
 use crate::families::particles::combinations::Feature;
 use crate::families::particles::terms::SceneTerm;
-use crate::families::particles::terms::electrostatics::{self, CHARGE_PARTS};
+use crate::families::particles::terms::electrostatics;
 use crate::families::{Particles, Species};
 
 impl ElectricFieldInteraction {
@@ -25,7 +25,7 @@ impl SceneTerm for ElectricFieldInteraction {
 
     fn check(&self, scene: &Scene, _: &SpeciesNames<'_>, path: &str, problems: &mut Problems) {
         check_length(&self.field, scene, &format!("{path}.field"), problems);
-        if !scene.particles.iter().any(|group| electrostatics::charge(group.charge) != 0) {
+        if !scene.particles.iter().any(|group| group.charge_parts() != 0) {
             problems.refuse(path, "no particle with a charge", "a `charge` other than 0 in one of `particles`");
         }
         if let Some(frequency) = self.frequency {
@@ -62,9 +62,8 @@ impl SceneTerm for ElectricFieldInteraction {
         });
         let all = species.iter().zip(&mut forces.forces).filter(|(species, _)| !species.fixed);
         for (species, force) in all {
-            let charge = f64::from(electrostatics::charge_of_species(scene, &species.name)) / CHARGE_PARTS;
             for (sum, component) in force.iter_mut().zip(&self.field) {
-                *sum += charge * component;
+                *sum += species.charge * component;
             }
         }
     }

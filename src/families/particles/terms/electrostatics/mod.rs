@@ -15,15 +15,12 @@ mod scene;
 
 pub(crate) use description::description;
 pub(crate) use mesh::expected_error;
-pub(crate) use scene::{charge, charge_of_species, charged_species};
+pub(crate) use scene::charged_species;
 
 use super::Term;
-use crate::document::Problems;
+use crate::document::{CHARGE_PARTS, Problems};
 use crate::families::{Checked, Model, Species};
 use std::f64::consts::PI;
-
-/// Parts of an elementary charge that charges are multiples of.
-pub const CHARGE_PARTS: f64 = 65536.0;
 
 /// Electrostatic forces between the charged particles of a model.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,15 +33,13 @@ pub struct Electrostatics {
     pub mesh: [u32; 3],
     /// Points of the splines and of the differences along each axis.
     pub order: u32,
-    /// The charge of a particle of each species, in 2⁻¹⁶ of an elementary charge.
-    pub charges: Vec<i32>,
     /// Particles with a charge, by number.
     pub(crate) charged: Charged,
 }
 
 impl Default for Electrostatics {
     fn default() -> Self {
-        Self { strength: 1.0, width: 0.6076, mesh: [20; 3], order: 6, charges: Vec::new(), charged: Charged::default() }
+        Self { strength: 1.0, width: 0.6076, mesh: [20; 3], order: 6, charged: Charged::default() }
     }
 }
 
@@ -88,6 +83,11 @@ impl Charged {
         let of_run = |run: &Run| run.count as f64 * of(f64::from(run.charge) / CHARGE_PARTS);
         self.copies as f64 * self.runs.iter().map(of_run).sum::<f64>()
     }
+
+    /// The largest of them, whatever its sign, in elementary charges.
+    pub(crate) fn largest(&self) -> f64 {
+        self.runs.iter().map(|run| f64::from(run.charge.unsigned_abs())).fold(0.0, f64::max) / CHARGE_PARTS
+    }
 }
 
 impl Electrostatics {
@@ -111,10 +111,10 @@ impl Electrostatics {
 
     /// The part of the charges that can move, by their squares: the Laplacian of the potential with respect to the places of others does not
     /// count.
-    pub(crate) fn mobile_part(&self, species: &[Species]) -> f64 {
+    pub(crate) fn mobile_part(species: &[Species]) -> f64 {
         let squares = |counts: fn(&Species) -> bool| -> f64 {
-            let charged = species.iter().zip(&self.charges).filter(|(species, _)| counts(species));
-            charged.map(|(species, charge)| species.count as f64 * f64::from(*charge).powi(2)).sum()
+            let counted = species.iter().filter(|species| counts(species));
+            counted.map(|species| species.count as f64 * species.charge.powi(2)).sum()
         };
         squares(|species| !species.fixed) / squares(|_| true)
     }
@@ -126,11 +126,9 @@ impl Electrostatics {
 
     /// The square of the frequency at which all charges of one sign swing against those of the other: 4π kT lB/V Σ q²/m of those that can move.
     fn plasma_frequency_squared(&self, model: &Model) -> f64 {
-        let charged = model.species.iter().zip(&self.charges).filter(|(species, _)| !species.fixed);
-        let of_species = |(species, charge): (&Species, &i32)| {
-            species.count as f64 * (f64::from(*charge) / CHARGE_PARTS).powi(2) / species.mass
-        };
-        4.0 * PI * self.strength / model.units.lengths.iter().product::<f64>() * charged.map(of_species).sum::<f64>()
+        let mobile = model.species.iter().filter(|species| !species.fixed);
+        let of_species = |species: &Species| species.count as f64 * species.charge.powi(2) / species.mass;
+        4.0 * PI * self.strength / model.units.lengths.iter().product::<f64>() * mobile.map(of_species).sum::<f64>()
     }
 
     /// The part of a turn, in radians, that these swings make in a step.

@@ -1,7 +1,8 @@
 //! Electrostatics on the device: charges to nodes, a Fourier transform forth and back, differences, and impulses.
 
+use super::Electrostatics;
 use super::mesh::{Stencil, Waves};
-use super::{CHARGE_PARTS, Electrostatics};
+use crate::document::CHARGE_PARTS;
 use crate::families::fourier::{self, Fourier};
 use crate::families::particles::plan::step::{Builder, GatheringKernels};
 use crate::families::particles::terms::PlannedTerm;
@@ -31,9 +32,7 @@ impl Electrostatics {
 
     /// The potential of one unit, in energy per elementary charge.
     fn potential_unit(&self) -> f64 {
-        let largest =
-            self.charges.iter().map(|charge| f64::from(charge.unsigned_abs())).fold(1.0, f64::max) / CHARGE_PARTS;
-        self.contact() * largest / POTENTIAL_UNITS
+        self.contact() * self.charged.largest() / POTENTIAL_UNITS
     }
 
     fn nodes(&self) -> u64 {
@@ -72,7 +71,7 @@ impl Electrostatics {
         let impulses = [impulse(0), impulse(1), impulse(2)];
         let volume = lengths.iter().product::<f64>();
         let quanta = builder.scales().quanta;
-        let mobile = self.mobile_part(&builder.model.species);
+        let mobile = Self::mobile_part(&builder.model.species);
         // Rows that went through as one come apart twice as large.
         let amplitude = 0.5 / self.charge_units();
         builder.plan.constants.extend([

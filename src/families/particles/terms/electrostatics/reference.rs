@@ -1,7 +1,7 @@
 //! Electrostatics in float64: the same mesh, with splines, sums over waves and differences in other ways than on the device.
 
+use super::Electrostatics;
 use super::mesh::{self, Stencil};
-use super::{CHARGE_PARTS, Electrostatics};
 use crate::families::Model;
 use crate::families::particles::reference::{Configuration, Kicks, Moment, round};
 use crate::families::particles::terms::ReferenceTerm;
@@ -92,7 +92,7 @@ impl Electrostatics {
         let lengths = model.units.lengths;
         let volume = lengths.iter().product::<f64>();
         let charged: Vec<(usize, f64)> = (state.species.iter().enumerate())
-            .map(|(particle, species)| (particle, f64::from(self.charges[*species as usize]) / CHARGE_PARTS))
+            .map(|(particle, species)| (particle, model.species[*species as usize].charge))
             .filter(|(_, charge)| *charge != 0.0)
             .collect();
         let places: Vec<_> = charged.iter().map(|(particle, _)| self.weights(state.positions[*particle])).collect();

@@ -1,8 +1,9 @@
 //! Electrostatics of a scene.
 
-use super::{CHARGE_PARTS, Charged, Electrostatics, Run, expected_error, mesh};
+use super::{Charged, Electrostatics, Run, expected_error, mesh};
 use crate::document::{
-    ElectrostaticsInteraction, NumberedSpecies, Problems, Scene, SpeciesNames, Warning, number_of_copies,
+    CHARGE_PARTS, ElectrostaticsInteraction, NumberedSpecies, ParticleGroup, Problems, Scene, SpeciesNames, Warning,
+    number_of_copies,
 };
 use crate::families::particles::combinations::Feature;
 use crate::families::particles::model::forces;
@@ -94,14 +95,13 @@ impl SceneTerm for ElectrostaticsInteraction {
         Some(charged_species(scene, names))
     }
 
-    fn add(&self, scene: &Scene, species: &mut Vec<Species>, particles: &mut Particles) {
+    fn add(&self, scene: &Scene, _: &mut Vec<Species>, particles: &mut Particles) {
         let length = |axis: usize| scene.space.lengths.get(axis).copied().unwrap_or(1.0);
         particles.electrostatics = Some(Electrostatics {
             strength: self.bjerrum_length * scene.temperature,
             width: self.width,
             mesh: [0, 1, 2].map(|axis| mesh::nodes(length(axis), self.spacing).unwrap_or(mesh::MOST)),
             order: self.order,
-            charges: species.iter().map(|species| charge_of_species(scene, &species.name)).collect(),
             charged: charged(scene),
         });
     }
@@ -131,19 +131,14 @@ impl SceneTerm for ElectrostaticsInteraction {
 }
 
 /// The charge of the particles of a species, in 2⁻¹⁶ of an elementary one.
-pub(crate) fn charge_of_species(scene: &Scene, species: &str) -> i32 {
-    scene.particles.iter().find(|group| group.species == species).map_or(0, |group| charge(group.charge))
+fn charge_of_species(scene: &Scene, species: &str) -> i32 {
+    scene.particles.iter().find(|group| group.species == species).map_or(0, ParticleGroup::charge_parts)
 }
 
 /// The species with a charge, by name.
 pub(crate) fn charged_species(scene: &Scene, names: &SpeciesNames<'_>) -> String {
     let charged = names.names().iter().copied().filter(|name| charge_of_species(scene, name) != 0);
     charged.collect::<Vec<_>>().join(", ")
-}
-
-/// A charge in 2⁻¹⁶ of an elementary one.
-pub(crate) fn charge(charge: f64) -> i32 {
-    (charge * CHARGE_PARTS).round() as i32
 }
 
 /// The particles of a scene with a charge.
@@ -189,9 +184,7 @@ pub(super) fn check_capacity(scene: &Checked, electrostatics: &Electrostatics, p
         return;
     }
     // The largest force of one unit charge on another is .3 of the energy in contact over the width.
-    let charge =
-        electrostatics.charges.iter().map(|charge| f64::from(charge.unsigned_abs())).fold(0.0, f64::max) / CHARGE_PARTS;
-    let force = 0.3 * electrostatics.contact() / electrostatics.width * charge * charge;
+    let force = 0.3 * electrostatics.contact() / electrostatics.width * electrostatics.charged.largest().powi(2);
     let impulse = 0.5 * model.time_step * force / model.units.momentum;
     if impulse > LARGEST {
         let found = format!("charges that push each other by {force:.3e}");

@@ -161,6 +161,7 @@ impl ChainTrios {
             count,
             fixed: kind == END,
             frozen: false,
+            charge: 0.0,
         };
         let mass = self.pulse.mass;
         [species(0, mass, beads), species(1, self.pulse.frictionless().mass, clusters), species(2, mass, 12)]
