@@ -105,6 +105,11 @@ pub const ARRAYS: &[Array] = &[
     table("angles", "array<vec4<u32>>", "angles and their stiffness"),
     array("excluded_pairs", "array<vec2<u32>>", "pairs of particles, by id, that bonds spare the repulsion"),
     table("exclusions", "array<u32>", "partners that bonds spare from the pair force, in rows of one length, by id"),
+    array(
+        "excluded_charges",
+        "array<vec4<u32>>",
+        "pairs of particles, by id, whose charges bonds exclude, and the product of both",
+    ),
     table("charged", "array<vec2<u32>>", "particles with a charge: id and charge"),
     array("node_charges", "array<i32>", "charge of each node of a mesh"),
     array("node_potentials", "array<i32>", "electrostatic potential at each node"),

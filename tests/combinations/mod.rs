@@ -87,6 +87,9 @@ fn scene_with(features: &BTreeSet<Feature>) -> Value {
         if has(Exclusion) {
             own["exclude_repulsion"] = json!(true);
         }
+        if has(Electrostatics) {
+            own["exclude_charges"] = json!(true);
+        }
         interactions.push(bonds(own));
     }
     if has(FrictionOfBonds) {

@@ -81,6 +81,16 @@ fn scenes_without_what_charges_need() {
     assert_eq!(idle, ["particles[1].charge: neither `electrostatics` nor an `electric-field` acts on charges"]);
 }
 
+/// Bonds that exclude charges where nothing acts on charges.
+#[test]
+fn excluded_charges() {
+    let bonds = |pair: &str| format!(r#"interactions.2={{"type":"bonds","pairs":[{pair}],"exclude_charges":true}}"#);
+    assert_eq!(SALT.warnings(&[&bonds("[0,1]")]), [""; 0]);
+    let without = r#"interactions=[{"type":"bonds","pairs":[[0,1]],"exclude_charges":true}]"#;
+    let warnings = SALT.warnings(&[without]);
+    assert!(warnings[0].starts_with("interactions[0].exclude_charges: nothing is excluded"), "{warnings:?}");
+}
+
 #[test]
 fn structure_factors_of_charge() {
     let factor = |more: &str| format!(r#"output.structure_factor={{"every":10,"range":6,"charges":true{more}}}"#);

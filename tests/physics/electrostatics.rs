@@ -38,3 +38,35 @@ fn the_force_between_two_charges_is_that_of_ewald() {
         println!("{distance}: off by {found:?}");
     }
 }
+
+/// The force between two opposite charges that a bond excludes is that of their images: Ewald's sums less d/dr erf(r/2σ)/r.
+#[test]
+fn the_force_of_excluded_charges_is_that_of_images() {
+    for (distance, ewald) in [(0.5, 0.209_405), (1.0, 0.305_322), (2.0, 0.210_959), (3.0, 0.094_572)] {
+        let group = |species: &str, charge: f64, at: f64| {
+            json!({"species": species, "charge": charge, "velocities": {"type": "rest"},
+                "placement": {"type": "listed", "positions": [[at, 4.11, 7.78]]}})
+        };
+        let scene = crate::support::scene(
+            &json!({
+                "title": "two", "space": {"box": [10, 10, 10]}, "time": {"step": 1e-3, "steps": 1}, "temperature": 1,
+                "integrator": {"type": "cotter-reich"},
+                "particles": [group("P", 1.0, 2.37), group("M", -1.0, 2.37 + distance)],
+                "interactions": [
+                    {"type": "electrostatics", "bjerrum_length": 2, "width": 0.5842, "spacing": 0.25},
+                    {"type": "bonds", "pairs": [[0, 1]], "exclude_charges": true},
+                ],
+                "output": {"energies": {"every": 1}},
+            })
+            .to_string(),
+        );
+        let mut run = Device::new(&scene);
+        run.step(1);
+        let momenta = run.state().momenta;
+        assert_eq!(momenta[0], momenta[1].map(|component| -component));
+        let force = f64::from(momenta[0][0]) * scene.model().units.momentum / (0.5e-3 * 2.0);
+        let x: f64 = distance / (2.0 * 0.5842);
+        let direct = (libm::erf(x) - std::f64::consts::FRAC_2_SQRT_PI * x * (-x * x).exp()) / (distance * distance);
+        assert!((force - (ewald - direct)).abs() < 1e-4, "{distance}: {force} {}", ewald - direct);
+    }
+}

@@ -93,6 +93,25 @@ fn charges_of_copies_are_those_of_their_species() {
     check(&scene, "copies");
 }
 
+/// Bonds that exclude the charges of their ends: along chains, of two species, far apart, twice, and of what has no charge.
+#[test]
+fn excluded_charges_are_those_of_the_reference() {
+    let along = json!({"type": "bonds", "potential": {"type": "harmonic", "stiffness": 60, "length": 0.7}, "exclude_charges": true});
+    let listed = json!({"type": "bonds", "pairs": [[3, 17], [0, 345], [321, 320], [5, 100], [40, 41]],
+        "exclude_charges": true});
+    for integrator in INTEGRATORS {
+        let bonds = [along.clone(), listed.clone()];
+        let scene = salt([5.0, 6.0, 5.5], integrator, &json!({}), &bonds);
+        check(&scene, &format!("excluded, {integrator}"));
+        // What is excluded counts.
+        let (_, state) = start(&scene);
+        let [with, without] = [&scene, &salt([5.0, 6.0, 5.5], integrator, &json!({}), &[])]
+            .map(|scene| reference(scene, &state).observe().unwrap().electrostatic_energy);
+        assert!(with < without - 5.0, "{with} {without}");
+    }
+    check(&salt([5.0; 3], INTEGRATORS[0], &json!({}), std::slice::from_ref(&listed)), "excluded pairs alone");
+}
+
 /// Fields that are constant and that oscillate, also where nothing else acts on charges.
 #[test]
 fn fields_are_those_of_the_reference() {

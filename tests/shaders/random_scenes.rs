@@ -83,6 +83,10 @@ fn random_scene(draws: &mut Draws) -> Value {
     scene["particles"] = json!(groups);
     scene["interactions"] = interactions(draws, dimension, chained, &memory, groups.len());
     if charged && let Some(interactions) = scene["interactions"].as_array_mut() {
+        let mut bonds = interactions.iter_mut().filter(|interaction| interaction["type"] == "bonds");
+        if let Some(bonds) = bonds.next().filter(|bonds| bonds["exclude_repulsion"] == true) {
+            bonds["exclude_charges"] = json!(true);
+        }
         interactions.push(json!({"type": "electrostatics", "bjerrum_length": 1, "background": true}));
     }
     scene["output"] = output(draws, across);

@@ -222,6 +222,7 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
     let charges = json!({"type": "electrostatics", "bjerrum_length": 1, "background": true});
     let springs = bonds(json!({"potential": harmonic}));
     let excluding = bonds(json!({"potential": harmonic, "exclude_repulsion": true}));
+    let apart = bonds(json!({"potential": harmonic, "exclude_charges": true}));
     let rubbing = bonds(json!({"friction": 2}));
     let remembering = bonds(json!({"friction": 2, "bath": memory}));
     let beside = [
@@ -234,7 +235,7 @@ fn scenes_beside(pairs: &Value) -> Vec<Checked> {
         vec![&remembering, &angles, &white],
         vec![&remembering, &slow, &noise, &tether],
         vec![&charges],
-        vec![&charges, &rubbing, &angles, &white, &force],
+        vec![&charges, &apart, &rubbing, &angles, &white, &force],
         vec![&charges, &remembering, &slow, &noise],
     ];
     let analyses = [

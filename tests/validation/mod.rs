@@ -11,5 +11,6 @@ mod published;
 mod readers;
 mod relaxation;
 mod shear;
+mod stages;
 mod states;
 mod structure;

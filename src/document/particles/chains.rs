@@ -33,6 +33,9 @@ pub struct BondsInteraction {
     /// Whether bonded particles do not repel each other.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub exclude_repulsion: bool,
+    /// True if the charges of bonded particles do not act on each other.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub exclude_charges: bool,
 }
 
 impl BondsInteraction {

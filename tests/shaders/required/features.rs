@@ -80,6 +80,23 @@ fn velocities_in(frame: &str) -> Value {
     json!([{"quantity": "velocity", "every": 2, "range": 9, "frame": frame}])
 }
 
+/// Leaves out what does not go with charges.
+fn without_foes_of_charges(scene: &mut Value) {
+    no_analyses(scene);
+    no_shear(scene);
+    if let Some(space) = scene["space"].as_object_mut() {
+        space.remove("walls");
+    }
+}
+
+fn charged(scene: &mut Value) {
+    let is_space = scene["space"]["box"].as_array().unwrap().len() == 3;
+    if has_particles(scene) && interaction(scene, "harmonic-chain").is_none() && is_space {
+        set_last_group(scene, "charge", json!(1));
+        add(scene, json!({"type": "electrostatics", "bjerrum_length": 1, "background": true}));
+    }
+}
+
 pub fn features() -> Vec<Feature> {
     vec![
         Feature {
@@ -210,7 +227,7 @@ pub fn features() -> Vec<Feature> {
             ground: nothing,
             with: |scene| set(scene, "dpd", "many_body", json!({"repulsion": 25})),
             without: |scene| set(scene, "dpd", "many_body", Value::Null),
-            own: Some(&["densit", "DENSITY"]),
+            own: Some(&["densities", "DENSITY"]),
             more: &["densities", "report_densities"],
             // Beside a table of species the prefilter reads positions then.
             instead: &["probes"],
@@ -312,20 +329,8 @@ pub fn features() -> Vec<Feature> {
         },
         Feature {
             name: "charges",
-            ground: |scene| {
-                no_analyses(scene);
-                no_shear(scene);
-                if let Some(space) = scene["space"].as_object_mut() {
-                    space.remove("walls");
-                }
-            },
-            with: |scene| {
-                let is_space = scene["space"]["box"].as_array().unwrap().len() == 3;
-                if has_particles(scene) && interaction(scene, "harmonic-chain").is_none() && is_space {
-                    set_last_group(scene, "charge", json!(1));
-                    add(scene, json!({"type": "electrostatics", "bjerrum_length": 1, "background": true}));
-                }
-            },
+            ground: without_foes_of_charges,
+            with: charged,
             without: |scene| remove(scene, "electrostatics"),
             own: Some(&["charge", "CHARGE", "array waves", "array symbols"]),
             more: &[
@@ -541,6 +546,26 @@ pub fn features() -> Vec<Feature> {
                 "constant EXCLUDED",
             ]),
             more: &["excluded_pairs", "exclusions", "report_exclusions", "stress_of_exclusions"],
+            instead: &[],
+            always: false,
+        },
+        Feature {
+            name: "bonds that exclude charges",
+            ground: |scene| {
+                without_foes_of_charges(scene);
+                bonded(scene);
+                charged(scene);
+            },
+            with: |scene| set(scene, "bonds", "exclude_charges", json!(true)),
+            without: |scene| set(scene, "bonds", "exclude_charges", Value::Null),
+            own: Some(&[
+                "exclude_charges",
+                "excluded_charges",
+                "file charges/exclusions",
+                "EXCLUDED_CHARGES",
+                "CLOUD_SCALE",
+            ]),
+            more: &["exclude_charges", "excluded_charges", "report_excluded_charges"],
             instead: &[],
             always: false,
         },

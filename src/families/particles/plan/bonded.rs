@@ -23,8 +23,8 @@ pub(crate) struct Bonded {
     pub motion: Option<Observed>,
     /// The part that belongs to the configuration.
     pub configuration: Observed,
-    /// The name of the kernel that adds the stress, and its choices.
-    pub stress: (&'static str, Choices),
+    /// The name of the kernel that adds the stress, and its choices, if there may be a stress.
+    pub stress: Option<(&'static str, Choices)>,
     pub constants: Vec<(Constant, f64)>,
     /// Arithmetic of each.
     pub operations: f64,
@@ -83,9 +83,10 @@ impl Scales<'_> {
     }
 }
 
-/// The bonds of a model, if any has a potential or a bath: others only exclude repulsion.
+/// The bonds of a model, if any has a potential or a bath, or excludes charges, which act at any distance: others only exclude repulsion.
 fn pulling(model: &Model) -> Option<&Bonds> {
-    model.particles().bonds.as_ref().filter(|bonds| bonds.have_forces())
+    let excludes = |bonds: &Bonds| model.particles().electrostatics.is_some() && bonds.excluding_charges() > 0;
+    model.particles().bonds.as_ref().filter(|bonds| bonds.have_forces() || excludes(bonds))
 }
 
 /// What adds impulses to the particles of a space.

@@ -57,6 +57,28 @@ impl Potential {
         }
     }
 
+    /// -C erf(ar)/r, what is taken back of two clouds whose energy is C erf(ar)/r, a = 1/2σ.
+    ///
+    /// With x = ar and the pull k = (erf(x)/x - 2/√π e^(-x²))/x² it is V = -Ca erf(x)/x, V' = Ca³ r k and V'' = Ca³ (4/√π e^(-x²) - 2k).
+    pub(crate) fn of_excluded_clouds(strength: f64, width: f64, distance: f64) -> Self {
+        let inverse = 0.5 / width;
+        let x = inverse * distance;
+        let density = std::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp();
+        // Without cancellation where x is small: density Σ 2ⁿ x^(2n-2)/(2n+1)!!.
+        let pull = if x < 1.5 {
+            let sum = (2..40).rev().fold(1.0, |sum, term: u32| 1.0 + sum * 2.0 * x * x / f64::from(2 * term + 1));
+            2.0 / 3.0 * density * sum
+        } else {
+            (libm::erf(x) / x - density) / (x * x)
+        };
+        let curved = strength * inverse.powi(3);
+        Self {
+            energy: -strength * inverse * (density + x * x * pull),
+            slope: curved * distance * pull,
+            curvature: curved * 2.0 * (density - pull),
+        }
+    }
+
     /// The force that pushes both ends apart.
     pub(crate) fn force(&self) -> f64 {
         -self.slope
@@ -109,6 +131,20 @@ mod tests {
         let near = Potential::of_bond(Some(&finite), 0.2 + 1e-4).unwrap();
         assert!((near.energy / (0.5 * 3.0 * 1e-8) - 1.0).abs() < 1e-7);
         assert!(Potential::of_bond(Some(&finite), 1.7).is_none());
+    }
+
+    #[test]
+    fn excluded_clouds_have_their_derivatives() {
+        for distance in [0.02, 0.5, 1.7, 1.81, 2.0, 4.0] {
+            let at = |distance| Potential::of_excluded_clouds(1.7, 0.6, distance);
+            assert_derivatives("clouds", distance, at);
+            let expected = -1.7 * libm::erf(distance / 1.2) / distance;
+            assert!((at(distance).energy / expected - 1.0).abs() < 1e-13, "{distance}");
+        }
+        // On both sides of the place where its form changes.
+        let [below, above] =
+            [1.8 - 1e-12, 1.8 + 1e-12].map(|distance| Potential::of_excluded_clouds(1.7, 0.6, distance));
+        assert!((below.slope - above.slope).abs() < 1e-11 && (below.curvature - above.curvature).abs() < 1e-10);
     }
 
     #[test]

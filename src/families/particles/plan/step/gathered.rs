@@ -106,8 +106,7 @@ impl Builder<'_> {
         } else {
             kernels.report.push(self.report_of(whole, bonded, &bonded.observed, &kicks, rows));
         }
-        if stress::is_needed(self.measured) {
-            let (name, choices) = &bonded.stress;
+        if let Some((name, choices)) = bonded.stress.as_ref().filter(|_| stress::is_needed(self.measured)) {
             kernels.stress.push(self.bonded_kernel(name, bonded, choices));
         }
         let remembers = bonded.entry == Entry::PullBonds && self.bonds_remember();

@@ -37,6 +37,8 @@ pub struct BondKind {
     pub temperature: f64,
     /// True if the repulsion between bonded particles is excluded.
     pub exclude_repulsion: bool,
+    /// True if the charges of bonded particles do not act on each other.
+    pub exclude_charges: bool,
 }
 
 impl Term for Bonds {
@@ -118,6 +120,11 @@ impl Bonds {
     /// Number of bonds that exclude the repulsion of their ends.
     pub(crate) fn excluding(&self) -> u64 {
         self.runs.count_of(|kind| self.kinds[kind as usize].exclude_repulsion)
+    }
+
+    /// Number of bonds that exclude the charges of their ends.
+    pub(crate) fn excluding_charges(&self) -> u64 {
+        self.runs.count_of(|kind| self.kinds[kind as usize].exclude_charges)
     }
 
     /// The bonds with friction and their places among all bonds, in rounds: those of a round share no particle. Each is

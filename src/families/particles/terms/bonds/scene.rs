@@ -1,13 +1,14 @@
 //! Bonds of a scene.
 
 use super::{BondKind, Bonds};
-use crate::document::{BondPotential, BondsInteraction, Problems, Scene, SpeciesNames};
+use crate::document::{BondPotential, BondsInteraction, Problems, Scene, SpeciesNames, Warning};
 use crate::families::particles::checks::{check_bath, check_links, half_box};
 use crate::families::particles::combinations::Feature;
 use crate::families::particles::composition::of_links;
 use crate::families::particles::model::forces;
 use crate::families::particles::terms::{SceneTerm, Springs};
-use crate::families::{BathStep, Particles, Species};
+use crate::families::warnings::warn;
+use crate::families::{BathStep, Model, Particles, Species};
 use crate::numbers::grouped;
 
 impl SceneTerm for BondsInteraction {
@@ -44,6 +45,7 @@ impl SceneTerm for BondsInteraction {
             bath: (step.coupling > 0.0).then_some(step),
             temperature: self.bath.temperature(scene.temperature),
             exclude_repulsion: self.exclude_repulsion,
+            exclude_charges: self.exclude_charges,
         });
         bonds.runs.add(kind, &self.links(scene), scene, species);
     }
@@ -58,6 +60,13 @@ impl SceneTerm for BondsInteraction {
             Some(BondPotential::Fene { stiffness, extent, length }) => {
                 2.0 * particles.momentum_of_bonds(self, stiffness, length, extent)
             }
+        }
+    }
+
+    fn warn(&self, model: &Model, path: &str, warnings: &mut Vec<Warning>) {
+        if self.exclude_charges && model.particles().electrostatics.is_none() {
+            let message = "nothing is excluded: no `electrostatics` acts between charges".to_owned();
+            warn(warnings, format!("{path}.exclude_charges"), message);
         }
     }
 

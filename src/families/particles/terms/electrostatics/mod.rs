@@ -8,6 +8,7 @@
 //! together is one of rounding; that is taken back, unit by unit, and the total momentum stays what it is to the last bit.
 
 mod description;
+mod exclusions;
 mod mesh;
 mod plan;
 mod reference;

@@ -1,7 +1,7 @@
 //! Electrostatics on the device: charges to nodes, a Fourier transform forth and back, differences, and impulses.
 
-use super::Electrostatics;
 use super::mesh::{Stencil, Waves};
+use super::{Electrostatics, exclusions};
 use crate::document::CHARGE_PARTS;
 use crate::families::fourier::{self, Fourier};
 use crate::families::particles::plan::step::{Builder, GatheringKernels};
@@ -170,6 +170,12 @@ impl PlannedTerm for Electrostatics {
         } else {
             let report = report("report_charges", 0.0);
             kernels.report.extend(all(report));
+        }
+        if let Some(bonds) = exclusions::excluding(builder.model) {
+            exclusions::add_table(self, bonds, &mut builder.plan);
+            let scales = builder.scales();
+            let bonded = exclusions::bonded(self, bonds, &scales);
+            builder.couple(&bonded, rows, kernels);
         }
         let particles = builder.particles.max(1) as f64;
         let of_clouds = 12.0 * f64::from(self.order).powi(3) * self.charged.count() as f64;

@@ -1,9 +1,9 @@
 //! Electrostatics in float64: the same mesh, with splines, sums over waves and differences in other ways than on the device.
 
-use super::Electrostatics;
 use super::mesh::{self, Stencil};
+use super::{Electrostatics, exclusions};
 use crate::families::Model;
-use crate::families::particles::reference::{Configuration, Kicks, Moment, round};
+use crate::families::particles::reference::{Configuration, Images, Kicks, Moment, Pair, Potential, round};
 use crate::families::particles::terms::ReferenceTerm;
 use crate::state::State;
 use rustfft::num_complex::Complex;
@@ -145,6 +145,20 @@ impl Electrostatics {
     }
 }
 
+impl Electrostatics {
+    /// The pairs that bonds exclude, with what is taken back.
+    fn excluded(&self, model: &Model, images: &Images<'_>, state: &State) -> Vec<(Pair, Potential)> {
+        let bonds = exclusions::excluding(model);
+        let pairs = bonds.into_iter().flat_map(|bonds| exclusions::excluded_pairs(self, bonds));
+        let taken = pairs.map(|([first, second], product)| {
+            let pair = Pair::of(images, &state.positions, first as usize, second as usize);
+            let potential = Potential::of_excluded_clouds(self.strength * product, self.width, pair.distance);
+            (pair, potential)
+        });
+        taken.collect()
+    }
+}
+
 impl ReferenceTerm for Electrostatics {
     /// Half kicks; what they add up to is taken back in whole units.
     fn kick(&self, moment: &Moment<'_>, kicks: &mut Kicks) {
@@ -168,6 +182,9 @@ impl ReferenceTerm for Electrostatics {
             }
         }
         kicks.virials.total += solved.virial;
+        for (pair, potential) in self.excluded(model, &moment.images, state) {
+            kicks.push_apart(model, &pair, potential.force(), 0.0);
+        }
     }
 
     fn observe(&self, sums: &mut Configuration<'_>) {
@@ -181,6 +198,10 @@ impl ReferenceTerm for Electrostatics {
                 sums.gradients[*particle][axis] -= force[axis];
             }
             sums.laplacians[*particle] += charge * charge * of_square;
+        }
+        for (pair, potential) in self.excluded(sums.model, sums.images, sums.state) {
+            sums.electrostatic += potential.energy;
+            sums.add(&pair, &potential);
         }
     }
 }

@@ -183,6 +183,7 @@ impl ChainTrios {
                 bath: (strand.chain.friction > 0.0).then_some(step),
                 temperature: strand.temperature,
                 exclude_repulsion: false,
+                exclude_charges: false,
             });
             let (ends, first) = (strand.ends.map(|end| end as u32), strand.first as u32);
             let species = [strand.species, END];
