@@ -76,6 +76,12 @@ pub enum ProfiledQuantity {
         "voronoi": "`output.viscosity` or `output.shear_wave` for what the stress is wanted for; the faces of cells have no virial",
     }))]
     Stress,
+    /// Charge per volume, of all species together, and beside `electrostatics` the potential: the energy of a point charge of one elementary
+    /// charge, relative to its mean.
+    #[schemars(extend("x-of" = ["particles"], "x-instead" = {
+        "voronoi": "cells without a charge: nothing acts on charges in Voronoi DPD",
+    }))]
+    Charge,
 }
 
 impl ProfiledQuantity {

@@ -18,10 +18,10 @@ pub struct ProfiledSpecies {
     pub ink: SeriesInk,
 }
 
-/// Profiles of density, velocity, temperature and normal pressures along an axis, with error bars; a column that is not in the table leaves its panel
+/// Profiles of density, charge, velocity, temperature and normal pressures along an axis, with error bars; a column that is not in the table leaves its panel
 /// out.
 ///
-/// The columns are `position`, those of the densities, `velocity_x` and so on, `temperature`, and `pressure_xx` and so
+/// The columns are `position`, those of the densities, `charge_density`, `electrostatic_potential`, `velocity_x` and so on, `temperature`, and `pressure_xx` and so
 /// on, each but the first with another whose name ends in `_error`. `dimension` is that of the box, and `temperature`
 /// that of the bath, if there is one.
 ///
@@ -67,10 +67,15 @@ pub fn profiles_chart(
     if let Some(temperature) = temperature {
         thermal = thermal.with_reference(&format!("kT = {}", short(temperature)), temperature);
     }
+    let charge = panel(&axis_label("Charge density", Unit::Density, dimension), &[("charge_density", "all charges")]);
+    let potential = panel(
+        "Potential of a unit charge (energy units)",
+        &[("electrostatic_potential", "of the clouds of all charges")],
+    );
     let normal = [("pressure_xx", "P_{xx}"), ("pressure_yy", "P_{yy}"), ("pressure_zz", "P_{zz}")];
     let pressure = panel(&axis_label("Pressure", Unit::Pressure, dimension), &normal);
     let subtitle = "means over time after equilibration, with standard errors";
-    Chart::of_found(title, subtitle, [density, velocity, thermal, pressure])
+    Chart::of_found(title, subtitle, [density, charge, potential, velocity, thermal, pressure])
 }
 
 #[cfg(test)]

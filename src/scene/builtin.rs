@@ -73,6 +73,9 @@ pub fn builtin() -> &'static [Builtin] {
         "diblock-copolymer",
         "surfactants",
         "drop",
-        "salt-water"
+        "salt-water",
+        "polyelectrolyte",
+        "ionic-surfactants",
+        "polarisable-water"
     ]
 }

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::fmt::Display;
 
 use super::{
-    CountedPairs, CountedQuantity, Interaction, ParticleGroup, Placement, Problems, Scene, SpeciesNames,
-    StructureFactor, Velocities,
+    CountedPairs, CountedQuantity, Interaction, ParticleGroup, Placement, Problems, ProfiledQuantity, Scene,
+    SpeciesNames, StructureFactor, Velocities,
 };
 use crate::families;
 use crate::state::MOST_PARTICLES;
@@ -228,19 +228,6 @@ fn check_wave_numbers(factor: &StructureFactor, scene: &Scene, problems: &mut Pr
     let periodic = scene.space.lengths.iter().zip(scene.space.walls.of_axes()).filter(|(_, walls)| walls.is_none());
     let longest = periodic.map(|(length, _)| *length).fold(0.0, f64::max);
     let path = "output.structure_factor";
-    if factor.charges {
-        if factor.species.is_some() {
-            problems.refuse(
-                format!("{path}.species"),
-                "together with `charges`",
-                "one of them: charges are of all species",
-            );
-        }
-        if scene.particles.iter().all(|group| group.charge_parts() == 0 || group.is_frozen()) {
-            let accepted = "a `charge` other than 0 in one of `particles`";
-            problems.refuse(format!("{path}.charges"), "no particle with a charge", accepted);
-        }
-    }
     if longest == 0.0 {
         problems.refuse(path, "between walls on all sides", "an axis without walls, along which there are waves");
         return;
@@ -341,9 +328,31 @@ fn check_all_pairs(species: &SpeciesNames<'_>, path: &str, bins: u32, problems: 
     }
 }
 
+/// Analyses of charge are of all species, some of which have a charge.
+fn check_analyses_of_charge(scene: &Scene, problems: &mut Problems) {
+    let factor = scene.output.structure_factor.as_ref().filter(|factor| factor.charges);
+    let profiles = scene.output.profiles.as_ref();
+    let profiles = profiles.filter(|profiles| profiles.quantities.contains(&ProfiledQuantity::Charge));
+    let are_charged = scene.particles.iter().any(|group| group.charge_parts() != 0 && !group.is_frozen());
+    let factor = factor.map(|factor| ("structure_factor", "charges", factor.species.is_some()));
+    let profiles = profiles.map(|profiles| ("profiles", "quantities", profiles.species.is_some()));
+    for (analysis, key, of_species) in [factor, profiles].into_iter().flatten() {
+        let path = format!("output.{analysis}");
+        if of_species {
+            let found = format!("together with the charge in `{key}`");
+            problems.refuse(format!("{path}.species"), found, "one of them: charges are of all species");
+        }
+        if !are_charged {
+            let accepted = "a `charge` other than 0 in one of `particles`";
+            problems.refuse(format!("{path}.{key}"), "no particle with a charge", accepted);
+        }
+    }
+}
+
 /// Every quantity has one table and one plot; only velocities have a frame, and only components an axis.
 fn check_analyses(scene: &Scene, problems: &mut Problems) {
     let output = &scene.output;
+    check_analyses_of_charge(scene, problems);
     let mut once = |path: &str, key: &str, names: Vec<String>| {
         for (index, name) in names.iter().enumerate().filter(|(index, name)| names[..*index].contains(name)) {
             let path = format!("output.{path}[{index}]{key}");

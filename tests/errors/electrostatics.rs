@@ -92,18 +92,29 @@ fn excluded_charges() {
 }
 
 #[test]
-fn structure_factors_of_charge() {
+fn analyses_of_charge() {
     let factor = |more: &str| format!(r#"output.structure_factor={{"every":10,"range":6,"charges":true{more}}}"#);
     SALT.accepted(&[&factor("")]);
     SALT.refused_with(
         &[&factor(r#","species":"water""#)],
-        &["output.structure_factor.species: found together with `charges`; accepted: one of them"],
+        &["output.structure_factor.species: found together with the charge in `charges`; accepted: one of them"],
+    );
+    let profiles =
+        |more: &str| format!(r#"output.profiles={{"axis":"z","bins":10,"every":10,"quantities":["charge"]{more}}}"#);
+    SALT.accepted(&[&profiles("")]);
+    SALT.refused_with(
+        &[&profiles(r#","species":"water""#)],
+        &["output.profiles.species: found together with the charge in `quantities`; accepted: one of them"],
     );
     let neutral =
         ["particles.1.charge=0", "particles.2.charge=0", "interactions.1={\"type\":\"langevin\",\"friction\":1}"];
     SALT.refused_with(
         &[&neutral[..], &[&factor("")]].concat(),
         &["output.structure_factor.charges: found no particle with a charge; accepted: a `charge` other than 0"],
+    );
+    SALT.refused_with(
+        &[&neutral[..], &[&profiles("")]].concat(),
+        &["output.profiles.quantities: found no particle with a charge; accepted: a `charge` other than 0"],
     );
 }
 

@@ -10,6 +10,7 @@ use mesoscope::run::{Outcome, Run};
 use mesoscope::scene::{Checked, ProfiledQuantity};
 use mesoscope::shaders::Array;
 use mesoscope::table::Table;
+use serde_json::json;
 
 use crate::support::{
     COTTER_REICH, MIXTURE, MIXTURE_FORCE, PREDICTED, SPLITTING, adapter, cells, engine, fluid, start,
@@ -18,6 +19,47 @@ use crate::support::{
 fn run(scene: Checked, directory: &Path) -> (Outcome, Table) {
     let outcome = Run::replace(scene, directory).execute(&adapter(), &mut |_| {}).unwrap();
     (outcome, read_table(&directory.join("profiles.csv")).unwrap())
+}
+
+/// Two sheets of opposite charge half a period apart, held in the middle of bins: between them the field is 2π kT lB times their charge an
+/// area, and at each the potential of clouds of width σ is lower by σ√(2/π) of that field than that of thin ones.
+#[test]
+fn two_sheets_of_charge_have_a_constant_field_between_them() {
+    let sheet = |species: &str, charge: f64, z: f64| {
+        let places: Vec<[f64; 3]> =
+            (0..16).map(|index| [f64::from(index % 4) * 2.0 + 0.3, f64::from(index / 4) * 2.0 + 0.7, z]).collect();
+        json!({"species": species, "charge": charge, "fixed": true, "velocities": {"type": "rest"},
+            "placement": {"type": "listed", "positions": places}})
+    };
+    let scene = crate::support::scene(
+        &json!({
+            "title": "sheets", "space": {"box": [8, 8, 8]}, "time": {"step": 0.01, "steps": 2}, "temperature": 1.5,
+            "integrator": {"type": "cotter-reich"},
+            "particles": [sheet("P", 0.5, 2.05), sheet("M", -0.5, 6.05)],
+            "interactions": [{"type": "electrostatics", "bjerrum_length": 1.2, "width": 0.4}],
+            "output": {"profiles": {"axis": "z", "bins": 80, "every": 1, "quantities": ["charge"]}},
+        })
+        .to_string(),
+    );
+    let directory = tempfile::tempdir().unwrap();
+    let (_, profile) = run(scene, directory.path());
+    let [charge, potential] = ["charge_density", "electrostatic_potential"].map(|name| profile.column(name).unwrap());
+    for (bin, found) in charge.iter().enumerate() {
+        let expected = match bin {
+            20 => 8.0 / 6.4,
+            60 => -8.0 / 6.4,
+            _ => 0.0,
+        };
+        assert!((found - expected).abs() < 1e-12, "{bin}: {found}");
+    }
+    let field = std::f64::consts::TAU * 1.5 * 1.2 * 8.0 / 64.0;
+    let slope = (potential[42] - potential[38]) / 0.4;
+    assert!((slope / field + 1.0).abs() < 1e-5, "{slope} {field}");
+    let top = field * (2.0 - 0.4 * (2.0 / std::f64::consts::PI).sqrt());
+    assert!(
+        (potential[20] / top - 1.0).abs() < 1e-6 && (potential[60] / top + 1.0).abs() < 1e-6,
+        "{top} {potential:?}"
+    );
 }
 
 /// Every particle is in the layer of its position, with its species, mass, momentum and kinetic energy.

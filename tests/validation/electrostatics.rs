@@ -1,9 +1,11 @@
 //! Salt water against integral equations and exact laws, and charges that conserve momentum: `make validate`.
 
+use mesoscope::output::read_table;
+use mesoscope::run::Run;
 use mesoscope::scene::Checked;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use crate::support::{Device, Implementation, Measured, fluid};
+use crate::support::{Device, Implementation, Measured, adapter, fluid};
 
 /// Salt of .6 mol/l in a box of 10, ions of a width of .5842, and more.
 fn salt(changes: &[&str]) -> Checked {
@@ -96,5 +98,46 @@ fn charges_keep_the_total_momentum_to_the_last_bit() {
     for _ in 0..100 {
         run.step(1000);
         assert_eq!(run.state().total_momentum(), start);
+    }
+}
+
+/// Beads of a charge on a spring with its opposite, which bonds exclude: the structure factor of charge is that of random phases, which sees the
+/// spring less the attraction of the two clouds that is taken back, `S₀/(1 + 4π lB ρ S₀ e^(-k²σ²)/k²)` with `S₀ = 1 - e^(-k²kT/2K)`.
+#[test]
+#[ignore = "minutes"]
+fn polarisable_beads_have_the_permittivity_of_random_phases() {
+    let (length, bjerrum, width, charge, stiffness, beads) = (8.0_f64, 8.64, 0.5842_f64, 0.5, 20.0, 1536.0);
+    let particles =
+        r#"particles=[{"species":"core","charge":0.5,"mass":0.5},{"species":"shell","charge":-0.5,"mass":0.5}]"#;
+    let molecules = r#"molecules=[{"beads":["core","shell"],"bonds":[[0,1]],"count":1536,"spacing":0.3}]"#;
+    let interactions = r#"interactions=[
+        {"type":"dpd","repulsion":25,"friction":4.5,"pairs":[{"between":["core","shell"],"repulsion":0},
+            {"between":["shell","shell"],"repulsion":0}]},
+        {"type":"bonds","potential":{"type":"harmonic","stiffness":20},"exclude_charges":true},
+        {"type":"electrostatics","bjerrum_length":8.64,"width":0.5842}]"#;
+    let output = r#"output={"structure_factor":{"every":20,"range":2.4,"bins":60,"charges":true}}"#;
+    let scene = fluid(&[
+        "space.box=[8,8,8]",
+        "time.step=0.015",
+        "time.steps=12000",
+        "time.equilibration=2000",
+        particles,
+        molecules,
+        interactions,
+        output,
+    ]);
+    let directory = tempfile::tempdir().unwrap();
+    Run::replace(scene, directory.path()).execute(&adapter(), &mut |_| {}).unwrap();
+    let found = read_table(&directory.path().join("structure_factor.csv")).unwrap();
+    let attraction = bjerrum * charge * charge * 4.0 / (3.0 * PI.sqrt()) / (2.0 * width).powi(3);
+    let density = 2.0 * beads * charge * charge / length.powi(3);
+    for row in found.rows.iter().take(5) {
+        let [k, _, value, error] = row[..] else { panic!("{row:?}") };
+        let free = 1.0 - (-0.5 * k * k / (stiffness - attraction)).exp();
+        let screening = 4.0 * PI * bjerrum * density * (-(k * width).powi(2)).exp() / (k * k);
+        let expected = free / (1.0 + screening * free);
+        println!("{k}: {value} ± {error}, expected {expected}");
+        assert!((value - expected).abs() < 0.02 * expected + 4.0 * error, "{k}: {value} ± {error}, {expected}");
+        assert!(error < 0.06 * expected, "{k}: {error}");
     }
 }

@@ -5,7 +5,7 @@ use super::{
     total_mass,
 };
 use crate::engine::Sample;
-use crate::families::{Checked, Model};
+use crate::families::{Checked, Electrostatics, Model};
 use crate::measure::blocks::BlockSums;
 use crate::measure::statistics::Estimate;
 use crate::measure::stress::Components;
@@ -17,6 +17,7 @@ use crate::shaders::analyses::{self, InLayers, Layered, LayeredStress};
 use crate::shaders::{Array, Choices, Constant, Entry};
 use crate::table::Table;
 use serde_json::{Value, json};
+use std::f64::consts::{PI, TAU};
 
 /// Names of columns, and of the mean in the result.
 const POSITION: &str = "position";
@@ -24,6 +25,8 @@ const DENSITY: &str = "number_density";
 const VELOCITIES: [&str; 3] = ["velocity_x", "velocity_y", "velocity_z"];
 const TEMPERATURE: &str = "temperature";
 const PRESSURE: &str = "pressure";
+const CHARGE: &str = "charge_density";
+const POTENTIAL: &str = "electrostatic_potential";
 /// Axes of the components of a tensor.
 const COMPONENTS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
 
@@ -35,7 +38,8 @@ fn shows(asked: &scene::Profiles, quantity: ProfiledQuantity) -> bool {
 }
 
 fn has_motion(asked: &scene::Profiles) -> bool {
-    asked.quantities.iter().any(|quantity| *quantity != ProfiledQuantity::Density)
+    let counts = [ProfiledQuantity::Density, ProfiledQuantity::Charge];
+    asked.quantities.iter().any(|quantity| !counts.contains(quantity))
 }
 
 impl Descriptor for Profiles {
@@ -313,6 +317,18 @@ impl Layers<'_> {
                 columns.push((density_of(number), Box::new(move |layer| self.density(of, layer))));
             }
         }
+        if shows(self.asked, ProfiledQuantity::Charge) {
+            let charge = |layer| self.density(|row| self.charge(row), layer);
+            columns.push((CHARGE.to_owned(), Box::new(charge)));
+            if let Some(response) = self.response() {
+                let potential = move |layer: usize| {
+                    let width = self.sums.kept();
+                    let at = |(other, row): (usize, &[f64])| response[layer.abs_diff(other)] * self.charge(row);
+                    self.blocks.mean(|row| row.chunks_exact(width).enumerate().map(at).sum())
+                };
+                columns.push((POTENTIAL.to_owned(), Box::new(potential)));
+            }
+        }
         if shows(self.asked, ProfiledQuantity::Velocity) {
             for (axis, name) in VELOCITIES.into_iter().take(dimension).enumerate() {
                 let ratio = move |layer| self.ratio(species + 1 + axis, species, layer);
@@ -329,6 +345,28 @@ impl Layers<'_> {
             }
         }
         columns
+    }
+
+    /// The charge of the particles of a layer.
+    fn charge(&self, row: &[f64]) -> f64 {
+        self.model.species.iter().zip(row).map(|(species, count)| species.charge * count).sum()
+    }
+
+    /// The potential of a layer by a unit charge in another, by their distance in layers: `4π kT lB/(A L) Σ_k e^(-k²σ²/2) cos(kz)/k²` over the
+    /// waves that layers resolve, for clouds of a width σ; none where charges do not act on each other.
+    fn response(&self) -> Option<Vec<f64>> {
+        let Electrostatics { strength, width, .. } = self.model.particles().electrostatics.as_ref()?;
+        let (bins, length) = (self.asked.bins, self.model.units.lengths[self.asked.axis as usize]);
+        let over_volume = 4.0 * PI * strength / self.model.units.volume();
+        let of_wave = |wave: u32, layers: u32| {
+            let number = TAU * f64::from(wave) / length;
+            // The shortest wave of an even number of layers is its own mirror image.
+            let images = if 2 * wave == bins { 1.0 } else { 2.0 };
+            let phase = TAU * f64::from(wave) * f64::from(layers) / f64::from(bins);
+            images * (-0.5 * (number * width).powi(2)).exp() * phase.cos() / (number * number)
+        };
+        let at = |layers| over_volume * (1..=bins / 2).map(|wave| of_wave(wave, layers)).sum::<f64>();
+        Some((0..bins).map(at).collect())
     }
 
     /// The temperature of all layers together.

@@ -188,6 +188,13 @@ const SPECTRA: &[Quantity] = &[
 const PROFILES: &[Quantity] = &[
     quantity("position", "x", LENGTH, "middle of the bin along the axis"),
     quantity("number_density", "n", Density, "particles over volume"),
+    quantity("charge_density", "ρ_Z", Density, "elementary charges over volume"),
+    quantity(
+        "electrostatic_potential",
+        "φ",
+        Energy,
+        "energy of a point charge of one elementary charge in the mean field of the clouds, 0 on average",
+    ),
     quantity("velocity", "u", VELOCITY, "momentum over mass"),
     quantity("temperature", "kT", Temperature, "of the motion relative to the centre of mass of the bin"),
     quantity("pressure", "P", Pressure, "pressure tensor relative to the mean velocity of the bin"),

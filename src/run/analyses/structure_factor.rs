@@ -159,23 +159,24 @@ impl Descriptor for StructureFactor {
     fn chart(&self, drawn: &Drawn<'_>) -> Chart {
         let wave_numbers = drawn.column(WAVE_NUMBER);
         let columns = drawn.table.columns.iter().filter(|name| name.contains(VALUE) && !name.ends_with("_error"));
-        let symbol = symbol(drawn.result);
+        let is_of_charge = is_of_charge(drawn.result);
+        let symbol = if is_of_charge { "S_{ZZ}(q)" } else { "S(q)" };
         let curve = |(column, result): (&String, &Value)| {
             let points = wave_numbers.iter().zip(drawn.column(column)).map(|(q, value)| [*q, value]).collect();
             let name = pair_in_words(names(result)).unwrap_or_else(|| symbol.to_owned());
             Series::line(&name, points).with_band(drawn.column(&format!("{column}_error"))).with_ink(drawn.ink(result))
         };
-        let of_charge = if drawn.result[CHARGES].is_boolean() { " of charge" } else { "" };
+        let of_charge = if is_of_charge { " of charge" } else { "" };
         let mut panel = Panel::new("Wave number q (1/length unit)", &format!("Structure factor{of_charge} {symbol}"));
         panel.x.range = wave_numbers.last().map(|last| [0.0, *last]);
         panel.series = columns.zip(results_of(drawn.result)).map(curve).collect();
-        let panel =
-            panel.with_reference(if of_charge.is_empty() { "ideal gas" } else { "charges at random places" }, 1.0);
+        let panel = panel.with_reference(if is_of_charge { "charges at random places" } else { "ideal gas" }, 1.0);
         Chart { title: drawn.title().to_owned(), panels: vec![panel], ..Chart::default() }
     }
 
     fn printed(&self, result: &Value) -> Vec<(String, String)> {
-        printed_peaks(result, symbol(result), [PEAK_HEIGHT, PEAK_WAVE_NUMBER])
+        let symbol = if is_of_charge(result) { "S_ZZ(q)" } else { "S(q)" };
+        printed_peaks(result, symbol, [PEAK_HEIGHT, PEAK_WAVE_NUMBER])
     }
 
     fn finds(&self, scene: &Checked) -> Vec<&'static str> {
@@ -185,9 +186,8 @@ impl Descriptor for StructureFactor {
     }
 }
 
-/// The symbol of a result.
-fn symbol(result: &Value) -> &'static str {
-    if result[CHARGES].is_boolean() { "S_ZZ(q)" } else { "S(q)" }
+fn is_of_charge(result: &Value) -> bool {
+    result[CHARGES].is_boolean()
 }
 
 /// The edges of the box that positions are periodic along.
