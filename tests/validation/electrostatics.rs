@@ -141,3 +141,75 @@ fn polarisable_beads_have_the_permittivity_of_random_phases() {
         assert!(error < 0.06 * expected, "{k}: {error}");
     }
 }
+
+/// Ions without any other force are screened as by Debye and Hückel where they are many and weak, κσ = .29:
+/// `S_ZZ = k²/(k² + κ² e^(-k²σ²))`, which tends to k²/κ².
+#[test]
+#[ignore = "minutes"]
+fn weak_ions_are_screened_as_by_debye_and_hueckel() {
+    let particles =
+        r#"particles=[{"species":"cation","count":408,"charge":1},{"species":"anion","count":408,"charge":-1}]"#;
+    let interactions = r#"interactions=[{"type":"langevin","friction":1},
+        {"type":"electrostatics","bjerrum_length":0.1,"width":0.5842}]"#;
+    let output = r#"output={"structure_factor":{"every":40,"range":2.1,"bins":42,"charges":true}}"#;
+    let scene = fluid(&[
+        "space.box=[16,16,16]",
+        "time.step=0.1",
+        "time.steps=41000",
+        "time.equilibration=1000",
+        particles,
+        interactions,
+        output,
+    ]);
+    let directory = tempfile::tempdir().unwrap();
+    Run::replace(scene, directory.path()).execute(&adapter(), &mut |_| {}).unwrap();
+    let found = read_table(&directory.path().join("structure_factor.csv")).unwrap();
+    let screening = 4.0 * PI * 0.1 * 816.0 / 16_f64.powi(3);
+    for row in &found.rows {
+        let [k, vectors, value, error] = row[..] else { panic!("{row:?}") };
+        let expected = k * k / (k * k + screening * (-(k * 0.5842).powi(2)).exp());
+        println!("{k}: {value} ± {error} of {vectors} vectors, expected {expected}");
+        assert!((value - expected).abs() < 0.01 * expected + 4.0 * error, "{k}: {value} ± {error}, {expected}");
+        assert!(error < 0.04 * expected, "{k}: {error}");
+    }
+    let [k, _, value, _] = found.rows[0][..] else { panic!() };
+    // The longest wave is nearly where screening is perfect.
+    assert!((k * k / screening / value - 1.0 - k * k / screening).abs() < 0.15, "{value}");
+}
+
+/// Counter-ions of a line of charges .7 apart, 1.58 to a Bjerrum length, of which Manning's theory binds 37 %: the parts of them within some
+/// distances are those of the mean field in the same box, solved apart from this on a grid of two dimensions.
+#[test]
+#[ignore = "minutes"]
+fn counter_ions_gather_at_a_line_of_charges() {
+    let places: Vec<[f64; 3]> = (0..20).map(|index| [10.0, 10.0, 0.35 + 0.7 * f64::from(index)]).collect();
+    let particles = format!(
+        r#"particles=[{{"species":"line","charge":-1,"fixed":true,"velocities":{{"type":"rest"}},
+            "placement":{{"type":"listed","positions":{places:?}}}}},{{"species":"ion","count":20,"charge":1}}]"#
+    );
+    let interactions = r#"interactions=[{"type":"langevin","friction":0.2},
+        {"type":"electrostatics","bjerrum_length":1.1039,"width":0.5842}]"#;
+    let scene = fluid(&["space.box=[20,20,14]", "time.step=0.1", "output={}", &particles, interactions]);
+    let mut run = Device::new(&scene);
+    run.step(2000);
+    let expected = [(1.0, 0.1661), (2.0, 0.3402), (3.0, 0.4440), (5.0, 0.5891)];
+    let mut parts = vec![Vec::new(); expected.len()];
+    for _ in 0..4000 {
+        run.step(10);
+        let state = run.state();
+        let distance = |position: &[u32; 3]| {
+            let away =
+                |axis: usize| f64::from(position[axis].wrapping_sub(1 << 31).cast_signed()) * 20.0 / 2_f64.powi(32);
+            away(0).hypot(away(1))
+        };
+        let distances: Vec<f64> = state.positions[20..].iter().map(distance).collect();
+        for ((within, _), found) in expected.iter().zip(&mut parts) {
+            found.push(distances.iter().filter(|distance| *distance < within).count() as f64 / 20.0);
+        }
+    }
+    for ((within, expected), found) in expected.iter().zip(&parts) {
+        let found = Measured::of(found);
+        println!("within {within}: {found:?}, expected {expected}");
+        found.assert(&format!("ions within {within}"), *expected, 0.01, 0.012);
+    }
+}
