@@ -10,7 +10,7 @@ fn cloud_pair(x: f32) -> CloudPair {
     let density = 1.1283792 * exp(-square);
     // The pull is 2/√π e^(-x²) Σ 2ⁿ x^(2n-2)/(2n+1)!!, whose terms have one sign. Where x² is below 2.25 sixteen are enough.
     var sum = 1.0;
-    for (var term = 16u; term > 1u; term -= 1u) { sum = 1.0 + sum * 2.0 * square / f32(2u * term + 1u); }
+    for (var term = 0u; term < 15u; term += 1u) { sum = 1.0 + sum * 2.0 * square / f32(33u - 2u * term); }
     let near = density * sum * (2.0 / 3.0);
     // The error function to 1.5e-7: Abramowitz and Stegun, Handbook of Mathematical Functions, 7.1.26.
     let t = 1.0 / (1.0 + 0.3275911 * x);
@@ -40,35 +40,35 @@ fn visit_excluded_charges(index: u32) {
     if (!are_known(vec3<u32>(slot, other_slot, other_slot))) { return; }
     let ends = Ends(slot, other_slot, particle_at(slot), particle_at(other_slot));
     let contact = contact_of(separation(ends.me.position, ends.other.position));
-    let excluded = excluded_at(bitcast<f32>(pair.z), contact.distance);
-    let impulse = Steps(round(excluded.impulse * contact.direction));
+    let taken = excluded_at(bitcast<f32>(pair.z), contact.distance);
+    let impulse = Steps(round(taken.impulse * contact.direction));
     add_kick(slot, impulse);
     add_kick(other_slot, -impulse);
-    note_excluded_charges(ends, excluded, contact);
-    raise(select(FAILURE_IMPULSE, 0u, is_within(excluded.impulse, IMPULSE_LIMIT)));
+    note_excluded_charges(ends, taken, contact);
+    raise(select(FAILURE_IMPULSE, 0u, is_within(taken.impulse, IMPULSE_LIMIT)));
 }
 
 // Slot charges/exclusion_report: `note_excluded_charges` gets each pair and what is taken back, `finish_excluded_charges` ends the workgroup.
 // Default: off, a step without a report. The plan chooses `observed` for reports; of split steps `motion` where the motion is
 // measured, and `configuration` half a drift later.
-fn note_excluded_charges(pair: Ends, excluded: ExcludedCharges, contact: Contact) {}
+fn note_excluded_charges(pair: Ends, taken: ExcludedCharges, contact: Contact) {}
 fn finish_excluded_charges(group: u32, lane: u32) {}
 
-fn note_virial_of_charges(pair: Ends, excluded: ExcludedCharges, contact: Contact) {
+fn note_virial_of_charges(pair: Ends, taken: ExcludedCharges, contact: Contact) {
     let share = mobile_share(pair.me, pair.other);
-    total_add(SUM_VIRIAL, sum64_of_signed(share * excluded.impulse * contact.distance * PAIR_VIRIAL));
+    total_add(SUM_VIRIAL, sum64_of_signed(share * taken.impulse * contact.distance * PAIR_VIRIAL));
 }
-fn note_configuration_of_charges(pair: Ends, excluded: ExcludedCharges, contact: Contact) {
+fn note_configuration_of_charges(pair: Ends, taken: ExcludedCharges, contact: Contact) {
     let share = mobile_share(pair.me, pair.other);
-    let energy = sum64_of_signed(excluded.energy * PAIR_VIRIAL);
+    let energy = sum64_of_signed(taken.energy * PAIR_VIRIAL);
     total_add(SUM_POTENTIAL_ENERGY, energy);
     total_add(SUM_ELECTROSTATIC_ENERGY, energy);
-    total_add(SUM_CONSERVATIVE_VIRIAL, sum64_of_signed(share * excluded.impulse * contact.distance * PAIR_VIRIAL));
-    total_add(SUM_CURVATURE, sum64_of_signed(share * excluded.laplacian * LAPLACIAN));
+    total_add(SUM_CONSERVATIVE_VIRIAL, sum64_of_signed(share * taken.impulse * contact.distance * PAIR_VIRIAL));
+    total_add(SUM_CURVATURE, sum64_of_signed(share * taken.laplacian * LAPLACIAN));
 }
 // The forces on both, whoever of several ranks counts the pair.
-fn gather_force_of_charges(pair: Ends, excluded: ExcludedCharges, contact: Contact) {
-    let force = Steps(round(excluded.impulse * contact.direction));
+fn gather_force_of_charges(pair: Ends, taken: ExcludedCharges, contact: Contact) {
+    let force = Steps(round(taken.impulse * contact.direction));
     add_force(pair.slot, held_kick(pair.me, force));
     add_force(pair.other_slot, held_kick(pair.other, -force));
 }

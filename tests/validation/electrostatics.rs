@@ -178,7 +178,8 @@ fn weak_ions_are_screened_as_by_debye_and_hueckel() {
 }
 
 /// Counter-ions of a line of charges .7 apart, 1.58 to a Bjerrum length, of which Manning's theory binds 37 %: the parts of them within some
-/// distances are those of the mean field in the same box, solved apart from this on a grid of two dimensions.
+/// distances are those of the mean field of the line and the other nineteen in the same box, solved apart from this on a grid of two dimensions.
+/// Ions that avoid each other gather a little more.
 #[test]
 #[ignore = "minutes"]
 fn counter_ions_gather_at_a_line_of_charges() {
@@ -192,7 +193,7 @@ fn counter_ions_gather_at_a_line_of_charges() {
     let scene = fluid(&["space.box=[20,20,14]", "time.step=0.1", "output={}", &particles, interactions]);
     let mut run = Device::new(&scene);
     run.step(2000);
-    let expected = [(1.0, 0.1661), (2.0, 0.3402), (3.0, 0.4440), (5.0, 0.5891)];
+    let expected = [(1.0, 0.1707), (2.0, 0.3486), (3.0, 0.4536), (5.0, 0.5985)];
     let mut parts = vec![Vec::new(); expected.len()];
     for _ in 0..4000 {
         run.step(10);
@@ -210,6 +211,6 @@ fn counter_ions_gather_at_a_line_of_charges() {
     for ((within, expected), found) in expected.iter().zip(&parts) {
         let found = Measured::of(found);
         println!("within {within}: {found:?}, expected {expected}");
-        found.assert(&format!("ions within {within}"), *expected, 0.01, 0.012);
+        found.assert(&format!("ions within {within}"), *expected, 0.012, 0.012);
     }
 }

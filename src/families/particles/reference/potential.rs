@@ -114,7 +114,7 @@ mod tests {
         let slope = (more.energy - less.energy) / 2e-5;
         assert!((slope - here.slope).abs() < 1e-6 * here.slope.abs().max(1.0), "{name} {distance}");
         let curvature = (more.slope - less.slope) / 2e-5;
-        assert!((curvature - here.curvature).abs() < 1e-5 * here.curvature, "{name} {distance}");
+        assert!((curvature - here.curvature).abs() < 1e-5 * here.curvature.abs(), "{name} {distance}");
     }
 
     #[test]
