@@ -20,7 +20,7 @@ fn cloud_pair(x: f32) -> CloudPair {
     return CloudPair(density + square * pull, pull, density);
 }
 
-// What is taken back of a pair.
+// The negative of what two clouds do to each other.
 struct ExcludedCharges {
     impulse: f32,   // of half a step, away from each other
     energy: f32,    // in the unit of impulse and length

@@ -366,7 +366,7 @@ struct Reading {
     scene: serde_json::Result<Scene>,
     /// What was shortened for a run of so many steps, or is not used of a file.
     notices: Vec<Warning>,
-    /// What each group gives itself.
+    /// The numbers that each group gives itself.
     given: Vec<Given>,
 }
 

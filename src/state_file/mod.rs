@@ -58,7 +58,7 @@ pub struct ParticleFile {
     pub masses: Vec<Option<f64>>,
     /// Charges of the species, where the file has them.
     pub charges: Vec<Option<f64>>,
-    /// What keeps the charges from being used, where they are.
+    /// Mistakes that keep the charges from being used, where they are.
     pub charge_mistakes: Vec<Mistake>,
     /// Number of dimensions, where the file says so.
     pub dimension: Option<usize>,
@@ -516,7 +516,7 @@ impl NumbersOfSpecies {
             self.different.resize_with(species + 1, Tally::default);
         }
         let known = *self.numbers[species].get_or_insert(number);
-        // What is no number is not even equal to itself.
+        // A NaN is not even equal to itself.
         if known != number || !(self.of.is_possible)(number) {
             self.different[species].add(particle);
         }

@@ -86,6 +86,19 @@ fn scenes_without_what_charges_need() {
 fn excluded_charges() {
     let bonds = |pair: &str| format!(r#"interactions.2={{"type":"bonds","pairs":[{pair}],"exclude_charges":true}}"#);
     assert_eq!(SALT.warnings(&[&bonds("[0,1]")]), [""; 0]);
+    // Charges of 2 and -1 attract each other like a spring of .92.
+    let spring = |stiffness: f64| {
+        let potential = format!(r#"{{"type":"harmonic","stiffness":{stiffness}}}"#);
+        format!(
+            r#"interactions.2={{"type":"bonds","pairs":[[600,630]],"potential":{potential},"exclude_charges":true}}"#
+        )
+    };
+    assert_eq!(SALT.warnings(&[&spring(5.0)]), [""; 0]);
+    let warnings = SALT.warnings(&[&spring(0.9)]);
+    assert!(
+        warnings.len() == 1 && warnings[0].contains("the attraction that is taken back one of 0.922"),
+        "{warnings:?}"
+    );
     let without = r#"interactions=[{"type":"bonds","pairs":[[0,1]],"exclude_charges":true}]"#;
     let warnings = SALT.warnings(&[without]);
     assert!(warnings[0].starts_with("interactions[0].exclude_charges: nothing is excluded"), "{warnings:?}");

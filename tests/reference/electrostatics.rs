@@ -103,7 +103,7 @@ fn excluded_charges_are_those_of_the_reference() {
         let bonds = [along.clone(), listed.clone()];
         let scene = salt([5.0, 6.0, 5.5], integrator, &json!({}), &bonds);
         check(&scene, &format!("excluded, {integrator}"));
-        // What is excluded counts.
+        // Excluded charges count.
         let (_, state) = start(&scene);
         let [with, without] = [&scene, &salt([5.0, 6.0, 5.5], integrator, &json!({}), &[])]
             .map(|scene| reference(scene, &state).observe().unwrap().electrostatic_energy);

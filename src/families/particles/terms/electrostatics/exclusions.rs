@@ -1,12 +1,13 @@
 //! Bonds that exclude the charges of their ends: what the mesh adds between these is taken back, for the nearest images.
 
 use super::Electrostatics;
-use crate::document::CHARGE_PARTS;
+use crate::document::BondPotential;
+use crate::families::particles::model::topology::Alike;
 use crate::families::particles::plan::bonded::{Bonded, Observed, Scales};
 use crate::families::{Bonds, Model};
 use crate::plan::{Plan, Words};
 use crate::shaders::{Array, Choices, Constant, Entry, charges};
-use std::collections::HashMap;
+use std::f64::consts::PI;
 
 /// The bonds of a model, if any excludes charges.
 pub(super) fn excluding(model: &Model) -> Option<&Bonds> {
@@ -16,14 +17,31 @@ pub(super) fn excluding(model: &Model) -> Option<&Bonds> {
 /// The ends of every bond that excludes charges and the product of their charges, smaller number first, in order. A pair that several bonds
 /// exclude has the product 0 but once.
 pub(super) fn excluded_pairs(electrostatics: &Electrostatics, bonds: &Bonds) -> Vec<([u32; 2], f64)> {
-    let charges: HashMap<u64, i32> = electrostatics.charged.iter().collect();
-    let charge = |end: u32| f64::from(charges.get(&end.into()).copied().unwrap_or(0)) / CHARGE_PARTS;
+    let charge = |end: u32| electrostatics.charged.of(end);
     let excluding = bonds.iter().filter(|bond| bonds.kinds[bond.kind as usize].exclude_charges);
     let mut pairs: Vec<[u32; 2]> = excluding.map(|bond| bond.ends).map(|[a, b]| [a.min(b), a.max(b)]).collect();
     pairs.sort_unstable();
     let is_again = |index: usize| index > 0 && pairs[index] == pairs[index - 1];
     let product = |index: usize, [a, b]: [u32; 2]| if is_again(index) { 0.0 } else { charge(a) * charge(b) };
     pairs.iter().enumerate().map(|(index, pair)| (*pair, product(index, *pair))).collect()
+}
+
+/// The stiffness of a spring between two opposite charges that is no larger than that of the attraction of their clouds, which is taken back, and the
+/// latter: other charges can pull these apart.
+pub(super) fn weak_spring(electrostatics: &Electrostatics, bonds: &Bonds) -> Option<[f64; 2]> {
+    let of_unit = electrostatics.strength * 4.0 / (3.0 * PI.sqrt() * (2.0 * electrostatics.width).powi(3));
+    // Charges of one species repel each other.
+    let listed = bonds.alike().filter_map(|(kind, alike)| match alike {
+        Alike::Listed(pairs) => Some((&bonds.kinds[kind as usize], pairs)),
+        Alike::Species(_) | Alike::Ended(..) => None,
+    });
+    let weak = listed.filter(|(kind, _)| kind.exclude_charges).filter_map(|(kind, pairs)| {
+        let Some(BondPotential::Harmonic { stiffness, .. }) = kind.potential else { return None };
+        let product = |[a, b]: &[u32; 2]| electrostatics.charged.of(*a) * electrostatics.charged.of(*b);
+        let attraction = -of_unit * pairs.iter().map(product).fold(0.0, f64::min);
+        (stiffness <= attraction).then_some([stiffness, attraction])
+    });
+    weak.min_by(|a, b| a[0].total_cmp(&b[0]))
 }
 
 /// The kernels that take the forces back.

@@ -69,6 +69,15 @@ impl Charged {
         self.copies * self.runs.iter().map(|run| run.count).sum::<u64>()
     }
 
+    /// The charge of a particle, in elementary charges.
+    pub(crate) fn of(&self, particle: u32) -> f64 {
+        // Without copies there is no period.
+        let place = u64::from(particle).checked_rem(self.period).unwrap_or(particle.into());
+        let before = self.runs.partition_point(|run| run.first <= place).checked_sub(1);
+        let run = before.map(|index| self.runs[index]).filter(|run| place < run.first + run.count);
+        run.map_or(0.0, |run| f64::from(run.charge) / CHARGE_PARTS)
+    }
+
     /// Number and charge of each of them, in order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (u64, i32)> + '_ {
         let of_copy = move |copy: u64| {

@@ -1,6 +1,6 @@
 //! Electrostatics of a scene.
 
-use super::{Charged, Electrostatics, Run, expected_error, mesh};
+use super::{Charged, Electrostatics, Run, exclusions, expected_error, mesh};
 use crate::document::{
     CHARGE_PARTS, ElectrostaticsInteraction, NumberedSpecies, ParticleGroup, Problems, Scene, SpeciesNames, Warning,
     number_of_copies,
@@ -117,6 +117,14 @@ impl SceneTerm for ElectrostaticsInteraction {
                 FAST * model.time_step / swing
             );
             warn(warnings, format!("{path}.bjerrum_length"), message);
+        }
+        let springs = exclusions::excluding(model).and_then(|bonds| exclusions::weak_spring(electrostatics, bonds));
+        if let Some([stiffness, attraction]) = springs {
+            let message = format!(
+                "bonds between opposite charges that exclude these have a stiffness of {stiffness}, and the attraction that is taken back one of \
+                 {attraction:.3}: other charges pull them apart; a stiffness well above that is advisable"
+            );
+            warn(warnings, path.to_owned(), message);
         }
         let error = expected_error(electrostatics, model.units.lengths, electrostatics.squares());
         if error.relative > COARSE {
