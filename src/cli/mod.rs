@@ -4,6 +4,7 @@ mod adapter_argument;
 mod adapters;
 mod check;
 mod event_lines;
+mod export;
 mod failure;
 mod guidance;
 mod heading;
@@ -79,6 +80,7 @@ enum Command {
     Stability(stability::Arguments),
     Plot(plot::Arguments),
     Report(page::Arguments),
+    Export(export::Arguments),
     Scenes(scenes::Arguments),
     Schema(schema::Arguments),
     Adapters(adapters::Arguments),
@@ -101,7 +103,10 @@ impl Command {
 
     /// True if it opens an adapter.
     fn computes(&self) -> bool {
-        !matches!(self, Self::Report(_) | Self::Scenes(_) | Self::Schema(_) | Self::Completions(_) | Self::Man(_))
+        !matches!(
+            self,
+            Self::Report(_) | Self::Export(_) | Self::Scenes(_) | Self::Schema(_) | Self::Completions(_) | Self::Man(_)
+        )
     }
 
     fn execute(&self) -> Result<(), Failure> {
@@ -118,6 +123,7 @@ impl Command {
             Self::Stability(arguments) => stability::execute(arguments),
             Self::Plot(arguments) => plot::execute(arguments),
             Self::Report(arguments) => page::execute(arguments),
+            Self::Export(arguments) => export::execute(arguments),
             Self::Scenes(arguments) => scenes::execute(arguments),
             Self::Schema(arguments) => schema::execute(arguments),
             Self::Adapters(arguments) => adapters::execute(arguments),

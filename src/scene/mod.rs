@@ -27,5 +27,5 @@ pub use load::{WrittenScene, load, parse, schema, unknown_builtin};
 pub(crate) use overrides::value;
 pub use semantics::BYTES_PER_PARTICLE;
 pub(crate) use stages::part_at;
-pub use start::Fits;
+pub use start::{Fits, particles_of};
 pub(crate) use state_files::StateFiles;

@@ -12,6 +12,7 @@ mod file_layer;
 mod gsd;
 mod keys;
 mod lammps;
+mod lammps_data;
 mod lines;
 mod tally;
 
@@ -24,6 +25,7 @@ use tally::Tally;
 
 pub(crate) use atom_style::AtomStyle;
 pub use file_layer::{Chunk, Cursor, GsdError, GsdReader, GsdWriter, Number};
+pub use lammps_data::write_lammps;
 
 /// What a file says of particles, in the order and with the units of the file.
 ///

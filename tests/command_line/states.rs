@@ -165,6 +165,39 @@ fn what_was_written_is_read_back() {
     assert_eq!(scene::parse(name.to_str().unwrap(), &text, &[]).unwrap(), scene);
 }
 
+/// A run goes into a data file of LAMMPS as it was at its last report, and comes back from it.
+#[test]
+fn runs_are_exported_to_lammps_and_read_back() {
+    let place = Place::of(charged_melt());
+    place.run("run", &[]);
+    let run = place.path("run");
+    let data = place.path("melt.data");
+    let export = ["export", run.to_str().unwrap(), "--out", data.to_str().unwrap()];
+    assert!(succeeds(&export).contains("melt.data: 150 particles"));
+    fails(&export, 5, &["melt.data` exists", "--force"]);
+    succeeds(&[&export[..], &["--force"]].concat());
+    let text = fs::read_to_string(&data).unwrap();
+    assert!(text.contains("150 atoms\n2 atom types\n48 bonds\n1 bond types\n36 angles\n1 angle types\n"), "{text}");
+    // Chains of five beads are molecules, and so is every bead of the solvent.
+    let molecule = |atom: usize| {
+        let line = text.lines().skip_while(|line| *line != "Atoms # full").nth(1 + atom).unwrap();
+        line.split(' ').nth(1).unwrap().parse::<usize>().unwrap()
+    };
+    assert_eq!([1, 5, 6, 60, 61, 150].map(molecule), [1, 1, 2, 12, 13, 102]);
+    let read = mesoscope::state_file::read(&data, -1, None).unwrap();
+    let expected = scene::particles_of(&run, -1).unwrap();
+    assert_eq!((&read.types, &read.positions, &read.images), (&expected.types, &expected.positions, &expected.images));
+    assert_eq!((&read.masses, &read.charges, &read.lengths), (&expected.masses, &expected.charges, &expected.lengths));
+    assert_eq!(read.velocities, expected.velocities);
+    assert_eq!(
+        (&read.bonds[0].members, &read.angles[0].members),
+        (&expected.bonds[0].members, &expected.angles[0].members)
+    );
+    assert_eq!(read.species, ["C", "a_solvent"]);
+    assert_eq!(read.charges, [Some(-0.75), Some(0.5)]);
+    fails(&["export", place.path("nothing").to_str().unwrap()], 5, &["nothing"]);
+}
+
 fn changed_seed(text: &Value) -> Checked {
     scene::parse("melt", &text.to_string(), &["seed=6".to_owned()]).unwrap()
 }

@@ -157,6 +157,29 @@ fn particles(
     }
 }
 
+/// The particles of the last checkpoint of a run, with their velocities at its last report, or of a frame of a file, from 0, or from the end where it
+/// is negative.
+///
+/// # Errors
+/// [`StateFileError`] with all mistakes.
+pub fn particles_of(path: &Path, frame: i64) -> Result<ParticleFile, StateFileError> {
+    let state = StateFile {
+        file: String::new(),
+        frame,
+        velocities: StateVelocities::File,
+        replicate: Vec::new(),
+        atom_style: None,
+        outside: OutsidePositions::Refuse,
+        checksum: None,
+    };
+    let (mut file, run) = particles(path, &state, &|_| Ok(()))?;
+    if let Some(run) = run {
+        file.velocities =
+            run.velocities().map_err(|mistake| StateFileError { path: path.to_path_buf(), mistakes: vec![mistake] })?;
+    }
+    Ok(file)
+}
+
 fn refuse(state: &StateFile, mistakes: Vec<Mistake>, problems: &mut Problems) {
     let problem =
         |mistake: Mistake| Problem::new("state.file", mistake.found_in(Path::new(&state.file)), mistake.accepted);
