@@ -36,8 +36,9 @@ pub struct Arguments {
 
 /// Writes the file.
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let name = arguments.source.file_name().unwrap_or_default();
-    let default = || PathBuf::from(name).with_added_extension("data");
+    // A directory may be called `.`.
+    let source = std::fs::canonicalize(&arguments.source).unwrap_or_else(|_| arguments.source.clone());
+    let default = || PathBuf::from(source.file_name().unwrap_or("particles".as_ref())).with_added_extension("data");
     let out = arguments.out.clone().unwrap_or_else(default);
     let shown = printable::path(&out);
     if out.exists() && !arguments.force {
@@ -46,13 +47,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let particles = scene::particles_of(&arguments.source, arguments.frame)
         .map_err(|error| Failure::input_output(error.to_string()))?;
-    if particles.lengths.is_none() {
-        let source = printable::path(&arguments.source);
-        return Err(Failure::input_output(format!(
-            "`{source}` has no box; accepted: a file with one, as `Lattice` is in extended XYZ"
-        )));
-    }
     let title = printable::path(&arguments.source);
     write_atomically(&out, |writer| state_file::write_lammps(&particles, &title, writer))?;
-    print(&format!("{shown}: {} particles\n", particles.len()))
+    let has_mass = |kind: &usize| particles.masses.get(*kind).copied().flatten().is_some();
+    let without = (0..particles.species.len()).filter(|kind| !has_mass(kind));
+    let without: Vec<_> = without.map(|kind| format!("`{}`", printable::name(&particles.species[kind]))).collect();
+    let masses = if without.is_empty() {
+        String::new()
+    } else {
+        format!(", without masses of {}: they are 1", without.join(", "))
+    };
+    print(&format!("{shown}: {} particles{masses}\n", particles.len()))
 }

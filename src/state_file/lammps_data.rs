@@ -5,7 +5,8 @@ use std::collections::HashSet;
 use std::io::{self, Write};
 
 /// Writes particles as a data file of LAMMPS, of atoms in style `full`: with masses, charges, velocities, images, bonds and angles as far as they
-/// are there. Particles that bonds join are a molecule; numbers start at 1. Names of types are those of the particles, without blanks.
+/// are there. Particles that bonds join are a molecule; numbers start at 1. Names of types are those of the particles, without blanks, hashes and
+/// quotes. What has no mass has 1.
 ///
 /// ```
 /// use mesoscope::state_file::{self, ParticleFile};
@@ -82,12 +83,13 @@ fn write_box(file: &ParticleFile, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out)
 }
 
-/// Names as labels of types, each of which is another: a word that begins with no digit, star or hash.
+/// Names as labels of types, each of which is another: a word without hashes and quotes that begins with no digit and no star.
 fn labels<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     let mut taken = HashSet::new();
     let label = |(number, name): (usize, &String)| {
-        let word: String = name.chars().map(|letter| if letter.is_whitespace() { '_' } else { letter }).collect();
-        let is_label = word.starts_with(|first: char| !first.is_ascii_digit() && !['*', '#'].contains(&first));
+        let is_plain = |letter: char| !letter.is_whitespace() && !letter.is_control() && !"#\"'".contains(letter);
+        let word: String = name.chars().map(|letter| if is_plain(letter) { letter } else { '_' }).collect();
+        let is_label = word.starts_with(|first: char| !first.is_ascii_digit() && first != '*');
         let label = if is_label { word } else { format!("type_{word}") };
         if taken.insert(label.clone()) {
             return label;
@@ -158,12 +160,12 @@ fn molecules(file: &ParticleFile) -> Vec<u32> {
 }
 
 fn write_links<const LENGTH: usize>(section: &str, all: &[Links<LENGTH>], out: &mut dyn Write) -> io::Result<()> {
-    if all.is_empty() {
+    if members(all) == 0 {
         return Ok(());
     }
     writeln!(out, "\n{section}\n")?;
-    let members = (1..).zip(all).flat_map(|(kind, links)| links.members.iter().map(move |members| (kind, members)));
-    for (number, (kind, members)) in (1_u64..).zip(members) {
+    let each = (1..).zip(all).flat_map(|(kind, links)| links.members.iter().map(move |members| (kind, members)));
+    for (number, (kind, members)) in (1_u64..).zip(each) {
         let ends = members.map(|member: u32| (u64::from(member) + 1).to_string());
         writeln!(out, "{number} {kind} {}", ends.join(" "))?;
     }

@@ -198,6 +198,46 @@ fn runs_are_exported_to_lammps_and_read_back() {
     fails(&["export", place.path("nothing").to_str().unwrap()], 5, &["nothing"]);
 }
 
+/// Files in which a number has no meaning are not exported: bonds to nowhere, charges that differ within a species, no box. A mass that is missing is said.
+#[test]
+fn files_without_meaning_are_not_exported() {
+    let place = tempfile::tempdir().unwrap();
+    let export = |name: &str, content: &str| {
+        let file = place.path().join(name);
+        fs::write(&file, content).unwrap();
+        ["export".to_owned(), file.to_str().unwrap().to_owned(), "--out".to_owned(), format!("{}.data", file.display())]
+    };
+    let refused = |name: &str, content: &str, parts: &[&str]| {
+        let arguments = export(name, content);
+        fails(&arguments.each_ref().map(String::as_str), 5, parts);
+        assert!(!place.path().join(format!("{name}.data")).exists());
+    };
+    let xyz = |head: &str, lines: [&str; 2]| format!("2\n{head}\n{}\n{}\n", lines[0], lines[1]);
+    refused("open.xyz", &xyz("Properties=species:S:1:pos:R:3", ["A 1 1 1", "A 2 2 2"]), &["found no box", "Lattice"]);
+    let charged = r#"Lattice="4 0 0 0 4 0 0 0 4" Properties=species:S:1:pos:R:3:charge:R:1"#;
+    refused(
+        "charged.xyz",
+        &xyz(charged, ["A 1 1 1 0.5", "A 2 2 2 1"]),
+        &["particle 1 of `A` with other charges than 0.5"],
+    );
+    let path = place.path().join("bonded.gsd");
+    let mut file = GsdWriter::create(&path, "test", "hoomd", (1, 4)).unwrap();
+    file.write("configuration/box", [[4.0_f32], [4.0], [4.0], [0.0], [0.0], [0.0]]).unwrap();
+    file.write("particles/N", [[2_u32]]).unwrap();
+    file.write("particles/position", [[0.0_f32; 3], [1.0; 3]]).unwrap();
+    file.write("bonds/N", [[1_u32]]).unwrap();
+    file.write("bonds/group", [[0_u32, 7]]).unwrap();
+    file.end_frame();
+    file.sync().unwrap();
+    drop(file);
+    fails(&["export", path.to_str().unwrap()], 5, &["found bond 0-7", "not there"]);
+    let alike = export("alike.xyz", &xyz(charged, ["A#1 1 1 1 0.5", "A#1 2 2 2 0.5"]));
+    let said = succeeds(&alike.each_ref().map(String::as_str));
+    assert!(said.contains("2 particles, without masses of `A#1`: they are 1"), "{said}");
+    let data = fs::read_to_string(place.path().join("alike.xyz.data")).unwrap();
+    assert!(data.contains("Atom Type Labels\n\n1 A_1\n") && data.contains("\n2 2 1 0.5 2 2 2\n"), "{data}");
+}
+
 fn changed_seed(text: &Value) -> Checked {
     scene::parse("melt", &text.to_string(), &["seed=6".to_owned()]).unwrap()
 }

@@ -84,7 +84,8 @@ fn charges_of_copies_are_those_of_their_species() {
             "state": {"file": file, "replicate": [2, 1, 2], "velocities": "thermal"},
             "particles": [{"species": "W"}, {"species": "P", "charge": 1.5}, {"species": "M", "charge": -1.5}],
             "interactions": [{"type": "dpd", "repulsion": 25, "friction": 4.5},
-                {"type": "electrostatics", "bjerrum_length": 1.1}],
+                {"type": "electrostatics", "bjerrum_length": 1.1},
+                {"type": "bonds", "pairs": [[1, 26], [25, 52], [30, 77]], "exclude_charges": true}],
             "output": {"energies": {"every": 1}},
         })
         .to_string(),

@@ -158,7 +158,7 @@ fn particles(
 }
 
 /// The particles of the last checkpoint of a run, with their velocities at its last report, or of a frame of a file, from 0, or from the end where it
-/// is negative.
+/// is negative: in a box, with bonds between them, and each number one of its species.
 ///
 /// # Errors
 /// [`StateFileError`] with all mistakes.
@@ -172,12 +172,20 @@ pub fn particles_of(path: &Path, frame: i64) -> Result<ParticleFile, StateFileEr
         outside: OutsidePositions::Refuse,
         checksum: None,
     };
+    let refusal = |mistakes| StateFileError { path: path.to_path_buf(), mistakes };
     let (mut file, run) = particles(path, &state, &|_| Ok(()))?;
     if let Some(run) = run {
-        file.velocities =
-            run.velocities().map_err(|mistake| StateFileError { path: path.to_path_buf(), mistakes: vec![mistake] })?;
+        file.velocities = run.velocities().map_err(|mistake| refusal(vec![mistake]))?;
     }
-    Ok(file)
+    let Some(lengths) = file.lengths else {
+        let accepted = "a file with a box, as `Lattice` is in extended XYZ";
+        return Err(refusal(vec![Mistake::new("", "found no box", accepted)]));
+    };
+    let dimension = file.dimension.unwrap_or(3);
+    let mut mistakes = file.mistakes(dimension, lengths, file.open_axes, true);
+    mistakes.extend(file.mistakes_of_velocities(dimension));
+    mistakes.extend(file.charge_mistakes.iter().cloned());
+    if mistakes.is_empty() { Ok(file) } else { Err(refusal(mistakes)) }
 }
 
 fn refuse(state: &StateFile, mistakes: Vec<Mistake>, problems: &mut Problems) {

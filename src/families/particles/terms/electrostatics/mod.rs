@@ -161,3 +161,26 @@ impl Term for Electrostatics {
         scene::check_capacity(scene, self, problems);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn charges_are_found_by_the_number_of_their_particle() {
+        let run = |first, count, charge: f64| Run { first, count, charge: (charge * CHARGE_PARTS) as i32 };
+        let runs = vec![run(1, 2, 0.5), run(3, 1, -1.5), run(6, 1, 1.0)];
+        let in_copy = [0.0, 0.5, 0.5, -1.5, 0.0, 0.0, 1.0, 0.0];
+        let copied = Charged { runs: runs.clone(), period: 8, copies: 3 };
+        for particle in 0..24 {
+            assert_eq!(copied.of(particle), in_copy[particle as usize % 8], "{particle}");
+        }
+        let single = Charged { runs, period: 0, copies: 1 };
+        assert_eq!([0, 2, 3, 6, 7, 100].map(|particle| single.of(particle)), [0.0, 0.5, -1.5, 1.0, 0.0, 0.0]);
+        let listed: Vec<(u64, i32)> = copied.iter().collect();
+        assert_eq!(listed.len() as u64, copied.count());
+        for (particle, charge) in listed {
+            assert_eq!(f64::from(charge) / CHARGE_PARTS, copied.of(particle as u32), "{particle}");
+        }
+    }
+}
