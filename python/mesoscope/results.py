@@ -189,6 +189,15 @@ class Run:
         """What analyses found, as ``run.json`` has it."""
         return self.summary.get("results", {})
 
+    def stage(self, number: int) -> "Run":
+        """What analyses of an earlier stage have left, counted from 1: ``run.stage(2).rdf()``. Those of the last stage are the run's."""
+        stages = self.summary.get("stages", [])
+        kept = {place: stage["directory"] for place, stage in enumerate(stages, 1) if "directory" in stage}
+        if number not in kept:
+            held = ", ".join(map(str, kept)) or "none, for `output` of no earlier stage asks for analyses"
+            raise ArrayError(f"stage {number} of this run has no analyses of its own; accepted: {held}")
+        return Run(self.directory / kept[number])
+
     @property
     def energies(self) -> dict[str, np.ndarray]:
         """The table of energies: an array for every column."""
@@ -227,7 +236,8 @@ class Run:
 
     def diffusion(self, species: str | None = None) -> Mean:
         """The diffusion coefficient from mean squared displacements."""
-        measured = self.scene["output"].get("diffusion", {}).get("species")
+        stages = self.scene.get("stages", [])
+        measured = ((stages[-1] if stages else {}).get("output", {}).get("diffusion") or self.scene["output"].get("diffusion", {})).get("species")
         if species is not None and species != measured:
             raise ArrayError(f"this run measured the diffusion of {measured or 'all particles'}, not of {species!r}: set output.diffusion.species")
         return self.mean("diffusion.diffusion_einstein")

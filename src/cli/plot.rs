@@ -48,7 +48,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let (choice, has) = (adapter.choice(), |name: &str| directory.join(name).exists());
     let written = if has(files::CHECKPOINT) {
         let directory = RunDirectory::claim(directory)?;
-        run::redraw(&directory, &choice, set)?.into_iter().map(str::to_owned).collect()
+        run::redraw(&directory, &choice, set)?
     } else if has(sweep::files::SUMMARY) {
         redraw::<SweepSummary>(directory, &choice, set)?
     } else if has(tradeoff::files::SUMMARY) {
@@ -57,7 +57,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         redraw::<StabilitySummary>(directory, &choice, set)?
     } else {
         let found = RunDirectory::open(directory)?;
-        run::redraw(&found, &choice, set)?.into_iter().map(str::to_owned).collect()
+        run::redraw(&found, &choice, set)?
     };
     print(&format!("wrote {}/: {}\n", printable::path(directory), written.join(", ")))
 }

@@ -222,7 +222,11 @@ fn results(outcome: &Outcome, model: &Model, directory: &str) -> String {
             rows.push(vec![label.to_owned(), marked(value, spoilt)]);
         }
     }
-    rows.extend(run::printed_results(summary).into_iter().map(|(label, value)| vec![label, value]));
+    for (number, stage) in (1..).zip(&summary.stages) {
+        let results = run::printed_results(&stage.results).into_iter();
+        rows.extend(results.map(|(label, value)| vec![format!("stage {number}: {label}"), value]));
+    }
+    rows.extend(run::printed_results(&summary.results).into_iter().map(|(label, value)| vec![label, value]));
     if summary.particle_steps_per_second > 0.0 {
         let rate = prefixed(summary.particle_steps_per_second);
         rows.push(vec!["speed".to_owned(), format!("{rate} particle-steps/s, {:.2} s", summary.wall_seconds)]);
@@ -233,6 +237,7 @@ fn results(outcome: &Outcome, model: &Model, directory: &str) -> String {
         let (noun, of) = if flows { ("numbered frame", " of each field") } else { ("numbered snapshot", "") };
         files.push(counted(outcome.snapshots, noun) + of);
     }
+    files.extend(summary.stages.iter().filter_map(|stage| Some(format!("{}/", stage.directory.as_ref()?))));
     // Particles that exchange momentum in pairs lead one to expect that it is conserved.
     let mut unkept = summary.not_conserved.iter().filter(|_| !flows);
     let reasons = unkept.find_map(|entry| entry.strip_prefix("total momentum: "));

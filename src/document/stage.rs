@@ -1,6 +1,6 @@
 //! Stages of a run.
 
-use super::{Announced, Scene};
+use super::{Announced, Output, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -22,6 +22,11 @@ pub struct Stage {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub ramp_every: Option<u64>,
+    /// What is measured and written in this stage, beside or in place of what `output` of the scene says: intervals of the table of energies
+    /// and of the trajectory, and analyses, which begin with the stage and end with it; `null` leaves one out.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    #[schemars(with = "Output")]
+    pub output: Map<String, Value>,
 }
 
 /// Values that a ramp has if its scene does not say how many.
@@ -30,7 +35,7 @@ const MOVES: u64 = 100;
 impl Stage {
     /// A stage of constant numbers.
     pub(crate) fn new(steps: u64, set: Map<String, Value>) -> Self {
-        Self { steps, set, ramp: Map::new(), ramp_every: None }
+        Self { steps, set, ramp: Map::new(), ramp_every: None, output: Map::new() }
     }
 
     /// The numbers that change where it begins, with their values and dots only in their paths.
@@ -66,6 +71,17 @@ impl Stage {
     fn part_steps(&self) -> u64 {
         let every = self.ramp_every.unwrap_or_else(|| self.steps.div_ceil(MOVES));
         if self.ramp.is_empty() { self.steps.max(1) } else { every.max(1) }
+    }
+
+    /// The output of the stage, of a scene with this output; analyses of that are those of the last stage. None where it is no output.
+    pub(crate) fn output(&self, of_scene: &Output, is_last: bool) -> Option<Output> {
+        let output = if is_last { of_scene.clone() } else { of_scene.without_analyses() };
+        if self.output.is_empty() {
+            return Some(output);
+        }
+        let mut document = serde_json::to_value(output).ok()?;
+        document.as_object_mut()?.extend(self.output.clone());
+        serde_json::from_value(document).ok()
     }
 
     /// Overrides that make the numbers those of one of its parts, of so many.

@@ -57,6 +57,13 @@ impl Checked {
         Self(Arc::new(content))
     }
 
+    /// The same after parts of a run that counted turns around the box, or did not.
+    pub(crate) fn after_turns(self, counted: bool) -> Self {
+        let mut content = Arc::unwrap_or_clone(self.0);
+        content.model.after_turns = counted;
+        Self(Arc::new(content))
+    }
+
     /// The parts of the scene that were shortened to suit its number of steps, and those of its file that are not used.
     #[must_use]
     pub fn notices(&self) -> &[Warning] {

@@ -55,6 +55,8 @@ pub struct Model {
     pub time_step: f64,
     /// The times of its steps.
     pub time: TimeAxis,
+    /// True if turns around the box were counted before the first step: their count goes on, for frames of one trajectory belong together.
+    pub(crate) after_turns: bool,
     /// Seed of all random numbers.
     pub seed: u64,
     /// Steps of an earlier run before the first, where it goes on with one.
@@ -117,6 +119,7 @@ impl Model {
             temperature: scene.temperature,
             time_step: scene.time.step,
             time: TimeAxis { step: 0, time: 0.0, interval: scene.time.step },
+            after_turns: false,
             seed: scene.noise_seed(),
             steps_before: earlier.map_or(0, |earlier| earlier.steps),
             generator: scene.noise.generator,
@@ -175,7 +178,8 @@ impl Model {
     /// Whether it is counted how often particles go round the box: for trajectories and displacements, and not where boundaries shear,
     /// for then that is no whole number.
     pub(crate) fn follows_paths(&self, output: &Output) -> bool {
-        (output.trajectory.is_some() || output.diffusion.is_some()) && self.particles().shear.is_none()
+        let is_needed = self.after_turns || output.trajectory.is_some() || output.diffusion.is_some();
+        is_needed && self.particles().shear.is_none()
     }
 
     /// Whether something drives a flow of particles: boundaries that shear, walls that move, or forces from outside.

@@ -1,8 +1,8 @@
 //! The directory of a run.
 
 use super::temporary::Temporary;
-use super::{DirectoryLock, OutputError, files, write_atomically};
-use std::collections::BTreeSet;
+use super::{DirectoryLock, Extent, OutputError, files, write_atomically};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -76,11 +76,32 @@ impl RunDirectory {
         // Better to learn now that nothing can be written than after an hour of simulation.
         let probe = Temporary::beside(&self.file(files::SUMMARY));
         probe.map(drop).map_err(OutputError::io("write to the directory", &self.path))?;
+        for stage in self.stages()? {
+            stage.remove(files::is_of_a_run)?;
+            // What else is in it stays.
+            let _ = fs::remove_dir(&stage.path);
+        }
         for name in in_the_way {
             let path = self.file(&name);
             fs::remove_file(&path).map_err(OutputError::io("replace", &path))?;
         }
         Ok(())
+    }
+
+    /// The directories of stages of an earlier run.
+    fn stages(&self) -> Result<Vec<Self>, OutputError> {
+        let paths = self.names(files::is_stage)?.into_iter().map(|name| self.file(&name));
+        Ok(paths.filter(|path| path.is_dir()).map(|path| Self { path, lock: None }).collect())
+    }
+
+    /// Makes the directory of a stage, if it is not there; the lock is that of the run.
+    pub(crate) fn make_stage(&self, number: usize) -> Result<Self, OutputError> {
+        let path = self.file(&files::stage(number));
+        if path.exists() && !path.is_dir() {
+            return Err(OutputError::NoDirectory { path });
+        }
+        fs::create_dir_all(&path).map_err(OutputError::io("create the directory", &path))?;
+        Ok(Self { path, lock: None })
     }
 
     /// The files of an earlier run, if they may be removed and can be.
@@ -148,6 +169,18 @@ impl RunDirectory {
     /// Whether there is a file that a run may have written.
     pub(crate) fn has_results(&self) -> Result<bool, OutputError> {
         Ok(!self.names(files::is_of_a_run)?.is_empty())
+    }
+
+    /// The names of the files of a run that are there, but for numbered ones, in the order in which they are listed.
+    pub(crate) fn written(&self) -> Vec<String> {
+        files::all().filter(|name| self.file(name).exists()).map(str::to_owned).collect()
+    }
+
+    /// The tables that are there, as they are.
+    pub(crate) fn tables(&self) -> Result<BTreeMap<String, Extent>, OutputError> {
+        let is_table = |name: &String| Path::new(name).extension().is_some_and(|extension| extension == "csv");
+        let tables = self.written().into_iter().filter(is_table);
+        tables.map(|name| Ok((name.clone(), Extent::of(&self.file(&name))?))).collect()
     }
 
     /// Removes numbered snapshots above `last`: those a resumed run will take again.

@@ -57,13 +57,18 @@ const FIELD_FILES: [[&str; 2]; 6] = [
 pub fn all() -> impl Iterator<Item = &'static str> {
     let fixed = [ENERGIES, ENERGIES_PLOT, SNAPSHOT, CHECKPOINT, SUMMARY].into_iter();
     let trajectories = TrajectoryFormat::ALL.into_iter().map(trajectory);
-    let tables = AnalysisId::ALL.into_iter().flat_map(AnalysisId::tables);
     fixed
         .chain(ENERGIES_VECTOR)
         .chain(trajectories)
-        .chain(tables.flat_map(|names| [names.file, names.plot].into_iter().chain(names.vector)))
+        .chain(of_analyses())
         .chain(FIELD_FILES.into_iter().flatten())
         .chain(["fields.nc"])
+}
+
+/// The tables and charts of all analyses.
+pub(crate) fn of_analyses() -> impl Iterator<Item = &'static str> {
+    let tables = AnalysisId::ALL.into_iter().flat_map(AnalysisId::tables);
+    tables.flat_map(|names| [names.file, names.plot].into_iter().chain(names.vector))
 }
 
 /// The name of a numbered snapshot; the first has number 1.
@@ -143,6 +148,26 @@ pub fn snapshot_number(name: &str) -> Option<u64> {
         stem => FIELDS.contains(&stem) && ["png", "npy"].contains(&extension),
     };
     (known && field(stem, Some(number), extension) == name).then_some(number)
+}
+
+/// The name of the directory with what analyses of a stage have left, in that of a run; the first stage has number 1.
+///
+/// ```
+/// use mesoscope::output::files;
+///
+/// assert_eq!(files::stage(2), "stage-2");
+/// assert!(files::is_stage("stage-2") && !files::is_stage("stage-02") && !files::is_stage("stages"));
+/// ```
+#[must_use]
+pub fn stage(number: usize) -> String {
+    format!("stage-{number}")
+}
+
+/// Whether a directory of this name is that of a stage.
+#[must_use]
+pub fn is_stage(name: &str) -> bool {
+    let number = name.strip_prefix("stage-").and_then(|digits| digits.parse().ok());
+    number.is_some_and(|number| number > 0 && stage(number) == name)
 }
 
 /// Whether a run may have written a file of this name.

@@ -114,6 +114,12 @@ pub struct StageSummary {
     /// Mean of each column of the table of energies over its rows; null where a column has no values. Those of the last stage are the
     /// means of the run.
     pub means: serde_json::Map<String, serde_json::Value>,
+    /// The directory in that of the run with what analyses of the stage have left; those of the last stage are in that of the run itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub directory: Option<String>,
+    /// Results of these analyses.
+    #[serde(default, skip_serializing_if = "serde_json::Map::is_empty")]
+    pub results: serde_json::Map<String, serde_json::Value>,
 }
 
 /// A numbered picture, or the numbered arrays of a mesh.

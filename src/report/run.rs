@@ -74,9 +74,13 @@ fn describe(entry: &mut Entry, directory: &Path, summary: &Summary) {
     differences(entry, summary);
     entry.warnings.clone_from(&summary.warnings);
     entry.tables.extend(means(summary));
-    let results: Vec<_> = printed_results(summary).into_iter().map(|(name, text)| vec![name, text]).collect();
-    if !results.is_empty() {
-        entry.tables.push(TextTable::new("What analyses found", &["quantity", "value"], results));
+    let of_stages = (1..).zip(&summary.stages).map(|(number, stage)| (format!(" in stage {number}"), &stage.results));
+    for (stage, results) in of_stages.chain([(String::new(), &summary.results)]) {
+        let rows: Vec<_> = printed_results(results).into_iter().map(|(name, text)| vec![name, text]).collect();
+        if !rows.is_empty() {
+            let title = format!("What analyses found{stage}");
+            entry.tables.push(TextTable::new(&title, &["quantity", "value"], rows));
+        }
     }
     entry.conserved.clone_from(&summary.conserved_exactly);
     entry.not_conserved.clone_from(&summary.not_conserved);

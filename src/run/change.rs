@@ -60,7 +60,8 @@ impl Simulation {
             let displacement = scene::displacement_at(&old, &other, self.step());
             settings.extend(displacement.map(|displacement| format!("space.shear.displacement={displacement}")));
         }
-        let scene = scene::overridden(&old, &settings)?.with_times(old.model().time);
+        let scene = scene::overridden(&old, &settings)?;
+        let scene = scene.with_times(old.model().time).after_turns(old.model().after_turns);
         if !scene::differ_in_numbers(&old, &scene) {
             return Err(mistake(format!(
                 "{key}: it is no number of this scene, whose value could change between steps; accepted: a number in place of a number"

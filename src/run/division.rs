@@ -41,12 +41,18 @@ pub enum Ranks {
 pub fn divide(scene: &Checked, asked: Ranks) -> Result<Division, RunError> {
     let model = scene.model();
     let refuse = |reasons: Vec<String>| Err(RunError::Undividable { reasons });
-    let reasons = hindrances(scene);
+    let mut reasons: Vec<String> = Vec::new();
+    for reason in scene.of_stages().iter().flat_map(hindrances) {
+        if !reasons.contains(&reason) {
+            reasons.push(reason);
+        }
+    }
     if !reasons.is_empty() {
         return Err(RunError::Unshared { reasons });
     }
     let dimension = model.units.dimension;
-    let (with_bonds, halo) = halo(scene);
+    let halos: Vec<_> = scene.of_stages().iter().map(halo).collect();
+    let (with_bonds, halo) = halos.into_iter().fold((0.0, 0.0), |(a, b): (f64, f64), (c, d)| (a.max(c), b.max(d)));
     let reach = model.physics().reach(model);
     let most = most_parts(model, halo);
     let needed = format!(

@@ -26,7 +26,7 @@ pub(super) struct EnergyRecorder {
     is_about_equilibrium: bool,
 }
 
-/// Reads the table that a run of this scene wrote until it came to a step.
+/// Reads the table that a run of this scene, with all its stages, wrote until it came to a step.
 pub(crate) fn read(path: &Path, scene: &Checked, step: u64) -> Result<Table, OutputError> {
     let model = scene.model();
     let table = read_table(path)?;
@@ -36,27 +36,38 @@ pub(crate) fn read(path: &Path, scene: &Checked, step: u64) -> Result<Table, Out
         let (expected, found) = (expected.join(","), table.columns.join(","));
         return Err(OutputError::Columns { path: path.to_path_buf(), expected, found });
     }
-    match missing_row(path, step.saturating_add(1), scene.output.energies.every)? {
+    match missing_row(path, step.saturating_add(1), &scene.parts().unwrap_or_default())? {
         Some(step) => Err(OutputError::MissingRow { path: path.to_path_buf(), step }),
         None => Ok(table),
     }
 }
 
-/// The first step below `end` whose row is not in the table, where there has to be one for every `every` steps.
-fn missing_row(path: &Path, end: u64, every: u64) -> Result<Option<u64>, OutputError> {
+/// The first step below `end` whose row is not in the table of a run with these parts.
+fn missing_row(path: &Path, end: u64, parts: &[Checked]) -> Result<Option<u64>, OutputError> {
     let lines = own_file::lines(path).map_err(OutputError::io("continue", path))?;
     let whole = lines.map_while(Result::ok).skip(1).filter(|line| line.ends_with('\n'));
     let mut steps = whole.map_while(|line| line.split([',', '\n']).next()?.parse::<u64>().ok());
-    let mut wanted = (0..end).step_by(usize::try_from(every).unwrap_or(usize::MAX).max(1));
-    Ok(wanted.find(|step| steps.next() != Some(*step)))
+    Ok(expected_rows(end, parts).find(|step| steps.next() != Some(*step)))
+}
+
+/// The steps below `end` whose rows are in the table of a run with these parts.
+fn expected_rows(end: u64, parts: &[Checked]) -> impl Iterator<Item = u64> {
+    let begins = std::iter::once(0).chain(parts.iter().map(|part| part.time.steps));
+    parts.iter().zip(begins).enumerate().flat_map(move |(number, (part, begin))| {
+        let end = if number + 1 == parts.len() { end } else { end.min(part.time.steps) };
+        let every = part.output.energies.every.max(1);
+        let first = begin.checked_next_multiple_of(every).unwrap_or(u64::MAX);
+        (first..end).step_by(usize::try_from(every).unwrap_or(usize::MAX))
+    })
 }
 
 impl EnergyRecorder {
-    /// Begins the table at step 0, or continues what had been written of it before the step of a checkpoint, with what
-    /// [`Self::section`] left there.
+    /// Begins the table at step 0, or continues in one of these parts of the run what had been written of it before the step of a checkpoint,
+    /// with what [`Self::section`] left there.
     pub(super) fn open(
         path: &Path,
         scene: &Checked,
+        parts: &[Checked],
         written: Option<Extent>,
         sections: &Sections<'_>,
     ) -> Result<Self, RunError> {
@@ -70,7 +81,7 @@ impl EnergyRecorder {
             Some(written) => match EnergiesFile::resume(path, &names, written) {
                 Err(OutputError::Altered { path }) => {
                     // The row is worth naming, if the rest can be read.
-                    return Err(match missing_row(&path, step, scene.output.energies.every) {
+                    return Err(match missing_row(&path, step, parts) {
                         Ok(Some(step)) => OutputError::MissingRow { path, step }.into(),
                         _ => OutputError::Altered { path }.into(),
                     });

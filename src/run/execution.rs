@@ -24,7 +24,9 @@ use crate::output::{
     Checkpoint, Extent, OutputError, RunDirectory, Summary, TrajectoryWriter, checkpoint, exists, files, own_file,
 };
 use crate::ranks::{computes_alike, remedy};
+use crate::scene::TrajectoryFormat;
 use crate::state::State;
+use serde_json::Map;
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -56,6 +58,8 @@ pub(super) struct Execution<'a> {
     carried: Carried,
     pub kept_sums: KeptSums,
     trajectory: Option<TrajectoryWriter>,
+    /// The trajectory of earlier stages, where this one has none.
+    idle: Vec<(String, Extent)>,
     pictures: Pictures<'a>,
     /// What was done to the scene before the run.
     pub notices: &'a [String],
@@ -104,13 +108,19 @@ impl<'a> Execution<'a> {
             own_file::check_to_continue(&path).map_err(OutputError::io("continue", &path))?;
         }
         let table = directory.file(files::ENERGIES);
-        let energies = EnergyRecorder::open(&table, scene, written(files::ENERGIES)?, &of_stage)?;
+        let energies = EnergyRecorder::open(&table, scene, &task.parts, written(files::ENERGIES)?, &of_stage)?;
+        let is_trajectory =
+            |(name, _): &&(String, Extent)| TrajectoryFormat::ALL.map(files::trajectory).contains(&name.as_str());
+        let mut idle: Vec<_> = start.files.iter().filter(is_trajectory).cloned().collect();
         let trajectory = match &scene.output.trajectory {
             None => None,
             Some(asked) => {
                 let name = files::trajectory(asked.format);
                 let path = directory.file(name);
-                let trajectory = match written(name)? {
+                // A stage may be the first to write one.
+                let begins = step == first && idle.is_empty();
+                idle.clear();
+                let trajectory = match if begins { None } else { written(name)? } {
                     None => TrajectoryWriter::create(&path, asked.format, model, *id)?,
                     Some(written) => TrajectoryWriter::resume(&path, asked.format, model, *id, written)?,
                 };
@@ -131,6 +141,7 @@ impl<'a> Execution<'a> {
             carried,
             kept_sums,
             trajectory,
+            idle,
             pictures,
             notices: &[],
             ranks: None,
@@ -287,6 +298,7 @@ impl<'a> Execution<'a> {
         if let (Some(trajectory), Some(asked)) = (&self.trajectory, &self.scene.output.trajectory) {
             written.push((files::trajectory(asked.format).to_owned(), trajectory.extent()));
         }
+        written.extend_from_slice(&self.idle);
         written.extend_from_slice(self.pictures.arrays());
         let (run_id, scene) = (self.task.id, self.task.scene.clone());
         Ok(Checkpoint { run_id, scene, state, files: written, sections })
@@ -295,6 +307,12 @@ impl<'a> Execution<'a> {
     /// The beginning of the part that follows.
     pub(super) fn hand_over(&mut self, engine: &mut dyn Stepper, pace: &mut Pace) -> Result<Checkpoint, RunError> {
         let mut next = self.checkpoint(engine, pace)?;
+        let ends = self.task.scene.ends_of_stages();
+        if let Some(number) = ends.iter().position(|end| *end == next.state.step)
+            && !self.scene.output.analyses().is_empty()
+        {
+            self.conclude_stage(number, &next, engine)?;
+        }
         let following = &self.task.parts[self.task.part_at(next.state.step)];
         // Numbers may decide what is kept.
         let kept = |scene: &Checked| scene.model().physics().kept(scene.model(), &next.state).len();
@@ -312,6 +330,34 @@ impl<'a> Execution<'a> {
             next.state.images = vec![[0; 3]; next.state.len()];
         }
         Ok(next)
+    }
+
+    /// Leaves what analyses of a stage have found in a directory of its own: tables, pictures and a summary.
+    fn conclude_stage(&self, number: usize, end: &Checkpoint, engine: &dyn Stepper) -> Result<(), RunError> {
+        let directory = self.directory.make_stage(number)?;
+        let adapter = AdapterSummary::from(self.gpu.description());
+        let model = self.scene.model();
+        let mut summary = Summary::new(self.task.id, self.scene.clone().into_scene(), adapter, model.particle_count());
+        summary.steps = end.state.step;
+        self.energies.summarise(&mut summary);
+        let setting = Setting { scene: self.scene, plan: engine.plan() };
+        // What comes next may take long, and the stage is concluded again if the run stops before it is done.
+        let go_on = || {
+            engine.keep_alive();
+            self.obey()
+        };
+        self.analyses.conclude(&setting, &directory, &mut summary, &go_on)?;
+        summary.tables = directory.tables()?;
+        if self.task.draws {
+            Pictures::again(self.gpu, &directory, self.scene, end).analyses(model, &summary, &go_on)?;
+        } else {
+            directory.remove_last_pictures()?;
+        }
+        let path = directory.file(files::SUMMARY);
+        // Written first, for it is one of its files.
+        summary.save(&path)?;
+        summary.files = Some(directory.written());
+        Ok(summary.save(&path)?)
     }
 
     fn record(&mut self, samples: &[Sample], engine: &dyn Stepper) -> Result<(), RunError> {
@@ -402,18 +448,14 @@ impl<'a> Execution<'a> {
         summary.warnings = warnings;
         summary.ranks = self.ranks.take();
         self.energies.summarise(&mut summary);
-        summary.stages = self.stages(&summary);
+        summary.stages = self.stages(&mut summary);
         let setting = Setting { scene: self.scene, plan: engine.plan() };
         self.analyses.conclude(&setting, self.directory, &mut summary, &go_on)?;
         let changed = self.kept_sums.lost();
         let lost: Vec<KeptQuantity> = changed.iter().map(|(quantity, _)| *quantity).collect();
         summary.conserved_exactly = conserved(self.scene.model(), &lost, self.kept_sums.mixed);
         summary.not_conserved = not_conserved(self.scene.model(), &changed);
-        let written = |name: &&str| self.directory.file(name).exists();
-        let is_table = |name: &&str| Path::new(name).extension().is_some_and(|extension| extension == "csv");
-        for name in files::all().filter(is_table).filter(written) {
-            summary.tables.insert(name.to_owned(), Extent::of(&self.directory.file(name))?);
-        }
+        summary.tables = self.directory.tables()?;
         summary.tables.extend(self.pictures.arrays().iter().cloned());
         // Numbers first: they are worth more than pictures if the disk is full.
         let path = self.directory.file(files::SUMMARY);
@@ -434,35 +476,52 @@ impl<'a> Execution<'a> {
         }
         self.pictures.check()?;
         exists(&self.directory.file(files::CHECKPOINT))?;
-        let written: Vec<&str> = files::all().filter(written).collect();
-        summary.files = Some(written.iter().map(|name| (*name).to_owned()).collect());
+        summary.files = Some(self.directory.written());
         summary.save(&path)?;
+        let written = files::all().filter(|name| self.directory.file(name).exists()).collect();
         Ok(Outcome { summary, files: written, snapshots: self.directory.snapshots()? })
     }
 }
 
 impl Execution<'_> {
-    /// The stages of the run, if it has some.
-    fn stages(&self, summary: &Summary) -> Vec<StageSummary> {
+    /// The stages of the run, if it has some; what is to be known of the analyses of earlier ones is among the warnings of the summary.
+    fn stages(&self, summary: &mut Summary) -> Vec<StageSummary> {
         let (task, ends) = (self.task, self.task.scene.ends_of_stages());
-        let stages = task.scene.stages.iter().zip(ends.windows(2));
-        let described = stages.map(|(stage, ends)| {
+        let stages = (1..).zip(&task.scene.stages).zip(ends.windows(2));
+        let described = stages.map(|((number, stage), ends)| {
             let [first_step, last_step] = [ends[0], ends[1]];
-            let mean =
-                |(name, mean): (&str, Option<Estimate>)| (name.to_owned(), summary.mean_with_unit(name, mean.as_ref()));
-            let means = if last_step == task.scene.time.steps {
-                summary.means.clone()
-            } else {
-                self.energies.rows.means_of(first_step..last_step).into_iter().map(mean).collect()
-            };
-            StageSummary {
+            let mut described = StageSummary {
                 first_step,
                 last_step,
                 times: [first_step, last_step].map(|step| task.time_of(step)),
                 set: stage.set.clone(),
                 ramp: stage.ramp.clone(),
-                means,
+                means: summary.means.clone(),
+                directory: None,
+                results: Map::new(),
+            };
+            if last_step == task.scene.time.steps {
+                return described;
             }
+            let mean =
+                |(name, mean): (&str, Option<Estimate>)| (name.to_owned(), summary.mean_with_unit(name, mean.as_ref()));
+            described.means = self.energies.rows.means_of(first_step..last_step).into_iter().map(mean).collect();
+            let of_stage = stage.output(&task.scene.output, false).unwrap_or_default();
+            if of_stage.analyses().is_empty() {
+                return described;
+            }
+            let name = files::stage(number);
+            match Summary::load(&self.directory.file(&name).join(files::SUMMARY)) {
+                Ok(own) if own.run_id == task.id => {
+                    described.directory = Some(name);
+                    described.results = own.results;
+                    summary.warnings.extend(own.warnings.iter().map(|warning| format!("stage {number}: {warning}")));
+                }
+                _ => summary.warnings.push(format!(
+                    "stage {number}: no results of its analyses in `{name}`: the files were moved, or the stage was cut short"
+                )),
+            }
+            described
         });
         described.collect()
     }

@@ -25,19 +25,16 @@ use image::RgbaImage;
 use std::path::Path;
 
 /// Draws the pictures of a run again from the files it left, with changes to the look given as overrides of the scene
-/// (`output.plot.width=800`). Returns the names of the files written.
+/// (`output.plot.width=800`), and those of its stages. Returns the names of the files written.
 ///
 /// # Errors
 /// [`RunError`] when there is no finished run in the directory, an override does not fit, or a picture cannot be drawn.
-pub fn redraw(
-    directory: &RunDirectory,
-    choice: &AdapterChoice,
-    overrides: &[String],
-) -> Result<Vec<&'static str>, RunError> {
+pub fn redraw(directory: &RunDirectory, choice: &AdapterChoice, overrides: &[String]) -> Result<Vec<String>, RunError> {
     let summary = Summary::load(&directory.file(files::SUMMARY))?;
     let text = serde_json::to_string(&summary.scene).unwrap_or_default();
     let name = directory.file(files::SUMMARY).display().to_string();
-    let scene = WrittenScene::new(name, text).with(overrides).check_kept(None)?.part_of(summary.steps)?;
+    let whole = WrittenScene::new(name, text).with(overrides).check_kept(None)?;
+    let scene = whole.part_of(summary.steps)?;
     // The run's own scene for everything but the look.
     let checkpoint = checkpoint::load(&directory.file(files::CHECKPOINT))?;
     summary.check_run(checkpoint.run_id, &checkpoint.scene, &directory.file(files::SUMMARY))?;
@@ -51,7 +48,7 @@ pub fn redraw(
     let model = own.model();
     let (gpu, _) = open_adapter(&own, choice, Options::default())?;
     let mut pictures = Pictures::again(&gpu, directory, &scene, &checkpoint);
-    let table = super::energies::read(&directory.file(files::ENERGIES), &own, summary.steps)?;
+    let table = super::energies::read(&directory.file(files::ENERGIES), &checkpoint.scene, summary.steps)?;
     pictures.energies(&table, model, &summary)?;
     let mut written = vec![files::ENERGIES_PLOT];
     written.extend(pictures.analyses(model, &summary, &|| Ok(()))?);
@@ -71,6 +68,17 @@ pub fn redraw(
     }
     let is_vector = |name: &&str| !name.ends_with("png") && pictures.written.iter().any(|written| written == name);
     written.extend(files::all().filter(|name| !written.contains(name)).filter(is_vector).collect::<Vec<_>>());
+    let mut written: Vec<String> = written.into_iter().map(str::to_owned).collect();
+    for ((number, stage), scene) in (1..).zip(&summary.stages).zip(whole.of_stages()) {
+        if stage.directory.is_some() {
+            let directory = directory.make_stage(number)?;
+            let own = Summary::load(&directory.file(files::SUMMARY))?;
+            own.check_tables(&directory)?;
+            let mut pictures = Pictures::again(&gpu, &directory, &scene, &checkpoint);
+            pictures.analyses(scene.model(), &own, &|| Ok(()))?;
+            written.extend(pictures.written.iter().map(|name| format!("{}/{name}", files::stage(number))));
+        }
+    }
     Ok(written)
 }
 
@@ -108,7 +116,7 @@ pub(super) struct Pictures<'a> {
 
 impl<'a> Pictures<'a> {
     /// The pictures of a finished run, without its arrays.
-    fn again(gpu: &'a Gpu, directory: &'a RunDirectory, scene: &'a Scene, end: &Checkpoint) -> Self {
+    pub(super) fn again(gpu: &'a Gpu, directory: &'a RunDirectory, scene: &'a Scene, end: &Checkpoint) -> Self {
         let views = Views::new(gpu, scene, ColourRanges::restored(&end.sections));
         Self { directory, scene, run: end.run_id, views, written: Vec::new(), arrays: None, draws: true }
     }

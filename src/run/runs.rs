@@ -394,7 +394,12 @@ impl Run {
                     Checkpoint { run_id: id, scene: scene.clone(), state, files: Vec::new(), sections: Vec::new() };
                 (directory, start, None, Some(force))
             }
-            Beginning::Checkpoint { directory, checkpoint, earlier } => (directory, *checkpoint, earlier, None),
+            Beginning::Checkpoint { directory, checkpoint, earlier } => {
+                if let Some(earlier) = &earlier {
+                    set_aside(&directory, &scene, &checkpoint, earlier)?;
+                }
+                (directory, *checkpoint, earlier, None)
+            }
         };
         keep_alive();
         let last_step = scene.time.steps;
@@ -486,6 +491,37 @@ impl Run {
             }
         }
     }
+}
+
+/// Moves what analyses have left of a stage that was the last, and after which another one begins now, into a directory of its own.
+fn set_aside(
+    directory: &RunDirectory,
+    scene: &Checked,
+    checkpoint: &Checkpoint,
+    earlier: &Summary,
+) -> Result<(), RunError> {
+    let step = checkpoint.state.step;
+    let Some(number) = scene.ends_of_stages()[1..].iter().position(|end| *end == step) else { return Ok(()) };
+    let of_stage = scene.stages[number].output(&scene.output, false).unwrap_or_default();
+    if earlier.steps != step || number + 1 == scene.stages.len() || of_stage.analyses().is_empty() {
+        return Ok(());
+    }
+    let stage = directory.make_stage(number + 1)?;
+    let mut summary = earlier.clone();
+    summary.scene = checkpoint.scene.part_of(step)?.into_scene();
+    summary.stages = Vec::new();
+    for name in files::of_analyses() {
+        let path = directory.file(name);
+        if path.exists() {
+            std::fs::rename(&path, stage.file(name)).map_err(OutputError::io("move", &path))?;
+        }
+    }
+    summary.tables = stage.tables()?;
+    let path = stage.file(files::SUMMARY);
+    // Written first, for it is one of its files.
+    summary.save(&path)?;
+    summary.files = Some(stage.written());
+    Ok(summary.save(&path)?)
 }
 
 /// The end of a part of a run.

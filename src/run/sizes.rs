@@ -5,6 +5,7 @@ use crate::families::{Checked, PictureKind};
 use crate::output::bytes_per_particle;
 use crate::plan::Plan;
 use crate::plot::snapshot_size;
+use crate::scene::Stage;
 
 /// Bytes of a number in a table, with its comma: most have sixteen or seventeen digits.
 const NUMBER: u64 = 19;
@@ -58,15 +59,18 @@ impl Sizes {
         let output = &scene.output;
         let times = |every: u64| scene.time.steps.checked_div(every).map_or(0, |times| times.saturating_add(1));
         let columns = super::quantities(model).len() as u64 + 2;
-        let energies = times(output.energies.every).saturating_mul(NUMBER * columns);
-        let analyses = asked_analyses(scene);
-        let trajectory = output.trajectory.as_ref().map_or(0, |asked| {
+        let (mut rows, mut trajectory, mut analyses) = (0_u64, 0_u64, Vec::new());
+        for (stage, Stage { steps, .. }) in scene.of_stages().iter().zip(scene.stages_of_run()) {
+            let times = |every: u64| steps.checked_div(every).map_or(0, |times| times.saturating_add(1));
+            rows = rows.saturating_add(times(stage.output.energies.every));
+            analyses.extend(asked_analyses(stage));
+            let Some(asked) = &stage.output.trajectory else { continue };
             let shown =
                 model.species.iter().filter(|known| asked.species.is_empty() || asked.species.contains(&known.name));
             let particles: u64 = shown.map(|species| species.count).sum();
-            times(asked.every)
-                .saturating_mul(bytes_per_particle(asked.format).saturating_mul(particles).saturating_add(300))
-        });
+            let frame = bytes_per_particle(asked.format).saturating_mul(particles).saturating_add(300);
+            trajectory = trajectory.saturating_add(times(asked.every).saturating_mul(frame));
+        }
         let plot_pixels = f64::from(output.plot.width) * f64::from(output.plot.height());
         let plot = (PLOT_PIXEL * plot_pixels) as u64;
         let (picture, pictures, numbered, pixels) = match model.picture() {
@@ -87,9 +91,9 @@ impl Sizes {
         let plots = 1 + analyses.iter().map(|asked| asked.tables.len() as u64).sum::<u64>();
         let sum = |bytes: &dyn Fn(&AskedAnalysis) -> u64| analyses.iter().map(bytes).fold(0, u64::saturating_add);
         Self {
-            energies,
+            energies: rows.saturating_mul(NUMBER * columns),
             tables: sum(&|asked| asked.numbers.saturating_mul(NUMBER)),
-            checkpoint: [times(output.energies.every).saturating_mul(ROW_KEPT), sum(&|asked| asked.kept_bytes)]
+            checkpoint: [rows.saturating_mul(ROW_KEPT), sum(&|asked| asked.kept_bytes)]
                 .into_iter()
                 .fold(checkpoint(plan), u64::saturating_add),
             trajectory,

@@ -2,12 +2,15 @@
 //! then, its own steps, and units that have room for the numbers of all.
 
 use super::changes::{STAGE_NUMBERS, differ_in_numbers, displacement_at, is_of_stages, overridden};
-use super::{Checked, Problem, Problems, Scene, SceneError, Stage, Warning, nearest};
+use super::{Checked, Output, Problem, Problems, Scene, SceneError, Stage, Warning, nearest};
 use crate::families::{self, StepCheck, TimeAxis};
 use serde_json::{Map, Value};
 
 /// Stages and values of ramps that a run may have: each is checked like a scene, which takes about a millisecond.
 const MOST_PARTS: u64 = 4096;
+
+/// Keys of `output` that no stage has for itself: names, looks and intervals that go through a run.
+const OF_THE_WHOLE_RUN: [&str; 4] = ["plot", "snapshot", "checkpoint", "fields"];
 
 /// The sum of the steps of stages stands for `time.steps` where a document leaves that out; without stages it may not.
 pub(super) fn sum_up_steps(document: &mut Value, problems: &mut Problems) {
@@ -51,6 +54,16 @@ impl Checked {
         Ok(found)
     }
 
+    /// The scenes of its stages, each with the numbers of its end; the scene itself where it has no stages.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn of_stages(&self) -> Vec<Self> {
+        let mut parts = self.parts().unwrap_or_default();
+        let ends = self.ends_of_stages();
+        parts.retain(|part| self.stages.is_empty() || ends.contains(&part.time.steps));
+        parts
+    }
+
     /// The scene of the end of a run, which its analyses and means are of: with the numbers of its last stage.
     #[doc(hidden)]
     #[must_use]
@@ -81,7 +94,14 @@ impl Scene {
         if self.stages.is_empty() { vec![Stage::new(self.time.steps, Map::new())] } else { self.stages.clone() }
     }
 
-    /// The first steps of its stages, and the last step of the run.
+    /// What each of its stages measures and writes, or the run where it has none.
+    pub(crate) fn outputs(&self) -> Vec<Output> {
+        let last = self.stages.len().saturating_sub(1);
+        let of_stages = self.stages_of_run().into_iter().enumerate();
+        of_stages.filter_map(|(place, stage)| stage.output(&self.output, place == last)).collect()
+    }
+
+    /// The first steps of its stages, and the last step of the run; zero alone where it has no stages.
     pub(crate) fn ends_of_stages(&self) -> Vec<u64> {
         let ends = self.stages.iter().scan(0_u64, |end, stage| {
             *end = end.saturating_add(stage.steps);
@@ -96,9 +116,8 @@ fn part(whole: &Scene, before: Option<&Checked>, place: usize, number: usize) ->
     let ends = whole.ends_of_stages();
     let mut base = whole.clone();
     let stages = std::mem::take(&mut base.stages);
-    if place + 1 < stages.len() {
-        base.output = base.output.without_analyses();
-    }
+    // One that is no output was refused.
+    base.output = stages[place].output(&base.output, place + 1 == stages.len()).unwrap_or_default();
     let firsts = stages[place].parts();
     let begin = ends[place].saturating_add(firsts[number]);
     // Analyses are those of the whole stage.
@@ -117,7 +136,8 @@ fn part(whole: &Scene, before: Option<&Checked>, place: usize, number: usize) ->
     let time = before.map_or(0.0, |before| before.model().time.at(begin));
     scene.time.steps = end;
     scene.announced = whole.announced_in_all();
-    Ok(Checked::presumed(scene).with_times(TimeAxis { step: begin, time, interval }))
+    let after_turns = before.is_some_and(|before| before.model().follows_paths(&before.output));
+    Ok(Checked::presumed(scene).with_times(TimeAxis { step: begin, time, interval }).after_turns(after_turns))
 }
 
 /// Shares another number of steps among stages, in proportion, one for each at least. Returns what was done.
@@ -153,6 +173,7 @@ pub(super) fn check(whole: &Checked, step: StepCheck, problems: &mut Problems) {
     }
     for (place, stage) in whole.stages.iter().enumerate() {
         check_keys(whole, place, problems);
+        check_output(whole, place, problems);
         if stage.ramp.is_empty() && stage.ramp_every.is_some() {
             let found = "steps between values of a ramp, of a stage without one";
             problems.refuse(format!("stages[{place}].ramp_every"), found, "no `ramp_every`, or a `ramp`");
@@ -178,7 +199,7 @@ pub(super) fn check(whole: &Checked, step: StepCheck, problems: &mut Problems) {
                 Ok(next) => {
                     let mut own = Problems::default();
                     families::check(&next, step, &mut own);
-                    repeat(&path, own.into_parts().0, problems);
+                    repeat(stage, &path, own.into_parts().0, problems);
                     if !differ_in_numbers(before.as_ref().unwrap_or(whole), &next) {
                         let found = "a number in a place where the scene has none";
                         problems.refuse(
@@ -189,7 +210,7 @@ pub(super) fn check(whole: &Checked, step: StepCheck, problems: &mut Problems) {
                     }
                     before = Some(next);
                 }
-                Err(SceneError::Invalid { problems: others, .. }) => repeat(&path, others, problems),
+                Err(SceneError::Invalid { problems: others, .. }) => repeat(stage, &path, others, problems),
                 Err(error) => problems.refuse(&path, error, "a scene without mistakes"),
             }
         }
@@ -224,9 +245,37 @@ fn check_keys(whole: &Checked, place: usize, problems: &mut Problems) {
     }
 }
 
+/// Checks what a stage measures and writes.
+fn check_output(whole: &Checked, place: usize, problems: &mut Problems) {
+    let stage = &whole.stages[place];
+    let path = |key: &str| format!("stages[{place}].output.{key}");
+    for key in stage.output.keys().filter(|key| OF_THE_WHOLE_RUN.contains(&key.as_str())) {
+        let accepted =
+            format!("`energies`, `trajectory` and analyses in a stage; `output.{key}` is one for the whole run");
+        problems.refuse(path(key), format_args!("`{key}`"), accepted);
+    }
+    let outputs = whole.outputs();
+    let Some(output) = outputs.get(place).filter(|_| outputs.len() == whole.stages.len()) else {
+        problems.refuse(format!("stages[{place}].output"), "no output", "keys and values as `output` has them");
+        return;
+    };
+    let first = outputs.iter().find_map(|output| output.trajectory.as_ref());
+    if let (Some(own), Some(first)) = (&output.trajectory, first)
+        && (own.format, &own.species) != (first.format, &first.species)
+    {
+        let accepted = "the same format and species in the trajectories of all stages, which are one file";
+        problems.refuse(path("trajectory"), "a trajectory of another format or of other species", accepted);
+    }
+}
+
 /// Reports the mistakes of a stage.
-fn repeat(path: &str, others: Vec<Problem>, problems: &mut Problems) {
+fn repeat(stage: &Stage, path: &str, others: Vec<Problem>, problems: &mut Problems) {
     for Problem { path: place, found, accepted, .. } in others {
-        problems.add(path, format_args!("with its numbers, {place}: {found}"), accepted);
+        let key = place.strip_prefix("output.").and_then(|key| key.split(['.', '[']).next());
+        if key.is_some_and(|key| stage.output.contains_key(key)) {
+            problems.add(format_args!("{path}.{place}"), found, accepted);
+        } else {
+            problems.add(path, format_args!("with its numbers, {place}: {found}"), accepted);
+        }
     }
 }

@@ -5,7 +5,7 @@ use mesoscope::Simulation;
 use mesoscope::families;
 use mesoscope::output::{Summary, checkpoint, files, read_table};
 use mesoscope::plan::Division;
-use mesoscope::run::{Event, Interrupt, Run, RunError};
+use mesoscope::run::{self, Event, Interrupt, Ranks, Run, RunError};
 use mesoscope::scene::Checked;
 use mesoscope::state::State;
 use std::path::Path;
@@ -239,4 +239,154 @@ fn shallow_water_has_stages() {
     let ended = end_of(&scene, place.path(), 1);
     let plain = end_of(&water(&["time.steps=12"]), &place.path().join("plain"), 1);
     assert!(ended.step == 12 && ended.positions != plain.positions);
+}
+
+/// Stages that measure and write what others do not.
+const MEASURED: &str = r#"stages=[
+    {"steps":13,"output":{"energies":{"every":5}}},
+    {"steps":40,"set":{"temperature":2},"output":{"trajectory":{"every":8,"format":"extended-xyz"},
+        "radial_distribution":{"every":7,"range":2,"bins":20},"clusters":{"every":7,"distance":0.6},
+        "diffusion":{"every":2,"window":4}}},
+    {"steps":9,"ramp":{"temperature":[2,1]},"ramp_every":3},
+    {"steps":30,"output":{"trajectory":{"every":6,"format":"extended-xyz"},"energies":{"every":7},
+        "structure_factor":{"every":5,"range":9},"radial_distribution":{"every":5,"range":2,"bins":20}}}]"#;
+
+/// Numbered names and contents of all files in a directory and those in it, without pictures, summaries and checkpoints.
+fn tables_in(directory: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(directory).unwrap().map(Result::unwrap) {
+        let (name, path) = (entry.file_name().into_string().unwrap(), entry.path());
+        if path.is_dir() {
+            found.extend(tables_in(&path).into_iter().map(|(inner, content)| (format!("{name}/{inner}"), content)));
+        } else if path.extension().is_some_and(|extension| extension == "csv" || extension == "xyz") {
+            found.push((name, std::fs::read(path).unwrap()));
+        }
+    }
+    found.sort();
+    found
+}
+
+/// Frames of a trajectory without the id of the run in their heads, which is another for each scene.
+fn frames_of(directory: &Path) -> Vec<(f64, Vec<String>)> {
+    let text = std::fs::read_to_string(directory.join("trajectory.xyz")).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    let count = 2 + lines[0].parse::<usize>().unwrap();
+    let time = |head: &str| head.split("Time=").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+    let frame = |lines: &[&str]| (time(lines[1]), lines[2..].iter().map(|line| (*line).to_owned()).collect());
+    lines.chunks(count).map(frame).collect()
+}
+
+#[test]
+fn a_stage_measures_and_writes_what_it_asks_for() {
+    let space = ["space.box=[4,4,4]", "time.step=0.04", r#"output={"energies":{"every":4}}"#];
+    let staged = fluid(&[&space[..], &["time.steps=92", MEASURED]].concat());
+    let place = tempfile::tempdir().unwrap();
+    let whole = place.path().join("whole");
+    end_of(&staged, &whole, 1);
+    let expected = tables_in(&whole);
+    let names: Vec<&str> = expected.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "energies.csv",
+            "radial_distribution.csv",
+            "stage-2/cluster_sizes.csv",
+            "stage-2/clusters.csv",
+            "stage-2/diffusion.csv",
+            "stage-2/radial_distribution.csv",
+            "structure_factor.csv",
+            "trajectory.xyz"
+        ]
+    );
+
+    let rows: Vec<f64> = read_table(&whole.join(files::ENERGIES)).unwrap().rows.iter().map(|row| row[0]).collect();
+    let every = |every: u32, steps: std::ops::Range<u32>| steps.filter(move |step| step.is_multiple_of(every));
+    let steps = every(5, 0..13).chain(every(4, 13..62)).chain(every(7, 62..93));
+    assert_eq!(rows, steps.map(f64::from).collect::<Vec<_>>());
+
+    // A run that ends with the stage leaves the same in its own directory, and the numbers of the stage are its results.
+    let short = place.path().join("short");
+    let mut ends = (*staged).clone();
+    ends.stages.truncate(2);
+    ends.time.steps = 53;
+    end_of(&ends.check().unwrap(), &short, 1);
+    let summary = Summary::load(&whole.join(files::SUMMARY)).unwrap();
+    assert_eq!(summary.stages[1].directory.as_deref(), Some("stage-2"));
+    let of_short = Summary::load(&short.join(files::SUMMARY)).unwrap();
+    let of_stage = Summary::load(&whole.join("stage-2").join(files::SUMMARY)).unwrap();
+    assert_eq!(of_stage.results, summary.stages[1].results);
+    for name in ["clusters.csv", "cluster_sizes.csv", "radial_distribution.csv"] {
+        let [mine, theirs] =
+            [whole.join("stage-2"), short.clone()].map(|place| std::fs::read(place.join(name)).unwrap());
+        assert!(mine == theirs, "{name}");
+        assert_eq!(of_stage.tables[name], of_short.tables[name]);
+    }
+    // No sample is due at the last step, which belongs to the next stage.
+    let value = |summary: &Summary| summary.results["radial_distribution"].clone();
+    assert_eq!(value(&of_stage), value(&of_short));
+    assert!(of_stage.files.unwrap().iter().all(|name| whole.join("stage-2").join(name).exists()));
+    assert!(whole.join("stage-2/clusters.png").exists());
+
+    // Turns around the box are counted on where no frame is written: frames are those of a run that writes them in all stages.
+    let throughout = MEASURED.replace(
+        r#""ramp_every":3}"#,
+        r#""ramp_every":3,"output":{"trajectory":{"every":2,"format":"extended-xyz"}}}"#,
+    );
+    let other = place.path().join("throughout");
+    end_of(&fluid(&[&space[..], &["time.steps=92", &throughout]].concat()), &other, 1);
+    let [mine, theirs] = [&whole, &other].map(|place| frames_of(place));
+    assert_eq!((mine.len(), theirs.len()), (5 + 5, 5 + 5 + 4));
+    assert!(mine.iter().all(|frame| theirs.contains(frame)));
+
+    // To the bit on two ranks, and after interruptions, wherever they are.
+    let shared = place.path().join("shared");
+    let wide = ["space.box=[4,4,12]", "time.step=0.04", r#"output={"energies":{"every":4}}"#];
+    let on_one_rank =
+        run::divide(&fluid(&[&wide[..], &["time.steps=92", MEASURED]].concat()), Ranks::Count(2)).unwrap_err();
+    assert!(on_one_rank.to_string().contains("`structure_factor` in output.structure_factor: on one rank only"));
+    let shareable = MEASURED.replace(r#""structure_factor":{"every":5,"range":9},"#, "");
+    let wide = fluid(&[&wide[..], &["time.steps=92", &shareable]].concat());
+    let alone = place.path().join("alone");
+    end_of(&wide, &alone, 1);
+    end_of(&wide, &shared, 2);
+    assert!(tables_in(&alone) == tables_in(&shared));
+    let broken = place.path().join("broken");
+    let mut run = Run::start(staged, &broken);
+    let mut interruptions = 0;
+    for asked in [4, 20, 45, 57, 70, 1000] {
+        let interrupt = Interrupt::default();
+        let ended = run.until(&interrupt).execute(&adapter(), &mut |event| {
+            if matches!(event, Event::Advanced(progress) if progress.step >= asked) {
+                interrupt.ask();
+            }
+        });
+        assert!(matches!(ended, Ok(_) | Err(RunError::Interrupted { .. })), "{ended:?}");
+        interruptions += u32::from(ended.is_err());
+        run = Run::resume(&broken, None).unwrap();
+    }
+    assert!(interruptions > 2, "{interruptions}");
+    assert!(tables_in(&broken) == expected);
+}
+
+/// What analyses of a stage have found stays when the run goes on after it.
+#[test]
+fn results_of_a_last_stage_are_kept_when_another_one_follows() {
+    let stages = r#"stages=[{"steps":20,"output":{"radial_distribution":{"every":5,"range":1.9}}}]"#;
+    let scene = fluid(&["space.box=[4,4,4]", "time.steps=20", stages, r#"output={"energies":{"every":4}}"#]);
+    let place = tempfile::tempdir().unwrap();
+    end_of(&scene, place.path(), 1);
+    let table = std::fs::read(place.path().join("radial_distribution.csv")).unwrap();
+    let before = Summary::load(&place.path().join(files::SUMMARY)).unwrap();
+    let resumed = Run::resume(place.path(), Some(40)).unwrap().in_new_stage(&["temperature=2".to_owned()]).unwrap();
+    let outcome = resumed.execute(&adapter(), &mut |_| {}).unwrap();
+    assert_eq!(outcome.summary.stages[0].results, before.results);
+    assert!(!outcome.summary.results.contains_key("radial_distribution"));
+    assert!(!outcome.files.contains(&"radial_distribution.csv"));
+    assert!(std::fs::read(place.path().join("stage-1/radial_distribution.csv")).unwrap() == table);
+    // What the next run in the directory removes; a note of the user stays.
+    std::fs::write(place.path().join("stage-1/notes.txt"), "mine").unwrap();
+    end_of(&fluid(&["space.box=[4,4,4]", "time.steps=4", "output={}"]), place.path(), 1);
+    let left: Vec<_> =
+        std::fs::read_dir(place.path().join("stage-1")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(left, ["notes.txt"]);
 }

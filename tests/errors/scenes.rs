@@ -211,6 +211,27 @@ fn stages_of_a_run() {
             "stages[0].ramp.temperature: found a number that is given twice",
         ),
         // A time step beyond what any scheme is stable with, in the second stage only.
+        (
+            r#"[{"steps":60,"output":{"snapshot":{"every":5}}},{"steps":40}]"#,
+            "stages[0].output.snapshot: found `snapshot`; accepted: `energies`, `trajectory` and analyses in a stage",
+        ),
+        (
+            r#"[{"steps":60,"output":{"radial_distribution":{"every":5,"range":400}}},{"steps":40}]"#,
+            "stages[0].output.radial_distribution.range: found 400; accepted: at most",
+        ),
+        (
+            r#"[{"steps":60,"output":{"difusion":{"every":5,"window":4}}},{"steps":40}]"#,
+            "stages[0].output.difusion: unknown key; did you mean `diffusion`?",
+        ),
+        (
+            r#"[{"steps":60,"output":{"trajectory":{"every":5}}},
+                {"steps":40,"output":{"trajectory":{"every":5,"format":"extended-xyz"}}}]"#,
+            "stages[1].output.trajectory: found a trajectory of another format or of other species",
+        ),
+        (
+            r#"[{"steps":60,"output":{"energies":null}},{"steps":40}]"#,
+            "stages[0].output.energies: found null; accepted",
+        ),
         (r#"[{"steps":60},{"steps":40,"set":{"time.step":5}}]"#, "stages[1]: with its numbers, time.step: found 5"),
         (r#"[{"steps":100,"ramp":{"time.step":[0.01,5]}}]"#, "stages[0]: with its numbers, time.step: found"),
         (

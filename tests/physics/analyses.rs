@@ -532,7 +532,7 @@ fn interfaces_share_the_surface_tension() {
         let directory = tempfile::tempdir().unwrap();
         let stress = format!(r#"output.stress={{"every":2,"normal":"z"{interfaces}}}"#);
         let outcome = run(fluid(&["space.box=[4,4,6]", "time.steps=10", &stress]), directory.path());
-        let printed = mesoscope::run::printed_results(&outcome.summary);
+        let printed = mesoscope::run::printed_results(&outcome.summary.results);
         let label = printed.into_iter().map(|(label, _)| label).find(|label| label.starts_with("surface tension, of"));
         (number(&outcome, &["stress", "surface_tension"]), label.unwrap())
     };

@@ -11,8 +11,21 @@ use crate::cli::table::labelled;
 pub fn outputs(scene: &Checked, sizes: &Sizes) -> String {
     let model = scene.model();
     let output = &scene.output;
+    let stages = scene.of_stages();
+    // How often something is done in each stage that does it, or in the run.
+    let intervals = |every: &dyn Fn(&Checked) -> Option<u64>| {
+        let of_stages = stages.iter().map(every);
+        if of_stages.clone().all(|own| own == every(&stages[0])) {
+            return every(&stages[0]).map(|every| interval(0, every));
+        }
+        let said = (1..)
+            .zip(of_stages)
+            .filter_map(|(number, every)| Some(format!("{} in stage {number}", interval(0, every?))));
+        Some(said.collect::<Vec<_>>().join(", "))
+    };
+    let row = intervals(&|stage| Some(stage.output.energies.every)).unwrap_or_default();
     let mut rows = vec![
-        (files::ENERGIES.to_owned(), sized(&format!("a row {}", interval(0, output.energies.every)), sizes.energies)),
+        (files::ENERGIES.to_owned(), sized(&format!("a row {row}"), sizes.energies)),
         (format!("{}, {}", files::ENERGIES_PLOT, files::SUMMARY), "at the end".to_owned()),
         (
             files::CHECKPOINT.to_owned(),
@@ -37,15 +50,21 @@ pub fn outputs(scene: &Checked, sizes: &Sizes) -> String {
             rows.push(("snapshot-….png".to_owned(), sized(&interval(0, output.snapshot.every), sizes.numbered)));
         }
     }
-    if let Some(trajectory) = &output.trajectory {
+    let frames = intervals(&|stage| Some(stage.output.trajectory.as_ref()?.every));
+    let written = stages.iter().find_map(|stage| stage.output.trajectory.as_ref());
+    if let (Some(trajectory), Some(frames)) = (written, frames) {
         let name = files::trajectory(trajectory.format);
-        rows.push((name.to_owned(), sized(&format!("a frame {}", interval(0, trajectory.every)), sizes.trajectory)));
+        rows.push((name.to_owned(), sized(&format!("a frame {frames}"), sizes.trajectory)));
     }
-    // Files of the analyses are written at the end.
-    for asked in run::asked_analyses(scene) {
-        let sampled = format!("sampled {}", interval(asked.first, asked.every));
-        let when = asked.detail.map_or(sampled.clone(), |detail| format!("{detail}, {sampled}"));
-        rows.extend(asked.tables.iter().map(|names| (format!("{}, {}", names.file, names.plot), when.clone())));
+    // Files of the analyses are written at the end, of the run or of a stage.
+    for (number, stage) in (1..).zip(&stages) {
+        let place = if number == stages.len() { String::new() } else { format!("{}/", files::stage(number)) };
+        for asked in run::asked_analyses(stage) {
+            let sampled = format!("sampled {}", interval(asked.first, asked.every));
+            let when = asked.detail.map_or(sampled.clone(), |detail| format!("{detail}, {sampled}"));
+            let names = asked.tables.iter().map(|names| format!("{place}{}, {place}{}", names.file, names.plot));
+            rows.extend(names.map(|names| (names, when.clone())));
+        }
     }
     let formats: Vec<&str> = output.plot.vector.iter().map(|format| format.extension()).collect();
     if !formats.is_empty() {

@@ -146,10 +146,10 @@ pub(crate) fn circulation_change(summary: &Summary) -> Option<f64> {
     circulation::largest_change(summary.results.get(AnalysisId::Circulation.name())?)
 }
 
-/// Lines of the table that is printed at the end of a run: what was found, and its value.
+/// Lines of the table that is printed at the end of a run: what was found, and its value, of the results of a run or a stage.
 #[must_use]
-pub fn printed_results(summary: &Summary) -> Vec<(String, String)> {
-    let results = AnalysisId::ALL.into_iter().filter_map(|id| Some((id, summary.results.get(id.name())?)));
+pub fn printed_results(results: &Map<String, Value>) -> Vec<(String, String)> {
+    let results = AnalysisId::ALL.into_iter().filter_map(|id| Some((id, results.get(id.name())?)));
     let lines = |(id, result): (AnalysisId, &Value)| {
         let of = whose(result).map(|name| format!(" of {name}")).unwrap_or_default();
         describe(id).printed(result).into_iter().map(move |(label, value)| (label + &of, value))

@@ -9,8 +9,8 @@ mod weight;
 
 use super::semantics;
 use super::{
-    FileStart, FileType, Integrator, Interaction, KeptStart, Origin, OutsidePositions, Placement, Problem, Problems,
-    Scene, SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities, Velocities, Warning, nearest,
+    FileStart, FileType, Integrator, Interaction, KeptStart, Origin, Output, OutsidePositions, Placement, Problem,
+    Problems, Scene, SceneError, SpeciesNames, StateFile, StateFiles, StateVelocities, Velocities, Warning, nearest,
 };
 use crate::document::{FilePlaces, ParticleGroup, number_of_copies};
 use crate::families::{self, Model};
@@ -656,7 +656,8 @@ impl<'a> Reader<'a> {
     /// Charges that differ within a species are a mistake where they matter: something depends on charges, and a group gives none.
     fn check_charges(&mut self, scene: &Scene, given: &[Given]) {
         let acts = |one: &Interaction| matches!(one, Interaction::Electrostatics(_) | Interaction::ElectricField(_));
-        let is_counted = scene.output.structure_factor.as_ref().is_some_and(|factor| factor.charges);
+        let is_counted = |output: &Output| output.structure_factor.as_ref().is_some_and(|factor| factor.charges);
+        let is_counted = scene.outputs().iter().any(is_counted);
         let matters = is_counted || scene.interactions().iter().any(acts);
         if matters && !given.iter().all(|given| given.charge) {
             refuse(self.state, self.file.charge_mistakes.clone(), &mut self.problems);
@@ -757,8 +758,10 @@ impl<'a> Reader<'a> {
             unused.push("the points that its particles are tied to".to_owned());
         }
         if !self.file.images.is_empty() && self.file.images.iter().any(|image| *image != [0; 3]) {
-            if scene.output.trajectory.is_none() {
-                unused.push("images, for the scene writes no trajectory".to_owned());
+            let of_first = scene.outputs().into_iter().next().unwrap_or_default();
+            if of_first.trajectory.is_none() {
+                let stage = if scene.stages.is_empty() { "scene" } else { "first stage" };
+                unused.push(format!("images, for the {stage} writes no trajectory"));
             } else if self.state.copies() != [1; 3] {
                 unused.push("images, for copies of its box lie in one".to_owned());
             }
