@@ -113,12 +113,12 @@ def test_a_sweep_is_a_table(small):
 
 
 def test_a_stage_has_what_its_analyses_found(small):
-    measured = {"radial_distribution": {"every": 5, "range": 1.5}, "diffusion": {"every": 2, "window": 5, "species": "water"}}
-    stages = [{"steps": 20}, {"steps": 30, "output": measured}, {"steps": 20, "output": measured}]
+    measured = {"radial_distribution": {"every": 5, "range": 1.5}, "diffusion": {"every": 4, "window": 20, "species": "fluid"}}
+    stages = [{"steps": 20}, {"steps": 300, "output": measured}, {"steps": 300, "output": measured}]
     run = ms.run("dpd-fluid", small | {"time": {"step": 0.04}, "stages": stages}, out="staged", progress=False)
     earlier = run.stage(2)
-    assert earlier.rdf()["g"].shape == run.rdf()["g"].shape and earlier.steps == 50 and run.steps == 70
-    assert earlier.diffusion("water").value > 0 and run.diffusion("water").value > 0
+    assert earlier.rdf()["g"].shape == run.rdf()["g"].shape and earlier.steps == 320 and run.steps == 620
+    assert earlier.diffusion("fluid").value > 0 and run.diffusion("fluid").value > 0
     assert run.summary["stages"][1]["results"] == earlier.results
     with pytest.raises(ms.ArrayError, match="stage 1 of this run has no analyses of its own; accepted: 2"):
         run.stage(1)
