@@ -277,8 +277,8 @@ impl Radix {
         let _ = write!(
             text,
             "    if (power % {eighth}u != 0u) {{ return times(number, SHARED_ROOTS[power]); }}\n    \
-             let odd = select(number, eighth(number), (power / {eighth}u & 1u) == 1u);\n    \
-             return select(odd, quarter(odd), (power / {eighth}u & 2u) == 2u);\n}}\n\n"
+             let odd = select(number, eighth(number), ((power / {eighth}u) & 1u) == 1u);\n    \
+             return select(odd, quarter(odd), ((power / {eighth}u) & 2u) == 2u);\n}}\n\n"
         );
         text
     }

@@ -79,7 +79,7 @@ fn sort_in_one_workgroup(@builtin(local_invocation_index) lane: u32) {
     if (lane == 0u) { begin_step(); }
     scan_all_rows(lane);
     storageBarrier();
-    for (var cell = lane; cell < CELLS; cell += SCAN_LANES) { counts[cell] = 0u; }
+    for (var cell = lane; cell < CELLS; cell += SCAN_LANES) { atomicStore(&counts[cell], 0u); }
     for (var index = lane; index < stored_count(); index += SCAN_LANES) { scatter_particle(index); }
 }
 

@@ -148,7 +148,7 @@ fn tint_takes_every_kernel_of_plans_for_any_adapter() {
     for share in kernels.chunks(400) {
         let folder = tempfile::tempdir().unwrap();
         for (number, kernel) in share.iter().enumerate() {
-            std::fs::write(folder.path().join(format!("{number}.wgsl")), text(kernel)).unwrap();
+            std::fs::write(folder.path().join(format!("{number}-{}.wgsl", kernel.name)), text(kernel)).unwrap();
         }
         let output = run(folder.path()).unwrap();
         if !output.status.success() {

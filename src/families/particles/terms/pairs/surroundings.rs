@@ -15,6 +15,10 @@ use std::f64::consts::PI;
 /// Particles whose neighbours are counted, at most; of more, some.
 const MOST_CENTRES: usize = 1 << 13;
 
+/// Particles that are looked at for that, at most and about: where thousands lie in a cell, a few centres have as many neighbours as many have
+/// in a fluid.
+const MOST_VISITS: f64 = 1e8;
+
 /// The order k of the moments.
 const ORDER: u32 = 4;
 
@@ -80,7 +84,8 @@ impl Crowd<'_> {
             _ => 4.0 / 3.0 * PI * range.powi(3),
         };
         let cells = Cells::of(self, range);
-        let step = self.places.len().div_ceil(MOST_CENTRES).max(1);
+        let centres = ((MOST_VISITS / cells.visits()) as usize).clamp(1, MOST_CENTRES);
+        let step = self.places.len().div_ceil(centres).max(1);
         let mut counts: Vec<Vec<Vec<u32>>> = vec![Vec::new(); kinds];
         for centre in (0..self.places.len()).step_by(step) {
             let mut found = vec![0; kinds];
@@ -155,6 +160,14 @@ impl Cells {
             }
         }
         cells
+    }
+
+    /// Particles that are looked at for the neighbours of one, on average, where cells beside each other are alike.
+    fn visits(&self) -> f64 {
+        let ends = self.starts.iter().skip(1).map(|(_, start)| *start).chain([self.order.len()]);
+        let squares: f64 = self.starts.iter().zip(ends).map(|((_, start), end)| ((end - start) as f64).powi(2)).sum();
+        let near = self.numbers.iter().map(|number| *number.min(&3) as f64).product::<f64>();
+        (near * squares / self.order.len().max(1) as f64).max(1.0)
     }
 
     fn cell(&self, place: [u32; 3]) -> [u64; 3] {
@@ -248,6 +261,23 @@ mod tests {
         let drop = [evenly(1944, 20.0, 26.0), evenly(1000, 0.0, 46.0)].concat();
         let found = crowd(&[46.0; 3], &drop, &[0; 2944], vec![0.0], 1.0);
         assert!((7.5..9.5).contains(&found.densest[0][0]), "{found:?}");
+    }
+
+    /// Fewer centres are counted where more particles lie around each.
+    #[test]
+    fn crowds_are_counted_from_fewer_places() {
+        let mut random = StdRng::seed_from_u64(7);
+        let places: Vec<[u32; 3]> = (0..40_000).map(|_| std::array::from_fn(|_| random.random())).collect();
+        let visits = |lengths: &[f64], places: &[[u32; 3]]| {
+            let species = vec![0; places.len()];
+            Cells::of(&Crowd { places, species: &species, lengths, even: vec![0.0] }, 1.0).visits()
+        };
+        // All are near each other in two cells along an axis; 27 of a thousand cells hold 2.7 %, and chance adds a particle to each.
+        assert!((visits(&[2.0; 3], &places) / 40_000.0 - 1.0).abs() < 0.01);
+        assert!((visits(&[10.0; 3], &places) / (27.0 * 41.0) - 1.0).abs() < 0.01);
+        assert_eq!(visits(&[1000.0; 3], &[[5; 3]; 100]), 2700.0);
+        let found = crowd(&[2.0; 3], &[[1.0; 3]; 20_000], &[0; 20_000], vec![0.0], 1.0);
+        assert!((found.mean / 19_999.0 * (4.0 / 3.0 * PI) - 1.0).abs() < 1e-12, "{found:?}");
     }
 
     /// Species have surroundings of their own, and what is spread evenly meets the densest.
