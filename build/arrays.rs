@@ -114,6 +114,7 @@ pub const ARRAYS: &[Array] = &[
     array("node_charges", "array<i32>", "charge of each node of a mesh"),
     array("node_potentials", "array<i32>", "electrostatic potential at each node"),
     array("charge_impulses", "array<i32>", "impulses on all charges together, a component each"),
+    array("charge_stresses", "array<vec2<u32>>", "sums of the stress of waves of charges, a row a workgroup"),
     table("charge_energies", "array<f32>", "energy of each wave of charges, up to the middle of every axis"),
     array("tethers", "array<vec4<u32>>", "where each particle is tied to, by id"),
     array("holds", "array<Hold>", "random force on each particle and when it changes, by id"),

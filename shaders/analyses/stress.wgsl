@@ -28,6 +28,10 @@ fn clear_stresses(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
     for (var word = 0u; word < 12u; word++) { reported_stresses[12u * id + word] = 0; }
 }
 
+// Slot analyses/stress_share: a word of the virials of a particle. Default: those of its couplings. The plan chooses `with_waves` for charges,
+// whose waves belong to no particle.
+fn stress_share(id: u32, word: u32) -> Sum64 { return sum64_of_i32(reported_stresses[12u * id + word]); }
+
 // Adds up the tensors of the motion, of conservative forces, and of friction and noise, in this order. One invocation a particle, by
 // id; writes rows of `partial_sums`.
 @compute @workgroup_size(WORKGROUP)
@@ -41,9 +45,9 @@ fn sum_stresses(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invo
         reduce_quantity(group, lane, index, sum64_of_signed(carried[index] * STRESS_MOTION));
     }
     for (var word = 0u; word < 12u; word++) {
-        var share = 0;
-        if (inside) { share = reported_stresses[12u * id + word]; }
-        reduce_quantity(group, lane, 6u + word, sum64_of_i32(share));
+        var share = Sum64(0u);
+        if (inside) { share = stress_share(id, word); }
+        reduce_quantity(group, lane, 6u + word, share);
     }
 }
 

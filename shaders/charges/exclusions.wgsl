@@ -50,7 +50,7 @@ fn visit_excluded_charges(index: u32) {
 
 // Slot charges/exclusion_report: `note_excluded_charges` gets each pair and what is taken back, `finish_excluded_charges` ends the workgroup.
 // Default: off, a step without a report. The plan chooses `observed` for reports; of split steps `motion` where the motion is
-// measured, and `configuration` half a drift later.
+// measured, and `configuration` half a drift later; for an analysis of the stress `stress`.
 fn note_excluded_charges(pair: Ends, taken: ExcludedCharges, contact: Contact) {}
 fn finish_excluded_charges(group: u32, lane: u32) {}
 

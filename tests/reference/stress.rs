@@ -1,14 +1,13 @@
 //! The stress on the device: of each particle against the float64 reference, and of all against the pressure.
 
 use mesoscope::engine::Sample;
-use mesoscope::families::Model;
-use mesoscope::families::reference::{Reference, Virial};
+use mesoscope::families::reference::Reference;
 use mesoscope::measure::observables_of;
 use mesoscope::plan::{Options, Traversal};
 use mesoscope::scene::Checked;
 use mesoscope::shaders::Array;
-use mesoscope::state::State;
 use serde_json::{Value, json};
+use std::f64::consts::TAU;
 
 use crate::support::{INTEGRATORS, edited, engine, start, traversals};
 
@@ -16,8 +15,12 @@ use crate::support::{INTEGRATORS, edited, engine, start, traversals};
 fn scene(edges: &[f64], integrator: &str, interactions: &Value, chains: bool) -> Checked {
     let integrator: Value = serde_json::from_str(integrator.strip_prefix("integrator=").unwrap()).unwrap();
     let volume: f64 = edges.iter().product();
+    let is_charged = interactions.to_string().contains("electrostatics");
     let group = |species: &str, count: f64, mass: f64| {
         let mut group = json!({"species": species, "count": 4 * (count / 4.0) as u64, "mass": mass});
+        if is_charged {
+            group["charge"] = json!(mass - 2.0);
+        }
         if chains {
             group["chain"] = json!({"beads": 4, "spacing": 0.8});
         }
@@ -33,17 +36,14 @@ fn scene(edges: &[f64], integrator: &str, interactions: &Value, chains: bool) ->
     crate::support::scene(&document.to_string())
 }
 
-fn virials(model: Model, state: State) -> Vec<Virial> {
-    Reference::new(model, state).virials().unwrap()
-}
-
 /// Compares what a report leaves at the start and after some steps.
 fn agree(scene: &Checked, options: Options, what: &str) {
     let (model, state) = start(scene);
     let mut engine = engine(scene, &state, options);
     for steps in [0, 3] {
         engine.advance(steps, steps.max(1)).unwrap();
-        let expected = virials(model.clone(), engine.state().unwrap());
+        let reference = Reference::new(model.clone(), engine.state().unwrap());
+        let (expected, of_waves) = (reference.virials().unwrap(), reference.virials_of_waves().unwrap());
         engine.reported().unwrap();
         let words = engine.words(Array::ReportedStresses).unwrap();
         let unit = engine.plan().stress_unit;
@@ -62,11 +62,25 @@ fn agree(scene: &Checked, options: Options, what: &str) {
         let frictional =
             expected.chunks(12).flat_map(|words| &words[6..]).fold(0.0_f64, |sum, value| sum + value.abs());
         assert_eq!(frictional > 0.0, steps > 0 || !what.contains("splitting"), "{what}, step {steps}: {frictional}");
-        // The pressure is a third (half) of the trace.
         let samples = engine.finish().unwrap();
         let last = |sampler| samples.iter().rfind(|sample: &&Sample| sample.sampler == sampler).unwrap();
-        let observed = observables_of(last(0), engine.plan(), &model);
         let sums = &last(1).sums;
+        // Of what belongs to no particle: single precision of some thousand waves, each rounded to a unit.
+        for component in 0..6 {
+            let of_particles: i64 = (0..model.particle_count() as usize)
+                .map(|particle| i64::from(words[12 * particle + component] as i32))
+                .sum();
+            let found = (sums[6 + component] - of_particles) as f64 * unit;
+            let largest = of_waves.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+            let off = (found - of_waves[component]).abs();
+            let place = format!("{what}, step {steps}: waves, component {component}");
+            assert!(
+                off <= 1e-4 * largest + 100.0 * unit * f64::from(u8::from(largest > 0.0)),
+                "{place}: {found}, and {of_waves:?}"
+            );
+        }
+        // The pressure is a third (half) of the trace.
+        let observed = observables_of(last(0), engine.plan(), &model);
         let trace = |part: usize| (0..3).map(|axis| sums[6 * part + axis] as f64).sum::<f64>();
         let virial = (trace(1) + trace(2)) * unit;
         assert!((virial - observed.total_virial).abs() < 1e-5 * observed.total_virial.abs(), "{what}: {virial}");
@@ -179,5 +193,82 @@ fn stresses_in_company_agree_with_the_reference() {
             let scene = scene(edges, crate::support::SPLITTING, &interactions, chains);
             agree(&scene, Options::default(), &format!("splitting with {name} {edges:?}"));
         }
+    }
+}
+
+/// Charges: of their waves, and beside pairs that bonds exclude.
+#[test]
+fn stresses_of_charges_agree_with_the_reference() {
+    let dpd = json!({"type": "dpd", "repulsion": 25, "friction": 4.5});
+    let bonds = json!({"type": "bonds", "potential": {"type": "harmonic", "stiffness": 40, "length": 0.6}, "exclude_charges": true});
+    for (row, integrator) in INTEGRATORS.iter().enumerate() {
+        // Nodes so far apart that waves in the middle of an axis count.
+        let spacing = [0.5, 0.35][row % 2];
+        let charges = json!({"type": "electrostatics", "bjerrum_length": 6, "width": 0.3, "spacing": spacing, "background": true});
+        let interactions = if row % 2 == 0 { json!([dpd, charges]) } else { json!([dpd, charges, bonds]) };
+        let scene = scene(BOXES[1], integrator, &interactions, row % 2 == 1);
+        assert!(scene.model().particles().electrostatics.is_some());
+        agree(&scene, Options::default(), &format!("charges {integrator}"));
+    }
+}
+
+/// The energy of clouds of charge, each by itself included, in a box whose edges are the rows of a lower triangle: of exact phases, places being
+/// fractions of the box.
+fn energy_of_waves(edges: [[f64; 3]; 3], charges: &[([f64; 3], f64)], strength: f64, width: f64) -> f64 {
+    const MOST: i32 = 9;
+    let volume = edges[0][0] * edges[1][1] * edges[2][2];
+    let sides = 2 * MOST + 1;
+    let energy_of = |index: i32| {
+        let wave = [index % sides, index / sides % sides, index / sides / sides].map(|place| f64::from(place - MOST));
+        if wave == [0.0; 3] {
+            return 0.0;
+        }
+        // The product of k and each edge is a multiple of 2π.
+        let x = TAU * wave[0] / edges[0][0];
+        let y = (TAU * wave[1] - edges[1][0] * x) / edges[1][1];
+        let z = (TAU * wave[2] - edges[2][0] * x - edges[2][1] * y) / edges[2][2];
+        let square = x * x + y * y + z * z;
+        let [mut real, mut imaginary] = [0.0; 2];
+        for (place, charge) in charges {
+            let phase = TAU * (0..3).map(|axis| wave[axis] * place[axis]).sum::<f64>();
+            real += charge * phase.cos();
+            imaginary += charge * phase.sin();
+        }
+        TAU * strength / (volume * square) * (-square * width * width).exp() * (real * real + imaginary * imaginary)
+    };
+    (0..sides.pow(3)).map(energy_of).sum()
+}
+
+/// The stress of charges is what a strain of the box takes of their energy, along the axes and across them.
+#[test]
+fn the_stress_of_charges_is_that_of_a_strain() {
+    let (edges, strength, width) = ([5.0, 6.0, 4.5], 3.0, 0.8);
+    let scene = crate::support::scene(
+        &json!({
+            "title": "strained", "seed": 3, "space": {"box": edges}, "time": {"step": 0.01, "steps": 1}, "temperature": 1,
+            "integrator": {"type": "cotter-reich"},
+            "particles": [{"species": "P", "count": 6, "charge": 1}, {"species": "M", "count": 4, "charge": -1.5}],
+            "interactions": [{"type": "electrostatics", "bjerrum_length": strength, "width": width, "spacing": 0.25}],
+            "output": {"stress": {"every": 1}},
+        })
+        .to_string(),
+    );
+    let (_, state) = start(&scene);
+    let charges: Vec<([f64; 3], f64)> = (state.positions.iter().zip(&state.species))
+        .map(|(place, species)| (place.map(|word| f64::from(word) / 2_f64.powi(32)), [1.0, -1.5][*species as usize]))
+        .collect();
+    let mut engine = engine(&scene, &state, Options::default());
+    let samples = engine.finish().unwrap();
+    let unit = engine.plan().stress_unit;
+    let found: Vec<f64> = samples.last().unwrap().sums[6..12].iter().map(|sum| *sum as f64 * unit).collect();
+    let largest = found.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    for (component, [a, b]) in [[0, 0], [1, 1], [2, 2], [1, 0], [2, 0], [2, 1]].into_iter().enumerate() {
+        let strained = |strain: f64| {
+            let mut box_edges = [[edges[0], 0.0, 0.0], [0.0, edges[1], 0.0], [0.0, 0.0, edges[2]]];
+            box_edges[a][b] += strain * edges[a];
+            energy_of_waves(box_edges, &charges, strength, width)
+        };
+        let expected = -(strained(1e-4) - strained(-1e-4)) / 2e-4;
+        assert!((found[component] - expected).abs() < 1e-4 * largest, "{component}: {found:?}, expected {expected}");
     }
 }

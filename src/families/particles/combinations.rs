@@ -161,11 +161,7 @@ pub const REFUSALS: &[Refusal] = &[
         "charges between walls need the field of images beyond them, and here the box is periodic",
     ),
     missing(Electrostatics, &[Shear], "wave vectors of a box that shears lean with it"),
-    missing(
-        Electrostatics,
-        &[Stress, StressProfiles],
-        "the virial of charges is one of waves, and belongs to no particle",
-    ),
+    missing(Electrostatics, &[StressProfiles], "the stress of charges is one of waves, and belongs to no particle"),
     physics(Electrostatics, &[Line], "charges are clouds in three dimensions"),
     physics(StructureFactor, &[Shear], "the wave vectors of a box that shears lean with it"),
     missing(RadialDistribution, &[Shear], "pairs further than the cutoff are found round a box at rest"),

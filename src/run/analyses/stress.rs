@@ -12,7 +12,7 @@ use crate::measure::stress::{Components, surface_tension};
 use crate::plan::{Need, Plan, SamplerId};
 use crate::plot::{Chart, stress_chart, stress_correlation_chart};
 use crate::scene::{AnalysisId, Frame, Output};
-use crate::shaders::{Array, Constant, Entry};
+use crate::shaders::{Array, Constant, Entry, analyses};
 use crate::table::Table;
 use serde_json::{Map, Value, json};
 
@@ -64,9 +64,11 @@ impl Descriptor for Stress {
         let Some(asked) = &planner.output.stress else { return };
         let (velocities, _) = planner.velocities(Some(Frame::Box));
         let motion = planner.model.units.momentum.powi(2) / planner.plan.quanta.energy;
+        let is_charged = planner.model.particles().electrostatics.is_some();
+        let choices = velocities.with_if(is_charged, analyses::StressShare::WithWaves);
         let buffers = [Array::StressSums, Array::StressSamples];
         planner.add_sums(&SumSampler {
-            choices: velocities,
+            choices,
             constants: vec![(Constant::StressMotion, motion)],
             ..SumSampler::new(AnalysisId::Stress, Entry::SumStresses, buffers, 18, asked.every)
         });

@@ -23,8 +23,8 @@ pub(crate) struct Bonded {
     pub motion: Option<Observed>,
     /// The part that belongs to the configuration.
     pub configuration: Observed,
-    /// The name of the kernel that adds the stress, and its choices, if there may be a stress.
-    pub stress: Option<(&'static str, Choices)>,
+    /// The name of the kernel that adds the stress, and its choices.
+    pub stress: (&'static str, Choices),
     pub constants: Vec<(Constant, f64)>,
     /// Arithmetic of each.
     pub operations: f64,

@@ -14,13 +14,16 @@ pub(crate) fn is_needed(measured: &Measured) -> bool {
 
 /// Adds the array of stresses and the kernel that clears it, which comes before those that add to it.
 pub(crate) fn begin(model: &Model, workgroup: u64, plan: &mut Plan) -> usize {
-    let length = longest(model);
-    let half = 0.5 * model.time_step;
-    plan.stress_unit = 0.5 * model.units.momentum / half * length;
-    plan.constants.push((Constant::Stress, 1.0 / length));
+    plan.stress_unit = unit(model);
+    plan.constants.push((Constant::Stress, 1.0 / longest(model)));
     plan.add_buffer(Array::ReportedStresses, 4 * WORDS * model.particle_count());
     let groups = model.particle_count().div_ceil(workgroup).max(1);
     plan.add_kernel(Kernel::new("clear_stresses", Entry::ClearStresses, Choices::new(), groups))
+}
+
+/// The unit of the virials of a particle: half of an impulse of half a step times a length.
+pub(crate) fn unit(model: &Model) -> f64 {
+    model.units.momentum / model.time_step * longest(model)
 }
 
 /// At least twice the length over which anything acts, a power of two. The impulses on a particle are less than 2³⁰ units

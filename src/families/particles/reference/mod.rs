@@ -32,7 +32,7 @@ pub(crate) use pairs::{Forces, Pair, close_pairs, dot, exchange, find_pairs, noi
 pub(crate) use potential::Potential;
 pub use splitting::Relaxation;
 pub use stress::Virial;
-pub(crate) use stress::Virials;
+pub(crate) use stress::{AXES, Virials};
 
 use super::space::shear::reference as shear;
 use super::terms::body_forces;
@@ -230,6 +230,14 @@ impl Reference {
     /// [`Unstable::Bond`] for a bond that is too long.
     pub fn virials(&self) -> Result<Vec<Virial>, Unstable> {
         Ok(self.report()?.virials.each)
+    }
+
+    /// The virials of the waves of charges at the report point, for the stress: xx, yy, zz, xy, xz, yz.
+    ///
+    /// # Errors
+    /// [`Unstable::Bond`] for a bond that is too long.
+    pub fn virials_of_waves(&self) -> Result<[f64; 6], Unstable> {
+        Ok(self.report()?.virials.of_waves)
     }
 
     /// The state half a drift after the report point of the current step: r(n) + dt/2 p(n+½)/m and p(n+½).

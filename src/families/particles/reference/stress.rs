@@ -16,7 +16,7 @@ pub struct Virial {
 }
 
 /// The axes of each component.
-const AXES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
+pub(crate) const AXES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
 
 /// The virials of all particles.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,8 @@ pub(crate) struct Virials {
     pub total: f64,
     /// Of each particle.
     pub each: Vec<Virial>,
+    /// Of the waves of charges, which belong to no particle: as the conservative ones of particles.
+    pub of_waves: [f64; 6],
     /// The part of its share of every pair by which each particle counts in the total: none of what is held.
     counts: Vec<f64>,
 }
@@ -32,7 +34,12 @@ pub(crate) struct Virials {
 impl Virials {
     pub(crate) fn new(model: &Model, state: &State) -> Self {
         let counts = |particle: usize| if held::is_held(model, state, particle) { 0.0 } else { 1.0 };
-        Self { total: 0.0, each: vec![Virial::default(); state.len()], counts: (0..state.len()).map(counts).collect() }
+        Self {
+            total: 0.0,
+            each: vec![Virial::default(); state.len()],
+            of_waves: [0.0; 6],
+            counts: (0..state.len()).map(counts).collect(),
+        }
     }
 
     /// Adds the forces of a pair or a bond along the line of centres, positive apart.

@@ -106,7 +106,8 @@ impl Builder<'_> {
         } else {
             kernels.report.push(self.report_of(whole, bonded, &bonded.observed, &kicks, rows));
         }
-        if let Some((name, choices)) = bonded.stress.as_ref().filter(|_| stress::is_needed(self.measured)) {
+        if stress::is_needed(self.measured) {
+            let (name, choices) = &bonded.stress;
             kernels.stress.push(self.bonded_kernel(name, bonded, choices));
         }
         let remembers = bonded.entry == Entry::PullBonds && self.bonds_remember();

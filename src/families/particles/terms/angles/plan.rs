@@ -28,7 +28,7 @@ fn bonded(scales: &Scales<'_>, angles: &Angles) -> Bonded {
         observed,
         // They have no virial.
         motion: None,
-        stress: Some(("stress_of_angles", Choices::new().with(bonds::AngleReport::Stress))),
+        stress: ("stress_of_angles", Choices::new().with(bonds::AngleReport::Stress)),
         constants: vec![
             (Constant::Angles, angles.count() as f64),
             (Constant::FirstAngle, scales.model.species.len() as f64),

@@ -20,7 +20,7 @@ pub(super) fn bonded(bonds: &Bonds) -> Bonded {
         observed: report(bonds::ExclusionReport::Observed, configuration),
         motion: Some(report(bonds::ExclusionReport::Motion, &[Constant::PairVirial])),
         configuration: report(bonds::ExclusionReport::Configuration, configuration),
-        stress: Some(("stress_of_exclusions", Choices::new().with(bonds::ExclusionReport::Stress))),
+        stress: ("stress_of_exclusions", Choices::new().with(bonds::ExclusionReport::Stress)),
         constants: vec![(Constant::Excluded, bonds.excluding() as f64)],
         operations: 40.0,
     }

@@ -58,7 +58,7 @@ fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
         observed: report(bonds::BondReport::Observed, &[Constant::PairVirial, Constant::Laplacian]),
         motion: Some(of_motion(bonds::BondReport::Motion, &[Constant::PairVirial])),
         configuration: between,
-        stress: Some(("stress_of_bonds", of_motion(bonds::BondReport::Stress, &[]).choices)),
+        stress: ("stress_of_bonds", of_motion(bonds::BondReport::Stress, &[]).choices),
         constants: vec![
             (Constant::Bonds, bonds.count() as f64),
             (Constant::FirstKind, species as f64),

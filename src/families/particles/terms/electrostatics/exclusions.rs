@@ -57,7 +57,7 @@ pub(super) fn bonded(electrostatics: &Electrostatics, bonds: &Bonds, scales: &Sc
         observed: report(charges::ExclusionReport::Observed, configuration),
         motion: Some(report(charges::ExclusionReport::Motion, &[Constant::PairVirial])),
         configuration: report(charges::ExclusionReport::Configuration, configuration),
-        stress: None,
+        stress: ("stress_of_excluded_charges", Choices::new().with(charges::ExclusionReport::Stress)),
         constants: vec![
             (Constant::ExcludedCharges, bonds.excluding_charges() as f64),
             (Constant::CloudScale, 0.5 / electrostatics.width),

@@ -5,6 +5,7 @@ use super::{Electrostatics, exclusions};
 use crate::document::CHARGE_PARTS;
 use crate::families::fourier::{self, Fourier};
 use crate::families::particles::plan::step::{Builder, GatheringKernels};
+use crate::families::particles::plan::stress;
 use crate::families::particles::terms::PlannedTerm;
 use crate::plan::{Beyond, Kernel, SharedSum, Traversal, Words};
 use crate::shaders::smoothing::{Load, Store};
@@ -39,6 +40,11 @@ impl Electrostatics {
         self.mesh.iter().map(|nodes| u64::from(*nodes)).product()
     }
 
+    /// Energy of a wave per square of its amplitude and weight. Rows that went through as one come apart twice as large.
+    fn energy_of_amplitude(&self, builder: &Builder<'_>) -> f64 {
+        0.5 * (0.5 / self.charge_units()).powi(2) / builder.model.units.lengths.iter().product::<f64>()
+    }
+
     fn fourier(&self, builder: &Builder<'_>) -> Fourier {
         Fourier {
             mesh: self.mesh,
@@ -69,11 +75,8 @@ impl Electrostatics {
             builder.scales().impulse() * self.potential_unit() * 2_f64.powi(-72) / (divisor * spacing)
         };
         let impulses = [impulse(0), impulse(1), impulse(2)];
-        let volume = lengths.iter().product::<f64>();
         let quanta = builder.scales().quanta;
         let mobile = Self::mobile_part(&builder.model.species);
-        // Rows that went through as one come apart twice as large.
-        let amplitude = 0.5 / self.charge_units();
         builder.plan.constants.extend([
             (Constant::Charged, self.charged.count() as f64),
             (Constant::ChargeNodesX, f64::from(self.mesh[0])),
@@ -87,7 +90,7 @@ impl Electrostatics {
             (Constant::ChargeImpulseX, impulses[0]),
             (Constant::ChargeImpulseY, impulses[1]),
             (Constant::ChargeImpulseZ, impulses[2]),
-            (Constant::ChargeEnergy, 0.5 * amplitude * amplitude / (volume * quanta.pair_energy)),
+            (Constant::ChargeEnergy, self.energy_of_amplitude(builder) / quanta.pair_energy),
             (Constant::ChargeCurvature, 2.0 * mobile * quanta.pair_energy / quanta.curvature),
             (Constant::ChargeWidth, 2.0 * self.width * self.width),
             (Constant::WaveX, TAU / lengths[0]),
@@ -144,32 +147,44 @@ impl PlannedTerm for Electrostatics {
         // Every rank has all waves; the first reports them.
         let reports = builder.options.part.is_none_or(|part| part.rank == 0);
         let splits = builder.splits();
-        let mut report = |name, sums: f64| {
-            let waves = u64::from(fourier.columns()) * u64::from(self.mesh[1]) * u64::from(self.mesh[2]);
-            let groups = waves.div_ceil(builder.workgroup_size()).min(GROUPS);
+        let waves = u64::from(fourier.columns()) * u64::from(self.mesh[1]) * u64::from(self.mesh[2]);
+        let groups = waves.div_ceil(builder.workgroup_size()).min(GROUPS);
+        let over_waves = |name, entry, more| {
             let own = vec![
-                (Constant::ChargeSums, sums),
+                more,
                 (Constant::ChargeWaves, if reports { waves as f64 } else { 0.0 }),
                 (Constant::Groups, groups as f64),
                 (Constant::WaveColumns, f64::from(fourier.columns())),
                 (Constant::MeshHeight, f64::from(self.mesh[1])),
                 (Constant::MeshDepth, f64::from(self.mesh[2])),
             ];
-            let kernel =
-                Kernel::new(name, Entry::ReportCharges, choices.clone(), groups).with(own).renamed(renamed.clone());
+            Kernel::new(name, entry, choices.clone(), groups).with(own).renamed(renamed.clone())
+        };
+        let stress = stress::is_needed(builder.measured).then(|| {
+            builder.plan.add_buffer(Array::ChargeStresses, 8 * 6 * groups);
+            builder.plan.constants.push((Constant::ChargeRows, groups as f64));
+            let mut kernel = over_waves("stress_charges", Entry::StressCharges, (Constant::Quantities, 6.0));
+            kernel
+                .constants
+                .push((Constant::ChargeStress, self.energy_of_amplitude(builder) / stress::unit(builder.model)));
+            kernel.renamed.push((Array::PartialSums, Array::ChargeStresses));
+            builder.plan.add_kernel(kernel)
+        });
+        let mut report = |name, sums: f64| {
+            let kernel = over_waves(name, Entry::ReportCharges, (Constant::ChargeSums, sums));
             let kernel = builder.plan.add_kernel(kernel);
             builder.leaves_rows(kernel, rows);
             kernel
         };
-        let all = |report: usize| [&forth[..], &[report], &passes[turn..], &pulled].concat();
+        let back = [&passes[turn..], &pulled].concat();
         if splits {
             let motion = report("report_charges", 1.0);
-            kernels.report.extend([&forth[..], &[motion]].concat());
+            kernels.report.extend(forth.iter().copied().chain([motion]).chain(stress));
             let between = report("report_charges_between", 2.0);
-            kernels.configuration.extend(all(between));
+            kernels.configuration.extend([&forth[..], &[between], &back].concat());
         } else {
             let report = report("report_charges", 0.0);
-            kernels.report.extend(all(report));
+            kernels.report.extend(forth.into_iter().chain([report]).chain(stress).chain(back));
         }
         if let Some(bonds) = exclusions::excluding(builder.model) {
             exclusions::add_table(self, bonds, &mut builder.plan);

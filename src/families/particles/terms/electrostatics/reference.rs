@@ -3,11 +3,12 @@
 use super::mesh::{self, Stencil};
 use super::{Electrostatics, exclusions};
 use crate::families::Model;
-use crate::families::particles::reference::{Configuration, Images, Kicks, Moment, Pair, Potential, round};
+use crate::families::particles::reference::{AXES, Configuration, Images, Kicks, Moment, Pair, Potential, dot, round};
 use crate::families::particles::terms::ReferenceTerm;
 use crate::state::State;
 use rustfft::num_complex::Complex;
 use rustfft::{FftDirection, FftPlanner};
+use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
 /// What charges make of a mesh.
@@ -17,7 +18,8 @@ struct Solved {
     /// The force on each of them.
     forces: Vec<[f64; 3]>,
     energy: f64,
-    virial: f64,
+    /// As a tensor xx, yy, zz, xy, xz, yz.
+    virial: [f64; 6],
     laplacian: f64,
 }
 
@@ -104,18 +106,29 @@ impl Electrostatics {
             }
         }
         self.transform(&mut field, FftDirection::Forward);
-        let [mut energy, mut virial, mut laplacian] = [-self.own_energy(), 0.0, self.own_laplacian(volume)];
+        let [mut energy, mut laplacian] = [-self.own_energy(), self.own_laplacian(volume)];
+        let mut virial = [0.0; 6];
         let table = mesh::Waves::new(self, lengths);
         for (index, wave) in field.iter_mut().enumerate() {
             let [width, height, _] = self.mesh.map(|nodes| nodes as usize);
             let at = [index % width, index / width % height, index / (width * height)];
             let folded = [0, 1, 2].map(|axis| (at[axis] as u32).min(self.mesh[axis] - at[axis] as u32));
-            let square =
-                [0, 1, 2].map(|axis| (TAU * f64::from(folded[axis]) / lengths[axis]).powi(2)).iter().sum::<f64>();
+            let number = [0, 1, 2].map(|axis| TAU * f64::from(folded[axis]) / lengths[axis]);
+            let square = dot(number, number);
+            // Waves in the middle of an axis are of both signs.
+            let sign = |axis: usize| match (2 * at[axis]).cmp(&(self.mesh[axis] as usize)) {
+                Ordering::Less => 1.0,
+                Ordering::Equal => 0.0,
+                Ordering::Greater => -1.0,
+            };
             let weight = table.wave(folded);
             let own = 0.5 * weight.energy / volume * wave.norm_sqr();
             energy += own;
-            virial += own * (1.0 - 2.0 * square * self.width * self.width);
+            for (component, [a, b]) in AXES.into_iter().enumerate().filter(|_| square > 0.0) {
+                let (isotropic, signs) = if a == b { (1.0, 1.0) } else { (0.0, sign(a) * sign(b)) };
+                let pull = 2.0 * signs * number[a] * number[b] * (1.0 / square + self.width * self.width);
+                virial[component] += own * (isotropic - pull);
+            }
             laplacian -= 2.0 * square * own;
             *wave *= weight.potential / volume;
         }
@@ -181,7 +194,8 @@ impl ReferenceTerm for Electrostatics {
                 kicks.both[*particle][axis] -= sum.div_euclid(count) + i64::from(place < sum.rem_euclid(count));
             }
         }
-        kicks.virials.total += solved.virial;
+        kicks.virials.total += solved.virial[..3].iter().sum::<f64>();
+        kicks.virials.of_waves = solved.virial;
         for (pair, potential) in self.excluded(model, &moment.images, state) {
             kicks.push_apart(model, &pair, potential.force(), 0.0);
         }
@@ -191,7 +205,7 @@ impl ReferenceTerm for Electrostatics {
         let solved = self.solve(sums.model, sums.state);
         sums.potential += solved.energy;
         sums.electrostatic += solved.energy;
-        sums.virial += solved.virial;
+        sums.virial += solved.virial[..3].iter().sum::<f64>();
         let of_square = solved.laplacian / self.squares();
         for ((particle, charge), force) in solved.charged.iter().zip(&solved.forces) {
             for axis in 0..3 {
