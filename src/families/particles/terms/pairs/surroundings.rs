@@ -276,7 +276,7 @@ mod tests {
         assert!((visits(&[2.0; 3], &places) / 40_000.0 - 1.0).abs() < 0.01);
         assert!((visits(&[10.0; 3], &places) / (27.0 * 41.0) - 1.0).abs() < 0.01);
         assert_eq!(visits(&[1000.0; 3], &[[5; 3]; 100]), 2700.0);
-        let found = crowd(&[2.0; 3], &[[1.0; 3]; 20_000], &[0; 20_000], vec![0.0], 1.0);
+        let found = crowd(&[2.0; 3], &vec![[1.0; 3]; 20_000], &vec![0; 20_000], vec![0.0], 1.0);
         assert!((found.mean / 19_999.0 * (4.0 / 3.0 * PI) - 1.0).abs() < 1e-12, "{found:?}");
     }
 
