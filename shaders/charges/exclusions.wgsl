@@ -1,24 +1,12 @@
 // Bonds that exclude the charges of their ends: the force between the two clouds, of nearest images, is taken back.
 override EXCLUDED_CHARGES: u32; // pairs in `excluded_charges`: the ids of both, and the product of their charges
-override CLOUD_SCALE: f32;      // 1/2σ of a cloud
+override CLOUD_SCALE: f32;      // inverse of the length by which distances of clouds are measured
 override CLOUD_IMPULSE: f32;    // impulse of half a step by two unit charges at a unit distance
 
-// Two clouds at a distance of x/CLOUD_SCALE, over their strength: the energy erf(x)/x, the pull (erf(x)/x - 2/√π e^(-x²))/x², and 2/√π e^(-x²).
+// Two clouds at a distance of x/CLOUD_SCALE, over their strength: the energy e(x), the pull -e'(x)/x, and minus half of its Laplacian.
 struct CloudPair { energy: f32, pull: f32, density: f32 }
-fn cloud_pair(x: f32) -> CloudPair {
-    let square = x * x;
-    let density = 1.1283792 * exp(-square);
-    // The pull is 2/√π e^(-x²) Σ 2ⁿ x^(2n-2)/(2n+1)!!, whose terms have one sign. Where x² is below 2.25 sixteen are enough.
-    var sum = 1.0;
-    for (var term = 0u; term < 15u; term += 1u) { sum = 1.0 + sum * 2.0 * square / f32(33u - 2u * term); }
-    let near = density * sum * (2.0 / 3.0);
-    // The error function to 1.5e-7: Abramowitz and Stegun, Handbook of Mathematical Functions, 7.1.26.
-    let t = 1.0 / (1.0 + 0.3275911 * x);
-    let tail = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429)))) * exp(-square);
-    let far = ((1.0 - tail) / max(x, 1.0) - density) / max(square, 1.0);
-    let pull = select(far, near, square < 2.25);
-    return CloudPair(density + square * pull, pull, density);
-}
+
+// Slot charges/cloud, without a default: the densities of charges, `cloud_pair`. Variants gaussian, slater; the plan follows the scene.
 
 // The negative of what two clouds do to each other.
 struct ExcludedCharges {
@@ -81,4 +69,34 @@ fn exclude_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_i
     let index = group * WORKGROUP + lane;
     if (index < EXCLUDED_CHARGES) { visit_excluded_charges(index); }
     finish_excluded_charges(group, lane);
+}
+
+// == charges/cloud/gaussian
+// Two Gaussian clouds, with the scale 1/2σ: the energy erf(x)/x, the pull (erf(x)/x - 2/√π e^(-x²))/x².
+fn cloud_pair(x: f32) -> CloudPair {
+    let square = x * x;
+    let density = 1.1283792 * exp(-square);
+    // The pull is 2/√π e^(-x²) Σ 2ⁿ x^(2n-2)/(2n+1)!!, whose terms have one sign. Where x² is below 2.25 sixteen are enough.
+    var sum = 1.0;
+    for (var term = 0u; term < 15u; term += 1u) { sum = 1.0 + sum * 2.0 * square / f32(33u - 2u * term); }
+    let near = density * sum * (2.0 / 3.0);
+    // The error function to 1.5e-7: Abramowitz and Stegun, Handbook of Mathematical Functions, 7.1.26.
+    let t = 1.0 / (1.0 + 0.3275911 * x);
+    let tail = t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429)))) * exp(-square);
+    let far = ((1.0 - tail) / max(x, 1.0) - density) / max(square, 1.0);
+    let pull = select(far, near, square < 2.25);
+    return CloudPair(density + square * pull, pull, density);
+}
+
+// == charges/cloud/slater
+// Two clouds of Slater, with the scale β: the energy [1 - (1 + x) e^(-2x)]/x, the pull [1 - e^(-2x) (1 + 2x + 2x²)]/x³.
+fn cloud_pair(x: f32) -> CloudPair {
+    let decayed = exp(-2.0 * x);
+    // The pull is 4/3 e^(-2x) Σ (2x)ⁿ 3!/(n+3)!, whose terms have one sign. Where x is below 1.5 fourteen are enough.
+    var sum = 1.0;
+    for (var term = 0u; term < 14u; term += 1u) { sum = 1.0 + sum * 2.0 * x / f32(17u - term); }
+    let near = decayed * sum * (4.0 / 3.0);
+    let far = (1.0 - decayed * (1.0 + 2.0 * x + 2.0 * x * x)) / (max(x, 1.0) * max(x * x, 1.0));
+    let pull = select(far, near, x < 1.5);
+    return CloudPair(decayed * (1.0 + 2.0 * x) + x * x * pull, pull, 2.0 * decayed);
 }

@@ -3,12 +3,16 @@ override CHARGE_WAVES: u32;   // waves that are kept
 override CHARGE_SUMS: u32;    // 0 where all is summed, 1 for the motion, 2 for the configuration
 override CHARGE_ENERGY: f32;  // energy of a wave per square of its amplitude and weight, over its quantum
 override CHARGE_CURVATURE: f32; // its part of the Laplacian per square of a wave number, over its quantum
-override CHARGE_WIDTH: f32;   // twice the square of the width of a charge
+override CHARGE_WIDTH: f32;   // twice the square of the width of a charge, for long waves
+override CHARGE_DECREASE: f32; // by which it becomes less, per square of a wave number
 override CHARGE_STRESS: f32;  // its part of the stress per square of its amplitude and weight, over the unit of a stress
 // Wave numbers of one wave in the box.
 override WAVE_X: f32;
 override WAVE_Y: f32;
 override WAVE_Z: f32;
+
+// Twice the square of the width of a charge that waves of a number see.
+fn seen_width(square: f32) -> f32 { return CHARGE_WIDTH / (1.0 + CHARGE_DECREASE * square); }
 
 // A wave of charges.
 struct ChargeWave {
@@ -34,7 +38,7 @@ fn charge_wave(index: u32) -> ChargeWave {
 }
 
 // Adds up the waves of charges. One invocation every so many waves; reads `waves` and `charge_energies`, writes rows of `partial_sums`.
-// For a wave of number k and energy u the virial is u (1 - 2k²σ²), and a charge by itself has been counted.
+// For a wave of number k and energy u the virial is u (1 - 2k²σ²), σ being the width that the wave sees, and a charge by itself has been counted.
 @compute @workgroup_size(WORKGROUP)
 fn report_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let group = linear_workgroup(workgroup);
@@ -42,7 +46,7 @@ fn report_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
         let wave = charge_wave(index);
         let energy = wave.square * CHARGE_ENERGY;
         let square = dot(wave.number, wave.number);
-        let virial = sum64_of_signed(energy * (1.0 - CHARGE_WIDTH * square));
+        let virial = sum64_of_signed(energy * (1.0 - seen_width(square) * square));
         if (CHARGE_SUMS != 2u) { total_add(SUM_VIRIAL, virial); }
         if (CHARGE_SUMS != 1u) {
             total_add(SUM_POTENTIAL_ENERGY, sum64_of_signed(energy));
@@ -65,7 +69,7 @@ fn stress_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
         let energy = wave.square * CHARGE_STRESS;
         let square = dot(wave.number, wave.number);
         // That of all zeros has no energy.
-        let pull = energy * (CHARGE_WIDTH + select(0.0, 2.0 / square, square > 0.0));
+        let pull = energy * (seen_width(square) + select(0.0, 2.0 / square, square > 0.0));
         let diagonal = energy - pull * wave.number * wave.number;
         // Waves in the middle are of both signs.
         let number = select(wave.number, vec3<f32>(0.0), wave.in_middle);

@@ -52,7 +52,7 @@ pub use particles::terms::angles::Angles;
 pub use particles::terms::body_forces::{BodyForces, FixedImpulse};
 pub use particles::terms::bonds::{BondKind, Bonds};
 pub use particles::terms::coloured_noise::{ColouredNoise, Jump};
-pub use particles::terms::electrostatics::Electrostatics;
+pub use particles::terms::electrostatics::{Cloud, Electrostatics};
 pub use particles::terms::harmonic_chain::{ChainTrios, HarmonicChain, Likeness, SpringChain, Strand};
 pub use particles::terms::langevin::PositionBath;
 pub(crate) use particles::terms::pairs::surroundings;

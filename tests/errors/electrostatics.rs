@@ -53,6 +53,11 @@ fn charges_are_neutral_in_integers_or_have_a_background() {
 #[test]
 fn the_mesh_resolves_the_charges_and_fits() {
     SALT.refused_with(&["interactions.1.spacing=1.3"], &["interactions[1].spacing: found 1.3", "2 times the width"]);
+    SALT.refused_with(
+        &["interactions.1.width=0.6", "interactions.1.decay=0.9"],
+        &["interactions[1].decay: found beside `width`", "not both"],
+    );
+    SALT.refused_with(&["interactions.1.decay=3"], &["interactions[1].spacing: found 0.5", "at most 0.471405"]);
     SALT.refused_with(&["interactions.1.width=0.2"], &["interactions[1].spacing: found 0.5"]);
     SALT.refused_with(
         &["space.box=[1000,10,10]"],

@@ -111,6 +111,8 @@ fn excluded_charges_are_those_of_the_reference() {
         assert!(with < without - 5.0, "{with} {without}");
     }
     check(&salt([5.0; 3], INTEGRATORS[0], &json!({}), std::slice::from_ref(&listed)), "excluded pairs alone");
+    let slater = json!({"decay": 0.929, "spacing": 0.3});
+    check(&salt([5.0; 3], INTEGRATORS[0], &slater, &[along, listed]), "excluded charges of Slater");
 }
 
 /// Fields that are constant and that oscillate, also where nothing else acts on charges.
@@ -167,6 +169,7 @@ fn steps_are_those_of_the_reference() {
         (json!({"order": 4}), [5.0, 5.0, 5.0]),
         (json!({"spacing": 0.25, "width": 0.4}), [5.0, 5.0, 4.0]),
         (json!({"spacing": 0.3, "width": 1.2}), [7.0, 5.0, 4.0]),
+        (json!({"spacing": 0.3, "decay": 0.929}), [5.0, 5.0, 4.0]),
         (json!({"background": true, "bjerrum_length": 20.0}), [5.0, 5.0, 5.0]),
     ] {
         check(&salt(edges, INTEGRATORS[0], &electrostatics, &[]), &electrostatics.to_string());

@@ -212,10 +212,10 @@ fn stresses_of_charges_agree_with_the_reference() {
     }
 }
 
-/// The energy of clouds of charge, each by itself included, in a box whose edges are the rows of a lower triangle: of exact phases, places being
-/// fractions of the box.
-fn energy_of_waves(edges: [[f64; 3]; 3], charges: &[([f64; 3], f64)], strength: f64, width: f64) -> f64 {
-    const MOST: i32 = 9;
+/// The energy of clouds of charge with a spectrum by the square of the wave number, each by itself included, in a box whose edges are the rows of a
+/// lower triangle: of exact phases, places being fractions of the box.
+fn energy_of_waves(edges: [[f64; 3]; 3], charges: &[([f64; 3], f64)], spectrum: impl Fn(f64) -> f64) -> f64 {
+    const MOST: i32 = 12;
     let volume = edges[0][0] * edges[1][1] * edges[2][2];
     let sides = 2 * MOST + 1;
     let energy_of = |index: i32| {
@@ -234,7 +234,7 @@ fn energy_of_waves(edges: [[f64; 3]; 3], charges: &[([f64; 3], f64)], strength: 
             real += charge * phase.cos();
             imaginary += charge * phase.sin();
         }
-        TAU * strength / (volume * square) * (-square * width * width).exp() * (real * real + imaginary * imaginary)
+        TAU / (volume * square) * spectrum(square) * (real * real + imaginary * imaginary)
     };
     (0..sides.pow(3)).map(energy_of).sum()
 }
@@ -242,33 +242,44 @@ fn energy_of_waves(edges: [[f64; 3]; 3], charges: &[([f64; 3], f64)], strength: 
 /// The stress of charges is what a strain of the box takes of their energy, along the axes and across them.
 #[test]
 fn the_stress_of_charges_is_that_of_a_strain() {
-    let (edges, strength, width) = ([5.0, 6.0, 4.5], 3.0, 0.8);
-    let scene = crate::support::scene(
-        &json!({
-            "title": "strained", "seed": 3, "space": {"box": edges}, "time": {"step": 0.01, "steps": 1}, "temperature": 1,
-            "integrator": {"type": "cotter-reich"},
-            "particles": [{"species": "P", "count": 6, "charge": 1}, {"species": "M", "count": 4, "charge": -1.5}],
-            "interactions": [{"type": "electrostatics", "bjerrum_length": strength, "width": width, "spacing": 0.25}],
-            "output": {"stress": {"every": 1}},
-        })
-        .to_string(),
-    );
-    let (_, state) = start(&scene);
-    let charges: Vec<([f64; 3], f64)> = (state.positions.iter().zip(&state.species))
-        .map(|(place, species)| (place.map(|word| f64::from(word) / 2_f64.powi(32)), [1.0, -1.5][*species as usize]))
-        .collect();
-    let mut engine = engine(&scene, &state, Options::default());
-    let samples = engine.finish().unwrap();
-    let unit = engine.plan().stress_unit;
-    let found: Vec<f64> = samples.last().unwrap().sums[6..12].iter().map(|sum| *sum as f64 * unit).collect();
-    let largest = found.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
-    for (component, [a, b]) in [[0, 0], [1, 1], [2, 2], [1, 0], [2, 0], [2, 1]].into_iter().enumerate() {
-        let strained = |strain: f64| {
-            let mut box_edges = [[edges[0], 0.0, 0.0], [0.0, edges[1], 0.0], [0.0, 0.0, edges[2]]];
-            box_edges[a][b] += strain * edges[a];
-            energy_of_waves(box_edges, &charges, strength, width)
-        };
-        let expected = -(strained(1e-4) - strained(-1e-4)) / 2e-4;
-        assert!((found[component] - expected).abs() < 1e-4 * largest, "{component}: {found:?}, expected {expected}");
+    let edges = [5.0, 6.0, 4.5];
+    let gaussian = |square: f64| 3.0 * (-square * 0.64).exp();
+    let slater = |square: f64| 3.0 * (1.0 + square / (4.0 * 0.64)).powi(-2);
+    let cases: [(_, &dyn Fn(f64) -> f64, f64); 2] =
+        [(json!({"width": 0.8}), &gaussian, 1e-4), (json!({"decay": 0.8}), &slater, 3e-3)];
+    for (cloud, spectrum, tolerance) in cases {
+        let mut charges = json!({"type": "electrostatics", "bjerrum_length": 3, "spacing": 0.25});
+        charges.as_object_mut().unwrap().extend(cloud.as_object().unwrap().clone());
+        let scene = crate::support::scene(
+            &json!({
+                "title": "strained", "seed": 3, "space": {"box": edges}, "time": {"step": 0.01, "steps": 1}, "temperature": 1,
+                "integrator": {"type": "cotter-reich"},
+                "particles": [{"species": "P", "count": 6, "charge": 1}, {"species": "M", "count": 4, "charge": -1.5}],
+                "interactions": [charges],
+                "output": {"stress": {"every": 1}},
+            })
+            .to_string(),
+        );
+        let (_, state) = start(&scene);
+        let charges: Vec<([f64; 3], f64)> = (state.positions.iter().zip(&state.species))
+            .map(|(place, species)| {
+                (place.map(|word| f64::from(word) / 2_f64.powi(32)), [1.0, -1.5][*species as usize])
+            })
+            .collect();
+        let mut engine = engine(&scene, &state, Options::default());
+        let samples = engine.finish().unwrap();
+        let unit = engine.plan().stress_unit;
+        let found: Vec<f64> = samples.last().unwrap().sums[6..12].iter().map(|sum| *sum as f64 * unit).collect();
+        let largest = found.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+        for (component, [a, b]) in [[0, 0], [1, 1], [2, 2], [1, 0], [2, 0], [2, 1]].into_iter().enumerate() {
+            let strained = |strain: f64| {
+                let mut box_edges = [[edges[0], 0.0, 0.0], [0.0, edges[1], 0.0], [0.0, 0.0, edges[2]]];
+                box_edges[a][b] += strain * edges[a];
+                energy_of_waves(box_edges, &charges, spectrum)
+            };
+            let expected = -(strained(1e-4) - strained(-1e-4)) / 2e-4;
+            let off = (found[component] - expected).abs();
+            assert!(off < tolerance * largest, "{cloud} {component}: {found:?}, expected {expected}");
+        }
     }
 }

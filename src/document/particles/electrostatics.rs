@@ -5,17 +5,21 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The electrostatic force between charged particles: clouds of a Gaussian density e^(-r²/2σ²), which interact as
-/// kT lB q q' erf(r/2σ)/r, in a periodic box with a conducting medium around it.
+/// kT lB q q' erf(r/2σ)/r, or of Slater's, in a periodic box with a conducting medium around it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ElectrostaticsInteraction {
     /// Bjerrum length lB: two unit charges far from each other have the energy kT lB/r, kT being the temperature of the scene.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub bjerrum_length: f64,
-    /// Width σ of a charge, the standard deviation of its density along each axis.
-    #[serde(default = "width")]
+    /// Width σ of a Gaussian charge, the standard deviation of its density along each axis; .6076 where `decay` is left out too.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub width: f64,
+    pub width: Option<f64>,
+    /// Decay β of Slater's charges, in place of Gaussian ones: they interact as kT lB q q' [1 - (1 + βr) e^(-2βr)]/r, and need a finer mesh.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub decay: Option<f64>,
     /// The largest distance of neighbouring nodes of the mesh; the mesh has the fewest nodes that its Fourier transform takes.
     #[serde(default = "hundredths::<50>")]
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -29,9 +33,10 @@ pub struct ElectrostaticsInteraction {
     pub background: bool,
 }
 
-/// Clouds of this width have the contact energy of the charges that Groot introduced, doi:10.1063/1.1574800: 52/(35 · 1.6).
-fn width() -> f64 {
-    0.6076
+impl ElectrostaticsInteraction {
+    /// Width of Gaussian charges that have none: they have the contact energy of the charges that Groot introduced,
+    /// doi:10.1063/1.1574800: 52/(35 · 1.6).
+    pub(crate) const WIDTH: f64 = 0.6076;
 }
 
 /// An electric field from outside, the same everywhere: a force on every particle with a `charge`, beside what charges do to each other.

@@ -352,10 +352,10 @@ impl Layers<'_> {
         self.model.species.iter().zip(row).map(|(species, count)| species.charge * count).sum()
     }
 
-    /// The potential of a layer by a unit charge in another, by their distance in layers: `4π kT lB/(A L) Σ_k e^(-k²σ²/2) cos(kz)/k²` over the
-    /// waves that layers resolve, for clouds of a width σ; none where charges do not act on each other.
+    /// The potential of a layer by a unit charge in another, by their distance in layers: for Gaussian clouds `4π kT lB/(A L) Σ_k e^(-k²σ²/2)
+    /// cos(kz)/k²` over the waves that layers resolve; none where charges do not act on each other.
     fn response(&self) -> Option<Vec<f64>> {
-        let Electrostatics { strength, width, .. } = self.model.particles().electrostatics.as_ref()?;
+        let Electrostatics { strength, cloud, .. } = self.model.particles().electrostatics.as_ref()?;
         let (bins, length) = (self.asked.bins, self.model.units.lengths[self.asked.axis as usize]);
         let over_volume = 4.0 * PI * strength / self.model.units.volume();
         let of_wave = |wave: u32, layers: u32| {
@@ -363,7 +363,7 @@ impl Layers<'_> {
             // The shortest wave of an even number of layers is its own mirror image.
             let images = if 2 * wave == bins { 1.0 } else { 2.0 };
             let phase = TAU * f64::from(wave) * f64::from(layers) / f64::from(bins);
-            images * (-0.5 * (number * width).powi(2)).exp() * phase.cos() / (number * number)
+            images * cloud.spectrum_of_one(number) * phase.cos() / (number * number)
         };
         let at = |layers| over_volume * (1..=bins / 2).map(|wave| of_wave(wave, layers)).sum::<f64>();
         Some((0..bins).map(at).collect())

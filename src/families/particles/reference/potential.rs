@@ -2,6 +2,7 @@
 
 use super::pairs::Pair;
 use crate::document::BondPotential;
+use crate::families::particles::terms::electrostatics::Cloud;
 use crate::families::{PairForce, SoftRepulsion};
 
 /// V, V' and V'' at a distance.
@@ -57,11 +58,36 @@ impl Potential {
         }
     }
 
-    /// -C erf(ar)/r, what is taken back of two clouds whose energy is C erf(ar)/r, a = 1/2σ.
-    ///
+    /// What is taken back of two clouds whose energy is C e(ar): of Gaussian ones e = erf(x)/x and a = 1/2σ, of Slater's e = [1 - (1 + x)
+    /// e^(-2x)]/x and a = β.
+    pub(crate) fn of_excluded_clouds(strength: f64, cloud: Cloud, distance: f64) -> Self {
+        match cloud {
+            Cloud::Gaussian { width } => Self::of_excluded_gaussians(strength, 0.5 / width, distance),
+            Cloud::Slater { decay } => Self::of_excluded_slater_clouds(strength, decay, distance),
+        }
+    }
+
+    /// With the pull k = -e'/x = [1 - e^(-2x) (1 + 2x + 2x²)]/x³ it is V = -Ca e, V' = Ca³ r k and V'' = Ca³ (4 e^(-2x) - 2k).
+    fn of_excluded_slater_clouds(strength: f64, inverse: f64, distance: f64) -> Self {
+        let x = inverse * distance;
+        let density = (-2.0 * x).exp();
+        // Without cancellation where x is small: 4/3 e^(-2x) Σ (2x)^n 3!/(n + 3)!.
+        let pull = if x < 1.0 {
+            let sum = (4..40).rev().fold(1.0, |sum, term: u32| 1.0 + sum * 2.0 * x / f64::from(term));
+            4.0 / 3.0 * density * sum
+        } else {
+            (1.0 - density * (1.0 + 2.0 * x + 2.0 * x * x)) / x.powi(3)
+        };
+        let curved = strength * inverse.powi(3);
+        Self {
+            energy: -strength * inverse * (density * (1.0 + 2.0 * x) + x * x * pull),
+            slope: curved * distance * pull,
+            curvature: curved * (4.0 * density - 2.0 * pull),
+        }
+    }
+
     /// With x = ar and the pull k = (erf(x)/x - 2/√π e^(-x²))/x² it is V = -Ca erf(x)/x, V' = Ca³ r k and V'' = Ca³ (4/√π e^(-x²) - 2k).
-    pub(crate) fn of_excluded_clouds(strength: f64, width: f64, distance: f64) -> Self {
-        let inverse = 0.5 / width;
+    fn of_excluded_gaussians(strength: f64, inverse: f64, distance: f64) -> Self {
         let x = inverse * distance;
         let density = std::f64::consts::FRAC_2_SQRT_PI * (-x * x).exp();
         // Without cancellation where x is small: density Σ 2ⁿ x^(2n-2)/(2n+1)!!.
@@ -136,15 +162,23 @@ mod tests {
     #[test]
     fn excluded_clouds_have_their_derivatives() {
         for distance in [0.02, 0.5, 1.7, 1.81, 2.0, 4.0] {
-            let at = |distance| Potential::of_excluded_clouds(1.7, 0.6, distance);
-            assert_derivatives("clouds", distance, at);
-            let expected = -1.7 * libm::erf(distance / 1.2) / distance;
-            assert!((at(distance).energy / expected - 1.0).abs() < 1e-13, "{distance}");
+            let decay = 0.9;
+            for (cloud, charge) in [
+                (Cloud::Gaussian { width: 0.6 }, libm::erf(distance / 1.2)),
+                (Cloud::Slater { decay }, 1.0 - (1.0 + decay * distance) * (-2.0 * decay * distance).exp()),
+            ] {
+                let at = |distance| Potential::of_excluded_clouds(1.7, cloud, distance);
+                assert_derivatives("clouds", distance, at);
+                let expected = -1.7 * charge / distance;
+                assert!((at(distance).energy / expected - 1.0).abs() < 1e-13, "{cloud:?} {distance}");
+            }
         }
-        // On both sides of the place where its form changes.
-        let [below, above] =
-            [1.8 - 1e-12, 1.8 + 1e-12].map(|distance| Potential::of_excluded_clouds(1.7, 0.6, distance));
-        assert!((below.slope - above.slope).abs() < 1e-11 && (below.curvature - above.curvature).abs() < 1e-10);
+        // On both sides of the place where the form changes.
+        for (cloud, place) in [(Cloud::Gaussian { width: 0.6 }, 1.8), (Cloud::Slater { decay: 0.9 }, 1.0 / 0.9)] {
+            let [below, above] =
+                [place - 1e-12, place + 1e-12].map(|distance| Potential::of_excluded_clouds(1.7, cloud, distance));
+            assert!((below.slope - above.slope).abs() < 1e-11 && (below.curvature - above.curvature).abs() < 1e-10);
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use super::{Electrostatics, expected_error};
 use crate::families::Model;
 use crate::numbers::{grouped, three_digits};
+use std::f64::consts::PI;
 
 /// The Bjerrum length, the length of Debye, and the mesh with its error, in words for `check`.
 pub(crate) fn description(electrostatics: &Electrostatics, model: &Model) -> Vec<(&'static str, String)> {
@@ -13,10 +14,11 @@ pub(crate) fn description(electrostatics: &Electrostatics, model: &Model) -> Vec
     let spacings = [0, 1, 2].map(|axis| three_digits(lengths[axis] / f64::from(electrostatics.mesh[axis])));
     let screening = electrostatics.screening(model.temperature, volume);
     let charges = format!(
-        "{} particles with a charge, Debye length {}, κσ {}",
+        "{} particles with a charge, Γ {}, Debye length {}, κσ {}",
         grouped(electrostatics.charged.count()),
+        three_digits(4.0 * PI * electrostatics.strength / model.temperature),
         three_digits(1.0 / screening),
-        three_digits(screening * electrostatics.width)
+        three_digits(screening * electrostatics.cloud.width())
     );
     let mesh = format!(
         "{x} × {y} × {z} nodes {} apart, splines of {} points; expected rms error of a force on a unit charge {}, for charges at random places",

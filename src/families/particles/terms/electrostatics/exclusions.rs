@@ -1,13 +1,12 @@
 //! Bonds that exclude the charges of their ends: what the mesh adds between these is taken back, for the nearest images.
 
-use super::Electrostatics;
+use super::{Cloud, Electrostatics};
 use crate::document::BondPotential;
 use crate::families::particles::model::topology::Alike;
 use crate::families::particles::plan::bonded::{Bonded, Observed, Scales};
 use crate::families::{Bonds, Model};
 use crate::plan::{Plan, Words};
 use crate::shaders::{Array, Choices, Constant, Entry, charges};
-use std::f64::consts::PI;
 
 /// The bonds of a model, if any excludes charges.
 pub(super) fn excluding(model: &Model) -> Option<&Bonds> {
@@ -29,7 +28,7 @@ pub(super) fn excluded_pairs(electrostatics: &Electrostatics, bonds: &Bonds) -> 
 /// The stiffness of a spring between two opposite charges that is no larger than that of the attraction of their clouds, which is taken back, and the
 /// latter: other charges can pull these apart.
 pub(super) fn weak_spring(electrostatics: &Electrostatics, bonds: &Bonds) -> Option<[f64; 2]> {
-    let of_unit = electrostatics.strength * 4.0 / (3.0 * PI.sqrt() * (2.0 * electrostatics.width).powi(3));
+    let of_unit = electrostatics.strength * electrostatics.cloud.stiffness();
     // Charges of one species repel each other.
     let listed = bonds.alike().filter_map(|(kind, alike)| match alike {
         Alike::Listed(pairs) => Some((&bonds.kinds[kind as usize], pairs)),
@@ -46,23 +45,27 @@ pub(super) fn weak_spring(electrostatics: &Electrostatics, bonds: &Bonds) -> Opt
 
 /// The kernels that take the forces back.
 pub(super) fn bonded(electrostatics: &Electrostatics, bonds: &Bonds, scales: &Scales<'_>) -> Bonded {
-    let report = |part, scales| Observed { choices: Choices::new().with(part), scales };
+    let choices = Choices::new().with(match electrostatics.cloud {
+        Cloud::Gaussian { .. } => charges::Cloud::Gaussian,
+        Cloud::Slater { .. } => charges::Cloud::Slater,
+    });
+    let report = |part, scales| Observed { choices: choices.clone().with(part), scales };
     let configuration = &[Constant::PairVirial, Constant::Laplacian];
     Bonded {
         name: "exclude_charges",
         reports: ["report_excluded_charges", "report_excluded_charges_between"],
         entry: Entry::ExcludeCharges,
         count: bonds.excluding_charges(),
-        choices: Choices::new(),
         observed: report(charges::ExclusionReport::Observed, configuration),
         motion: Some(report(charges::ExclusionReport::Motion, &[Constant::PairVirial])),
         configuration: report(charges::ExclusionReport::Configuration, configuration),
-        stress: ("stress_of_excluded_charges", Choices::new().with(charges::ExclusionReport::Stress)),
+        stress: ("stress_of_excluded_charges", choices.clone().with(charges::ExclusionReport::Stress)),
         constants: vec![
             (Constant::ExcludedCharges, bonds.excluding_charges() as f64),
-            (Constant::CloudScale, 0.5 / electrostatics.width),
+            (Constant::CloudScale, electrostatics.cloud.scale()),
             (Constant::CloudImpulse, electrostatics.strength * scales.impulse()),
         ],
+        choices,
         operations: 100.0,
     }
 }

@@ -1,5 +1,5 @@
-//! Electrostatic forces between charges with a Gaussian density, on a mesh alone: they are so wide that it resolves all of their
-//! spectrum, and no pair is computed by itself.
+//! Electrostatic forces between charges that are clouds, on a mesh alone: they are so wide that it resolves all of their
+//! spectrum, and no pair is computed by itself. For Gaussian ones
 //!
 //! ```text
 //! U = 1/2V Σ_(k≠0) (4π kT lB/k²) e^(-k²σ²) |ρ(k)|² - kT lB Σ q²/(2σ√π),    ρ(k) = Σ q e^(-ik·r)
@@ -7,6 +7,7 @@
 //! Charges are spread in integers, and the potential of a node is rounded to an integer once, so that the force on all charges
 //! together is one of rounding; that is taken back, unit by unit, and the total momentum stays what it is to the last bit.
 
+mod cloud;
 mod description;
 mod exclusions;
 mod mesh;
@@ -14,6 +15,7 @@ mod plan;
 mod reference;
 mod scene;
 
+pub use cloud::Cloud;
 pub(crate) use description::description;
 pub(crate) use mesh::expected_error;
 pub(crate) use scene::charged_species;
@@ -28,8 +30,8 @@ use std::f64::consts::PI;
 pub struct Electrostatics {
     /// kT lB: energy times distance of two unit charges far from each other.
     pub strength: f64,
-    /// Width σ of a charge.
-    pub width: f64,
+    /// The density of a charge.
+    pub cloud: Cloud,
     /// Nodes of the mesh on each axis.
     pub mesh: [u32; 3],
     /// Points of the splines and of the differences along each axis.
@@ -40,7 +42,13 @@ pub struct Electrostatics {
 
 impl Default for Electrostatics {
     fn default() -> Self {
-        Self { strength: 1.0, width: 0.6076, mesh: [20; 3], order: 6, charged: Charged::default() }
+        Self {
+            strength: 1.0,
+            cloud: Cloud::Gaussian { width: 0.6076 },
+            mesh: [20; 3],
+            order: 6,
+            charged: Charged::default(),
+        }
     }
 }
 
@@ -106,16 +114,16 @@ impl Electrostatics {
         self.charged.sum(|charge| charge * charge)
     }
 
-    /// Energy of charges each by itself, which waves count: kT lB Σ q²/(2σ√π).
+    /// Energy of charges each by itself, which waves count: of Gaussian ones kT lB Σ q²/(2σ√π).
     pub(crate) fn own_energy(&self) -> f64 {
-        self.strength * self.squares() / (2.0 * self.width * PI.sqrt())
+        self.strength * self.squares() / (2.0 * self.cloud.contact_length())
     }
 
     /// The Laplacian of the potential that waves count for charges each by itself, which a charge that moves takes along: `1/V Σ_k` (k²
     /// times the spectrum) Σ q², a sum that is an integral ∫ d³k/(2π)³ but for the wave of all zeros.
     pub(crate) fn own_laplacian(&self, volume: f64) -> f64 {
         // All waves less that of all zeros.
-        let all = 4.0 * PI * self.strength / (8.0 * PI.powf(1.5) * self.width.powi(3));
+        let all = 4.0 * PI * self.strength / self.cloud.volume();
         self.squares() * (all - 4.0 * PI * self.strength / volume)
     }
 
@@ -148,7 +156,7 @@ impl Electrostatics {
 
     /// The potential of a unit charge at its centre.
     fn contact(&self) -> f64 {
-        self.strength / (self.width * PI.sqrt())
+        self.strength / self.cloud.contact_length()
     }
 }
 

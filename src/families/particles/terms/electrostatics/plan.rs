@@ -76,6 +76,7 @@ impl Electrostatics {
         };
         let impulses = [impulse(0), impulse(1), impulse(2)];
         let quanta = builder.scales().quanta;
+        let [width, decrease] = self.cloud.slope();
         let mobile = Self::mobile_part(&builder.model.species);
         builder.plan.constants.extend([
             (Constant::Charged, self.charged.count() as f64),
@@ -92,7 +93,8 @@ impl Electrostatics {
             (Constant::ChargeImpulseZ, impulses[2]),
             (Constant::ChargeEnergy, self.energy_of_amplitude(builder) / quanta.pair_energy),
             (Constant::ChargeCurvature, 2.0 * mobile * quanta.pair_energy / quanta.curvature),
-            (Constant::ChargeWidth, 2.0 * self.width * self.width),
+            (Constant::ChargeWidth, width),
+            (Constant::ChargeDecrease, decrease),
             (Constant::WaveX, TAU / lengths[0]),
             (Constant::WaveY, TAU / lengths[1]),
             (Constant::WaveZ, TAU / lengths[2]),

@@ -108,10 +108,11 @@ impl Electrostatics {
         self.transform(&mut field, FftDirection::Forward);
         let [mut energy, mut laplacian] = [-self.own_energy(), self.own_laplacian(volume)];
         let mut virial = [0.0; 6];
+        let [width, decrease] = self.cloud.slope();
         let table = mesh::Waves::new(self, lengths);
         for (index, wave) in field.iter_mut().enumerate() {
-            let [width, height, _] = self.mesh.map(|nodes| nodes as usize);
-            let at = [index % width, index / width % height, index / (width * height)];
+            let [columns, rows, _] = self.mesh.map(|nodes| nodes as usize);
+            let at = [index % columns, index / columns % rows, index / (columns * rows)];
             let folded = [0, 1, 2].map(|axis| (at[axis] as u32).min(self.mesh[axis] - at[axis] as u32));
             let number = [0, 1, 2].map(|axis| TAU * f64::from(folded[axis]) / lengths[axis]);
             let square = dot(number, number);
@@ -126,7 +127,7 @@ impl Electrostatics {
             energy += own;
             for (component, [a, b]) in AXES.into_iter().enumerate().filter(|_| square > 0.0) {
                 let (isotropic, signs) = if a == b { (1.0, 1.0) } else { (0.0, sign(a) * sign(b)) };
-                let pull = 2.0 * signs * number[a] * number[b] * (1.0 / square + self.width * self.width);
+                let pull = signs * number[a] * number[b] * (2.0 / square + width / (1.0 + decrease * square));
                 virial[component] += own * (isotropic - pull);
             }
             laplacian -= 2.0 * square * own;
@@ -165,7 +166,7 @@ impl Electrostatics {
         let pairs = bonds.into_iter().flat_map(|bonds| exclusions::excluded_pairs(self, bonds));
         let taken = pairs.map(|([first, second], product)| {
             let pair = Pair::of(images, &state.positions, first as usize, second as usize);
-            let potential = Potential::of_excluded_clouds(self.strength * product, self.width, pair.distance);
+            let potential = Potential::of_excluded_clouds(self.strength * product, self.cloud, pair.distance);
             (pair, potential)
         });
         taken.collect()
@@ -233,9 +234,11 @@ mod tests {
             json!({"species": format!("S{index}"), "charge": charge, "placement": {"type": "listed", "positions": [position]},
                 "velocities": {"type": "rest"}})
         });
-        let mut electrostatics =
-            json!({"type": "electrostatics", "bjerrum_length": 1.0, "width": 0.5842, "spacing": 0.5});
+        let mut electrostatics = json!({"type": "electrostatics", "bjerrum_length": 1.0, "spacing": 0.5});
         electrostatics.as_object_mut().unwrap().extend(more.as_object().unwrap().clone());
+        if more.get("decay").is_none() {
+            electrostatics["width"] = json!(0.5842);
+        }
         let scene = serde_json::from_value(json!({
             "title": "test", "space": {"box": lengths}, "time": {"step": 0.01, "steps": 1}, "temperature": 1.0,
             "integrator": {"type": "cotter-reich"}, "particles": groups.collect::<Vec<_>>(), "interactions": [electrostatics],
@@ -248,17 +251,21 @@ mod tests {
     /// Two opposite charges in a periodic cube of 10: forces and energies of Ewald sums.
     #[test]
     fn forces_are_those_of_ewald_sums() {
-        for (distance, expected) in [(0.5, 0.209_405), (1.0, 0.305_322), (2.0, 0.210_959), (3.0, 0.094_572), (5.0, 0.0)]
+        let gaussian = [(0.5, 0.209_405), (1.0, 0.305_322), (2.0, 0.210_959), (3.0, 0.094_572), (5.0, 0.0)];
+        let slater = [(0.5, 0.268_757), (1.0, 0.280_642), (2.0, 0.169_930), (3.0, 0.085_726), (5.0, 0.0)];
+        // The spectrum of Slater's charges has no end.
+        for (more, values, tolerance) in
+            [(json!({"spacing": 0.3}), gaussian, 1e-4), (json!({"decay": 0.929, "spacing": 0.15}), slater, 6e-4)]
         {
-            let places = json!([[2.3, 4.1, 7.7], [2.3 + distance, 4.1, 7.7]]);
-            let mut reference = charges([10.0; 3], &places, &[1.0, -1.0], &json!({"spacing": 0.3}));
-            let unit = reference.state().momenta[0][0];
-            assert_eq!(unit, 0);
-            let momentum = |reference: &Reference| f64::from(reference.state().momenta[0][0]);
-            let scale = reference.model().units.momentum / 0.005;
-            reference.step().unwrap();
-            let force = momentum(&reference) * scale;
-            assert!((force - expected).abs() < 1e-4, "{distance}: {force}");
+            for (distance, expected) in values {
+                let places = json!([[2.3, 4.1, 7.7], [2.3 + distance, 4.1, 7.7]]);
+                let mut reference = charges([10.0; 3], &places, &[1.0, -1.0], &more);
+                assert_eq!(reference.state().momenta[0][0], 0);
+                let scale = reference.model().units.momentum / 0.005;
+                reference.step().unwrap();
+                let force = f64::from(reference.state().momenta[0][0]) * scale;
+                assert!((force - expected).abs() < tolerance, "{more} {distance}: {force}");
+            }
         }
     }
 

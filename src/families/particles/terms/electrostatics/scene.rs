@@ -1,6 +1,6 @@
 //! Electrostatics of a scene.
 
-use super::{Charged, Electrostatics, Run, exclusions, expected_error, mesh};
+use super::{Charged, Cloud, Electrostatics, Run, exclusions, expected_error, mesh};
 use crate::document::{
     CHARGE_PARTS, ElectrostaticsInteraction, NumberedSpecies, ParticleGroup, Problems, Scene, SpeciesNames, Warning,
     number_of_copies,
@@ -10,8 +10,7 @@ use crate::families::particles::model::forces;
 use crate::families::particles::terms::SceneTerm;
 use crate::families::warnings::warn;
 use crate::families::{Checked, Model, Particles, Species};
-use crate::numbers::grouped;
-use std::f64::consts::PI;
+use crate::numbers::{grouped, six_digits, three_digits};
 
 /// Distances of nodes, in widths of a charge, beyond which a mesh resolves nothing of them.
 const COARSEST: f64 = 2.0;
@@ -52,10 +51,15 @@ impl SceneTerm for ElectrostaticsInteraction {
         if self.order == 5 {
             problems.refuse(format!("{path}.order"), self.order, "4 or 6 points, as many before a charge as after it");
         }
-        if self.spacing > COARSEST * self.width {
+        if self.width.is_some() && self.decay.is_some() {
+            let accepted = "`width` of Gaussian charges or `decay` of Slater's, not both";
+            problems.refuse(format!("{path}.decay"), "beside `width`", accepted);
+        }
+        let coarsest = COARSEST * cloud(self).width();
+        if self.spacing > coarsest {
             let accepted = format!(
                 "at most {}, {COARSEST} times the width of a charge: a coarser mesh does not resolve it",
-                COARSEST * self.width
+                six_digits(coarsest)
             );
             problems.refuse(format!("{path}.spacing"), self.spacing, accepted);
         } else if let Some(axis) = (0..3).find(|axis| mesh::nodes(lengths[*axis], self.spacing).is_none()) {
@@ -87,7 +91,7 @@ impl SceneTerm for ElectrostaticsInteraction {
 
     fn momentum(&self, particles: &forces::Particles<'_>) -> f64 {
         let charges = particles.scene.particles.iter().map(|group| group.charge.abs());
-        let energy = particles.scene.temperature * self.bjerrum_length / (self.width * PI.sqrt());
+        let energy = particles.scene.temperature * self.bjerrum_length / cloud(self).contact_length();
         (particles.heaviest_mobile() * energy).sqrt() * charges.fold(0.0, f64::max)
     }
 
@@ -99,7 +103,7 @@ impl SceneTerm for ElectrostaticsInteraction {
         let length = |axis: usize| scene.space.lengths.get(axis).copied().unwrap_or(1.0);
         particles.electrostatics = Some(Electrostatics {
             strength: self.bjerrum_length * scene.temperature,
-            width: self.width,
+            cloud: cloud(self),
             mesh: [0, 1, 2].map(|axis| mesh::nodes(length(axis), self.spacing).unwrap_or(mesh::MOST)),
             order: self.order,
             charged: charged(scene),
@@ -128,13 +132,26 @@ impl SceneTerm for ElectrostaticsInteraction {
         }
         let error = expected_error(electrostatics, model.units.lengths, electrostatics.squares());
         if error.relative > COARSE {
+            let finer = 0.6 * self.spacing;
+            let mesh = [0, 1, 2].map(|axis| mesh::nodes(model.units.lengths[axis], finer).unwrap_or(mesh::MOST));
+            let of_finer = Electrostatics { mesh, ..electrostatics.clone() };
+            let of_finer = expected_error(&of_finer, model.units.lengths, of_finer.squares());
             let message = format!(
-                "forces between charges are expected to be off by {:.1} % of their rms value; a spacing of {:.3} has a third of that or less",
+                "forces between charges are expected to be off by {:.1} % of their rms value; a spacing of {} has {:.2} %",
                 100.0 * error.relative,
-                0.75 * self.spacing
+                three_digits(finer),
+                100.0 * of_finer.relative
             );
             warn(warnings, format!("{path}.spacing"), message);
         }
+    }
+}
+
+/// The density of the charges of an interaction.
+fn cloud(electrostatics: &ElectrostaticsInteraction) -> Cloud {
+    match electrostatics.decay {
+        Some(decay) => Cloud::Slater { decay },
+        None => Cloud::Gaussian { width: electrostatics.width.unwrap_or(ElectrostaticsInteraction::WIDTH) },
     }
 }
 
@@ -192,7 +209,8 @@ pub(super) fn check_capacity(scene: &Checked, electrostatics: &Electrostatics, p
         return;
     }
     // The largest force of one unit charge on another is .3 of the energy in contact over the width.
-    let force = 0.3 * electrostatics.contact() / electrostatics.width * electrostatics.charged.largest().powi(2);
+    let force =
+        0.3 * electrostatics.contact() / electrostatics.cloud.width() * electrostatics.charged.largest().powi(2);
     let impulse = 0.5 * model.time_step * force / model.units.momentum;
     if impulse > LARGEST {
         let found = format!("charges that push each other by {force:.3e}");
