@@ -114,6 +114,12 @@ pub const ARRAYS: &[Array] = &[
     array("node_charges", "array<i32>", "charge of each node of a mesh"),
     array("node_potentials", "array<i32>", "electrostatic potential at each node"),
     array("charge_impulses", "array<i32>", "impulses on all charges together, a component each"),
+    table(
+        "listed_waves",
+        "array<vec4<u32>>",
+        "waves of charges that are summed: their numbers along each axis, and their weight",
+    ),
+    array("wave_sums", "array<vec2<u32>>", "charges times cosine and sine of the phase of each wave, summed"),
     array("charge_stresses", "array<vec2<u32>>", "sums of the stress of waves of charges, a row a workgroup"),
     table("charge_energies", "array<f32>", "energy of each wave of charges, up to the middle of every axis"),
     array("tethers", "array<vec4<u32>>", "where each particle is tied to, by id"),

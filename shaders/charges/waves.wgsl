@@ -20,22 +20,9 @@ struct ChargeWave {
     number: vec3<f32>, // its number along each axis; at the middle of an axis of either sign
     in_middle: vec3<bool>,
 }
-fn charge_wave(index: u32) -> ChargeWave {
-    let along_x = index % WAVE_COLUMNS;
-    let y = index / WAVE_COLUMNS % MESH_HEIGHT;
-    let z = index / (WAVE_COLUMNS * MESH_HEIGHT);
-    let along_y = min(y, MESH_HEIGHT - y);
-    let along_z = min(z, MESH_DEPTH - z);
-    let weight = charge_energies[(along_y * (MESH_DEPTH / 2u + 1u) + along_z) * WAVE_COLUMNS + along_x];
-    let amplitude = wave_at(index);
-    // Waves beyond the middle along x are not kept.
-    let alike = select(2.0, 1.0, along_x == 0u || along_x == WAVE_COLUMNS - 1u);
-    let square = alike * weight * (amplitude.x * amplitude.x + amplitude.y * amplitude.y);
-    let signs = vec3<f32>(1.0, select(1.0, -1.0, y > along_y), select(1.0, -1.0, z > along_z));
-    let number = signs * vec3<f32>(vec3<u32>(along_x, along_y, along_z)) * vec3<f32>(WAVE_X, WAVE_Y, WAVE_Z);
-    let in_middle = vec3<bool>(along_x == WAVE_COLUMNS - 1u, 2u * y == MESH_HEIGHT, 2u * z == MESH_DEPTH);
-    return ChargeWave(square, number, in_middle);
-}
+
+// Slot charges/wave, without a default: `charge_wave`, one of the waves. Variants of_mesh, listed (each summed by itself); the plan follows the
+// scene.
 
 // Adds up the waves of charges. One invocation every so many waves; reads `waves` and `charge_energies`, writes rows of `partial_sums`.
 // For a wave of number k and energy u the virial is u (1 - 2k²σ²), σ being the width that the wave sees, and a charge by itself has been counted.
@@ -80,4 +67,22 @@ fn stress_charges(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_in
         }
     }
     for (var word = 0u; word < 6u; word++) { reduce_quantity(group, lane, word, sums[word]); }
+}
+
+// == charges/wave/of_mesh
+// A wave of the transform of a mesh, of which those beyond the middle along x are not kept.
+fn charge_wave(index: u32) -> ChargeWave {
+    let along_x = index % WAVE_COLUMNS;
+    let y = index / WAVE_COLUMNS % MESH_HEIGHT;
+    let z = index / (WAVE_COLUMNS * MESH_HEIGHT);
+    let along_y = min(y, MESH_HEIGHT - y);
+    let along_z = min(z, MESH_DEPTH - z);
+    let weight = charge_energies[(along_y * (MESH_DEPTH / 2u + 1u) + along_z) * WAVE_COLUMNS + along_x];
+    let amplitude = wave_at(index);
+    let alike = select(2.0, 1.0, along_x == 0u || along_x == WAVE_COLUMNS - 1u);
+    let square = alike * weight * (amplitude.x * amplitude.x + amplitude.y * amplitude.y);
+    let signs = vec3<f32>(1.0, select(1.0, -1.0, y > along_y), select(1.0, -1.0, z > along_z));
+    let number = signs * vec3<f32>(vec3<u32>(along_x, along_y, along_z)) * vec3<f32>(WAVE_X, WAVE_Y, WAVE_Z);
+    let in_middle = vec3<bool>(along_x == WAVE_COLUMNS - 1u, 2u * y == MESH_HEIGHT, 2u * z == MESH_DEPTH);
+    return ChargeWave(square, number, in_middle);
 }

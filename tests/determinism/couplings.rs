@@ -20,6 +20,8 @@ const EVERYTHING: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction
 const IONS: &str = r#"particles=[{"species":"A","count":120,"charge":-1},{"species":"B","count":48,"charge":2.5}]"#;
 const CHARGED: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
     {"type":"electrostatics","bjerrum_length":1.1},{"type":"electric-field","field":[1,0,0],"frequency":0.4}]"#;
+const CHARGED_WAVES: &str = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+    {"type":"electrostatics","bjerrum_length":1.1,"method":"waves"}]"#;
 /// Which sampler measures diffusion.
 const DIFFUSION: usize = 2;
 const COUPLED: &str = r#"integrator.type="cotter-reich""#;
@@ -45,6 +47,7 @@ fn scenes() -> Vec<Checked> {
         sampled(&[MIXTURE, MIXTURE_MEMORY, "space.box=[9,7]"]),
         sampled(&[MIXTURE, EVERYTHING, r#"noise={"generator":"threefry2x32-20"}"#]),
         sampled(&[IONS, CHARGED]),
+        sampled(&[IONS, CHARGED_WAVES]),
     ]
 }
 

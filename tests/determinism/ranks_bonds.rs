@@ -18,6 +18,7 @@ const EXCLUDING: &str =
 const RUBBING: &str = r#"{"type":"bonds","potential":{"type":"harmonic","stiffness":50,"length":0.6},"friction":6}"#;
 const TETHERS: &str = r#"{"type":"tether","stiffness":20}"#;
 const CHARGES: &str = r#"{"type":"electrostatics","bjerrum_length":1.1}"#;
+const WAVES: &str = r#"{"type":"electrostatics","bjerrum_length":1.1,"method":"waves"}"#;
 const LANGEVIN: &str = r#"{"type":"langevin","friction":2}"#;
 const MANY_BODY: &str = r#"{"type":"dpd","repulsion":-40,"friction":4.5,"many_body":{"repulsion":25}}"#;
 
@@ -76,6 +77,7 @@ fn cases() -> Vec<(Checked, Vec<[u32; 3]>)> {
         (scene(&[GROOT_WARREN, "space.box=[4,7,9]", SALT], &[PAIRS, CHARGES, EXCLUDING]), vec![[1, 2, 2]]),
         (scene(&[COTTER_REICH, "space.box=[5,5,9]", SALT, FOLLOWED], &[PAIRS, CHARGES]), vec![[1, 1, 3]]),
         (scene(&[SPLITTING, "space.box=[4,4,13]", SALT], &[LANGEVIN, CHARGES]), vec![[1, 1, 2]]),
+        (scene(&[STAGED, "space.box=[4,4,15]", SALT], &[PAIRS, WAVES, EXCLUDING]), vec![[1, 1, 3]]),
         // Nothing but bonds and baths; tethers, with pairs that are visited once and twice, and with none.
         (scene(&[SPLITTING, "space.box=[4,4,13]", CHAINS], &[LANGEVIN, SPRINGS]), vec![[1, 1, 3]]),
         (scene(&[SPLITTING, "space.box=[4,4,13]", CHAINS], &[LANGEVIN, TETHERS, RUBBING]), vec![[1, 1, 2]]),

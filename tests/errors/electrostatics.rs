@@ -57,6 +57,10 @@ fn the_mesh_resolves_the_charges_and_fits() {
         &["interactions.1.width=0.6", "interactions.1.decay=0.9"],
         &["interactions[1].decay: found beside `width`", "not both"],
     );
+    SALT.refused_with(
+        &["interactions.1.method=waves", "interactions.1.spacing=0.01"],
+        &["interactions[1].method: found `waves`, some ", "at most 1,048,576 waves", "`mesh` sums them faster"],
+    );
     SALT.refused_with(&["interactions.1.decay=3"], &["interactions[1].spacing: found 0.5", "at most 0.471405"]);
     SALT.refused_with(&["interactions.1.width=0.2"], &["interactions[1].spacing: found 0.5"]);
     SALT.refused_with(

@@ -13,6 +13,7 @@ fn the_force_between_two_charges_is_that_of_ewald() {
     let of_slater = [(0.5, 0.268_757), (1.0, 0.280_642), (2.0, 0.169_930), (3.0, 0.085_726), (5.0, 0.0)];
     for (cloud, values, meshes) in [
         (gaussian, of_gaussian, &[(0.5, 6, 2e-3), (0.25, 6, 2e-4), (0.25, 4, 1e-3)][..]),
+        (json!({"width": 0.5842, "method": "waves"}), of_gaussian, &[(0.5, 6, 1e-3)]),
         (slater, of_slater, &[(0.25, 6, 6e-3), (0.15, 6, 2e-3)]),
     ] {
         for (distance, expected) in values {

@@ -170,6 +170,8 @@ fn steps_are_those_of_the_reference() {
         (json!({"spacing": 0.25, "width": 0.4}), [5.0, 5.0, 4.0]),
         (json!({"spacing": 0.3, "width": 1.2}), [7.0, 5.0, 4.0]),
         (json!({"spacing": 0.3, "decay": 0.929}), [5.0, 5.0, 4.0]),
+        (json!({"method": "waves"}), [5.0, 5.0, 4.0]),
+        (json!({"method": "waves", "decay": 0.929, "spacing": 0.3, "background": true}), [5.0, 4.0, 4.0]),
         (json!({"background": true, "bjerrum_length": 20.0}), [5.0, 5.0, 5.0]),
     ] {
         check(&salt(edges, INTEGRATORS[0], &electrostatics, &[]), &electrostatics.to_string());

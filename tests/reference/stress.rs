@@ -245,8 +245,11 @@ fn the_stress_of_charges_is_that_of_a_strain() {
     let edges = [5.0, 6.0, 4.5];
     let gaussian = |square: f64| 3.0 * (-square * 0.64).exp();
     let slater = |square: f64| 3.0 * (1.0 + square / (4.0 * 0.64)).powi(-2);
-    let cases: [(_, &dyn Fn(f64) -> f64, f64); 2] =
-        [(json!({"width": 0.8}), &gaussian, 1e-4), (json!({"decay": 0.8}), &slater, 3e-3)];
+    let cases: [(_, &dyn Fn(f64) -> f64, f64); 3] = [
+        (json!({"width": 0.8}), &gaussian, 1e-4),
+        (json!({"width": 0.8, "method": "waves"}), &gaussian, 1e-4),
+        (json!({"decay": 0.8}), &slater, 3e-3),
+    ];
     for (cloud, spectrum, tolerance) in cases {
         let mut charges = json!({"type": "electrostatics", "bjerrum_length": 3, "spacing": 0.25});
         charges.as_object_mut().unwrap().extend(cloud.as_object().unwrap().clone());

@@ -337,6 +337,26 @@ fn charged_plans() -> Vec<(String, Plan)> {
             plans.push((changes.join(" "), plan_of(&fluid(&changes), options)));
         }
     }
+    // Waves one by one, and the other kind of charges, excluded by bonds.
+    for charges in [r#""method":"waves""#, r#""decay":0.929,"spacing":0.3"#] {
+        let interactions = format!(
+            r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},
+            {{"type":"electrostatics","bjerrum_length":1,{charges}}},
+            {{"type":"bonds","pairs":[[0,25],[3,4]],"exclude_charges":true}}]"#
+        );
+        let particles = r#"particles=[{"species":"A","count":20,"charge":1},{"species":"B","count":10,"charge":-2}]"#;
+        for integrator in [SPLITTING, COTTER_REICH] {
+            let changes = [
+                "space.box=[6,5,6]",
+                &interactions,
+                particles,
+                integrator,
+                "time.steps=1000",
+                r#"output.stress={"every":2}"#,
+            ];
+            plans.push((changes.join(" "), plan_of(&fluid(&changes), Options::default())));
+        }
+    }
     plans
 }
 

@@ -20,17 +20,33 @@ pub struct ElectrostaticsInteraction {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub decay: Option<f64>,
-    /// The largest distance of neighbouring nodes of the mesh; the mesh has the fewest nodes that its Fourier transform takes.
+    /// The largest distance of neighbouring nodes of the mesh; the mesh has the fewest nodes that its Fourier transform takes. Of `waves` half of the
+    /// shortest wavelength.
     #[serde(default = "hundredths::<50>")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub spacing: f64,
-    /// Points of the splines that spread charges over nodes along each axis, and of the differences that make forces: 4 or 6.
+    /// The way to sum over waves.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub method: ElectrostaticsMethod,
+    /// Points of the splines that spread charges over nodes along each axis, and of the differences that make forces: 4 or 6. Of
+    /// no matter for `waves`.
     #[serde(default = "whole::<6>")]
     #[schemars(range(min = 4, max = 6))]
     pub order: u32,
     /// A uniform background that neutralizes the charges of the particles, if true; without it they have to add up to zero.
     #[serde(default, skip_serializing_if = "is_default")]
     pub background: bool,
+}
+
+/// A way to sum over the waves of charges.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ElectrostaticsMethod {
+    /// A mesh and its Fourier transform.
+    #[default]
+    Mesh,
+    /// Every wave by itself, with exact phases: for few charges in small boxes, and to compare with.
+    Waves,
 }
 
 impl ElectrostaticsInteraction {

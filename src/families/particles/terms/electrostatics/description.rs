@@ -1,6 +1,6 @@
 //! Charges and their mesh, in words for `check`.
 
-use super::{Electrostatics, expected_error};
+use super::{Electrostatics, direct, expected_error};
 use crate::families::Model;
 use crate::numbers::{grouped, three_digits};
 use std::f64::consts::PI;
@@ -20,11 +20,20 @@ pub(crate) fn description(electrostatics: &Electrostatics, model: &Model) -> Vec
         three_digits(1.0 / screening),
         three_digits(screening * electrostatics.cloud.width())
     );
-    let mesh = format!(
-        "{x} × {y} × {z} nodes {} apart, splines of {} points; expected rms error of a force on a unit charge {}, for charges at random places",
-        spacings.join(", "),
-        electrostatics.order,
+    let of_force = format!(
+        "expected rms error of a force on a unit charge {}, for charges at random places",
         three_digits(error.absolute)
+    );
+    if let Some(largest) = electrostatics.largest_wave {
+        let count = direct::waves(largest, lengths).len() as u64;
+        let waves =
+            format!("{} up to a wave number of {}, each by itself; {of_force}", grouped(count), three_digits(largest));
+        return vec![("charges", charges), ("charge waves", waves)];
+    }
+    let mesh = format!(
+        "{x} × {y} × {z} nodes {} apart, splines of {} points; {of_force}",
+        spacings.join(", "),
+        electrostatics.order
     );
     vec![("charges", charges), ("charge mesh", mesh)]
 }

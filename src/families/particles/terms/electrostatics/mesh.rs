@@ -5,7 +5,7 @@
 //! square of the error of the forces is least (Hockney and Eastwood, Computer Simulation Using Particles, chapter 8, with D as
 //! here), and that error is known without a simulation.
 
-use super::{Cloud, Electrostatics};
+use super::{Cloud, Electrostatics, direct};
 use crate::families::fourier;
 use std::f64::consts::{PI, TAU};
 
@@ -177,6 +177,12 @@ const SAMPLED: u32 = 64;
 
 /// The error of the forces between charges at random places, of which the squares add up to `squares`.
 pub(crate) fn expected_error(electrostatics: &Electrostatics, lengths: [f64; 3], squares: f64) -> ForceError {
+    let volume = lengths.iter().product::<f64>();
+    if let Some(largest) = electrostatics.largest_wave {
+        let absolute = direct::expected_error(electrostatics, largest, squares, volume);
+        let force = direct::expected_error(electrostatics, 0.0, squares, volume);
+        return ForceError { absolute, relative: absolute / force };
+    }
     let mesh = electrostatics.mesh.map(|nodes| nodes.min(SAMPLED));
     let edges = [0, 1, 2].map(|axis| lengths[axis] * f64::from(mesh[axis]) / f64::from(electrostatics.mesh[axis]));
     let waves = Waves::new(&Electrostatics { mesh, ..electrostatics.clone() }, edges);
@@ -186,7 +192,6 @@ pub(crate) fn expected_error(electrostatics: &Electrostatics, lengths: [f64; 3],
             number_alike(wave, mesh) * (exact - reproduced).max(0.0)
         })
         .sum();
-    let volume = lengths.iter().product::<f64>();
     let absolute = (squares / volume * wrong / edges.iter().product::<f64>()).sqrt();
     let force = (squares * Waves::new(electrostatics, lengths).squares_of_forces(electrostatics.mesh)).sqrt() / volume;
     ForceError { absolute, relative: if force > 0.0 { absolute / force } else { 0.0 } }

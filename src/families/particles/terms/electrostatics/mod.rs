@@ -9,6 +9,7 @@
 
 mod cloud;
 mod description;
+mod direct;
 mod exclusions;
 mod mesh;
 mod plan;
@@ -36,6 +37,8 @@ pub struct Electrostatics {
     pub mesh: [u32; 3],
     /// Points of the splines and of the differences along each axis.
     pub order: u32,
+    /// The largest wave number of waves that are summed one by one, in place of a mesh.
+    pub largest_wave: Option<f64>,
     /// Particles with a charge, by number.
     pub(crate) charged: Charged,
 }
@@ -47,6 +50,7 @@ impl Default for Electrostatics {
             cloud: Cloud::Gaussian { width: 0.6076 },
             mesh: [20; 3],
             order: 6,
+            largest_wave: None,
             charged: Charged::default(),
         }
     }

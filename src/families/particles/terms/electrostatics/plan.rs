@@ -1,4 +1,4 @@
-//! Electrostatics on the device: charges to nodes, a Fourier transform forth and back, differences, and impulses.
+//! Electrostatics on the device: charges to nodes, a Fourier transform forth and back, differences, and impulses; or wave by wave.
 
 use super::mesh::{Stencil, Waves};
 use super::{Electrostatics, exclusions};
@@ -40,11 +40,6 @@ impl Electrostatics {
         self.mesh.iter().map(|nodes| u64::from(*nodes)).product()
     }
 
-    /// Energy of a wave per square of its amplitude and weight. Rows that went through as one come apart twice as large.
-    fn energy_of_amplitude(&self, builder: &Builder<'_>) -> f64 {
-        0.5 * (0.5 / self.charge_units()).powi(2) / builder.model.units.lengths.iter().product::<f64>()
-    }
-
     fn fourier(&self, builder: &Builder<'_>) -> Fourier {
         Fourier {
             mesh: self.mesh,
@@ -61,12 +56,7 @@ impl Electrostatics {
         if builder.traversal == Traversal::Clusters { self.order } else { 1 }
     }
 
-    fn choices(&self, builder: &Builder<'_>) -> Choices {
-        let spline = if self.order == 4 { charges::Spline::Four } else { charges::Spline::Six };
-        builder.choices().with(spline).and(&builder.kicks())
-    }
-
-    fn add_numbers(&self, builder: &mut Builder<'_>) {
+    fn add_numbers_of_mesh(&self, builder: &mut Builder<'_>) {
         let lengths = builder.model.units.lengths;
         let Stencil { weights, divisor } = Stencil::new(self.order);
         let impulse = |axis: usize| {
@@ -75,11 +65,7 @@ impl Electrostatics {
             builder.scales().impulse() * self.potential_unit() * 2_f64.powi(-72) / (divisor * spacing)
         };
         let impulses = [impulse(0), impulse(1), impulse(2)];
-        let quanta = builder.scales().quanta;
-        let [width, decrease] = self.cloud.slope();
-        let mobile = Self::mobile_part(&builder.model.species);
         builder.plan.constants.extend([
-            (Constant::Charged, self.charged.count() as f64),
             (Constant::ChargeNodesX, f64::from(self.mesh[0])),
             (Constant::ChargeNodesY, f64::from(self.mesh[1])),
             (Constant::ChargeNodesZ, f64::from(self.mesh[2])),
@@ -91,7 +77,18 @@ impl Electrostatics {
             (Constant::ChargeImpulseX, impulses[0]),
             (Constant::ChargeImpulseY, impulses[1]),
             (Constant::ChargeImpulseZ, impulses[2]),
-            (Constant::ChargeEnergy, self.energy_of_amplitude(builder) / quanta.pair_energy),
+        ]);
+    }
+
+    /// Numbers of reports, for waves with an energy per square of their amplitude and weight.
+    fn add_numbers(&self, energy: f64, builder: &mut Builder<'_>) {
+        let lengths = builder.model.units.lengths;
+        let quanta = builder.scales().quanta;
+        let [width, decrease] = self.cloud.slope();
+        let mobile = Self::mobile_part(&builder.model.species);
+        builder.plan.constants.extend([
+            (Constant::Charged, self.charged.count() as f64),
+            (Constant::ChargeEnergy, energy / quanta.pair_energy),
             (Constant::ChargeCurvature, 2.0 * mobile * quanta.pair_energy / quanta.curvature),
             (Constant::ChargeWidth, width),
             (Constant::ChargeDecrease, decrease),
@@ -111,64 +108,120 @@ impl Electrostatics {
             let electrostatics = self.clone();
             builder.plan.add_long_table(array, WaveTable { electrostatics, lengths, scale, for_energies });
         }
-        builder.plan.add_long_table(Array::Charged, ChargedTable { electrostatics: self.clone() });
         builder.plan.add_buffer(Array::NodeCharges, 4 * self.nodes());
         builder.plan.add_buffer(Array::NodePotentials, 4 * self.nodes());
-        builder.plan.add_buffer(Array::ChargeImpulses, 12);
+    }
+}
+
+/// The kernels by which waves are summed, and how those of reports find the waves.
+pub(super) struct Summed {
+    /// From charges to impulses.
+    pub kicks: Vec<usize>,
+    /// From charges to waves.
+    pub forth: Vec<usize>,
+    /// From waves to impulses, with the conservative forces that a report observes.
+    pub back: Vec<usize>,
+    /// Variants and numbers by which reports find a wave.
+    pub choices: Choices,
+    pub constants: Vec<(Constant, f64)>,
+    pub renamed: Vec<(Array, Array)>,
+    /// Number of waves.
+    pub waves: u64,
+    /// Energy of a wave per square of its amplitude and weight.
+    pub energy: f64,
+    /// Arithmetic of a step.
+    pub operations: f64,
+}
+
+impl Electrostatics {
+    /// The kernels that gather impulses: one of some parts of every charge, and the one that takes back what rounding gave all.
+    pub(super) fn pulls(
+        &self,
+        name: &'static str,
+        entry: Entry,
+        parts: u64,
+        choices: &Choices,
+        builder: &mut Builder<'_>,
+    ) -> [usize; 2] {
+        let count = self.charged.count();
+        let pull = builder.kernel(name, entry, choices.clone(), parts * count);
+        if let Some(part) = &mut builder.plan.part {
+            let division = part.part.division;
+            part.sums.push(SharedSum::everywhere(Array::ChargeImpulses, Beyond::Wrapped, 3, pull, &division));
+        }
+        [pull, builder.kernel("balance_charges", Entry::BalanceCharges, choices.clone(), count)]
+    }
+
+    /// By a mesh.
+    fn through_mesh(&self, builder: &mut Builder<'_>) -> Summed {
+        let fourier = self.fourier(builder);
+        self.add_numbers_of_mesh(builder);
+        self.add_buffers(&fourier, builder);
+        let spline = if self.order == 4 { charges::Spline::Four } else { charges::Spline::Six };
+        let choices = builder.choices().with(spline).and(&builder.kicks());
+        let layers = u64::from(self.order / self.layers_of_invocation(builder));
+        let spread =
+            builder.kernel("spread_charges", Entry::SpreadCharges, choices.clone(), layers * self.charged.count());
+        let passes: Vec<usize> = fourier.kernels().into_iter().map(|kernel| builder.plan.add_kernel(kernel)).collect();
+        if let Some(part) = &mut builder.plan.part {
+            let division = part.part.division;
+            part.sums.push(SharedSum::everywhere(Array::NodeCharges, Beyond::Marked, self.nodes(), spread, &division));
+        }
+        let mut pulls = |choices: &Choices| self.pulls("pull_charges", Entry::PullCharges, layers, choices, builder);
+        let pull = pulls(&choices);
+        let pulled = pulls(&choices.clone().with(charges::Report::Observed));
+        let (turn, spectrum) = fourier.spectrum();
+        let spectrum = builder.plan.add_kernel(Kernel { name: "charge_spectrum", ..spectrum });
+        let [_, height, depth] = self.mesh;
+        // Rows that went through as one come apart twice as large.
+        let amplitude = 0.5 / self.charge_units();
+        Summed {
+            kicks: [&[spread], &passes[..], &pull].concat(),
+            forth: [&[spread], &passes[..turn], &[spectrum]].concat(),
+            back: [&passes[turn..], &pulled].concat(),
+            choices: choices.with(charges::Wave::OfMesh),
+            constants: vec![
+                (Constant::WaveColumns, f64::from(fourier.columns())),
+                (Constant::MeshHeight, f64::from(height)),
+                (Constant::MeshDepth, f64::from(depth)),
+            ],
+            renamed: if turn.is_multiple_of(2) { Vec::new() } else { vec![(Array::Waves, Array::WavesNext)] },
+            waves: u64::from(fourier.columns()) * u64::from(height) * u64::from(depth),
+            energy: 0.5 * amplitude.powi(2) / builder.model.units.lengths.iter().product::<f64>(),
+            operations: 12.0 * f64::from(self.order).powi(3) * self.charged.count() as f64 + 40.0 * self.nodes() as f64,
+        }
     }
 }
 
 impl PlannedTerm for Electrostatics {
     fn gather(&self, builder: &mut Builder<'_>, rows: &mut u32, kernels: &mut GatheringKernels) {
-        let fourier = self.fourier(builder);
-        self.add_numbers(builder);
-        self.add_buffers(&fourier, builder);
-        let choices = self.choices(builder);
-        let layers = self.charged.count() * u64::from(self.order / self.layers_of_invocation(builder));
-        let spread = builder.kernel("spread_charges", Entry::SpreadCharges, choices.clone(), layers);
-        let passes: Vec<usize> = fourier.kernels().into_iter().map(|kernel| builder.plan.add_kernel(kernel)).collect();
-        let mut pulls = |choices: &Choices| {
-            let pull = builder.kernel("pull_charges", Entry::PullCharges, choices.clone(), layers);
-            [pull, builder.kernel("balance_charges", Entry::BalanceCharges, choices.clone(), self.charged.count())]
-        };
-        let pull = pulls(&choices);
-        let pulled = pulls(&choices.clone().with(charges::Report::Observed));
-        kernels.kicks.extend([&[spread], &passes[..], &pull].concat());
-        let (turn, spectrum) = fourier.spectrum();
-        let renamed: Vec<(Array, Array)> =
-            if turn.is_multiple_of(2) { Vec::new() } else { vec![(Array::Waves, Array::WavesNext)] };
-        let spectrum = builder.plan.add_kernel(Kernel { name: "charge_spectrum", ..spectrum });
-        let forth = [&[spread], &passes[..turn], &[spectrum]].concat();
-        if let Some(part) = &mut builder.plan.part {
-            let division = part.part.division;
-            part.sums.push(SharedSum::everywhere(Array::NodeCharges, Beyond::Marked, self.nodes(), spread, &division));
-            for kernel in [pull[0], pulled[0]] {
-                part.sums.push(SharedSum::everywhere(Array::ChargeImpulses, Beyond::Wrapped, 3, kernel, &division));
-            }
-        }
+        builder.plan.add_long_table(Array::Charged, ChargedTable { electrostatics: self.clone() });
+        builder.plan.add_buffer(Array::ChargeImpulses, 12);
+        let Summed { kicks, forth, back, choices, constants, renamed, waves, energy, operations } =
+            match self.largest_wave {
+                Some(largest) => self.one_by_one(largest, builder),
+                None => self.through_mesh(builder),
+            };
+        self.add_numbers(energy, builder);
+        kernels.kicks.extend(kicks);
         // Every rank has all waves; the first reports them.
         let reports = builder.options.part.is_none_or(|part| part.rank == 0);
         let splits = builder.splits();
-        let waves = u64::from(fourier.columns()) * u64::from(self.mesh[1]) * u64::from(self.mesh[2]);
         let groups = waves.div_ceil(builder.workgroup_size()).min(GROUPS);
         let over_waves = |name, entry, more| {
-            let own = vec![
+            let own = [
                 more,
                 (Constant::ChargeWaves, if reports { waves as f64 } else { 0.0 }),
                 (Constant::Groups, groups as f64),
-                (Constant::WaveColumns, f64::from(fourier.columns())),
-                (Constant::MeshHeight, f64::from(self.mesh[1])),
-                (Constant::MeshDepth, f64::from(self.mesh[2])),
             ];
+            let own = [&own[..], &constants].concat();
             Kernel::new(name, entry, choices.clone(), groups).with(own).renamed(renamed.clone())
         };
         let stress = stress::is_needed(builder.measured).then(|| {
             builder.plan.add_buffer(Array::ChargeStresses, 8 * 6 * groups);
             builder.plan.constants.push((Constant::ChargeRows, groups as f64));
             let mut kernel = over_waves("stress_charges", Entry::StressCharges, (Constant::Quantities, 6.0));
-            kernel
-                .constants
-                .push((Constant::ChargeStress, self.energy_of_amplitude(builder) / stress::unit(builder.model)));
+            kernel.constants.push((Constant::ChargeStress, energy / stress::unit(builder.model)));
             kernel.renamed.push((Array::PartialSums, Array::ChargeStresses));
             builder.plan.add_kernel(kernel)
         });
@@ -178,7 +231,6 @@ impl PlannedTerm for Electrostatics {
             builder.leaves_rows(kernel, rows);
             kernel
         };
-        let back = [&passes[turn..], &pulled].concat();
         if splits {
             let motion = report("report_charges", 1.0);
             kernels.report.extend(forth.iter().copied().chain([motion]).chain(stress));
@@ -194,10 +246,7 @@ impl PlannedTerm for Electrostatics {
             let bonded = exclusions::bonded(self, bonds, &scales);
             builder.couple(&bonded, rows, kernels);
         }
-        let particles = builder.particles.max(1) as f64;
-        let of_clouds = 12.0 * f64::from(self.order).powi(3) * self.charged.count() as f64;
-        let of_nodes = 40.0 * self.nodes() as f64;
-        builder.plan.operations_per_particle += (of_clouds + of_nodes) / particles;
+        builder.plan.operations_per_particle += operations / builder.particles.max(1) as f64;
     }
 }
 

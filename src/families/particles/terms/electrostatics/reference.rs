@@ -1,7 +1,7 @@
 //! Electrostatics in float64: the same mesh, with splines, sums over waves and differences in other ways than on the device.
 
 use super::mesh::{self, Stencil};
-use super::{Electrostatics, exclusions};
+use super::{Electrostatics, direct, exclusions};
 use crate::families::Model;
 use crate::families::particles::reference::{AXES, Configuration, Images, Kicks, Moment, Pair, Potential, dot, round};
 use crate::families::particles::terms::ReferenceTerm;
@@ -91,12 +91,59 @@ impl Electrostatics {
     }
 
     fn solve(&self, model: &Model, state: &State) -> Solved {
-        let lengths = model.units.lengths;
-        let volume = lengths.iter().product::<f64>();
         let charged: Vec<(usize, f64)> = (state.species.iter().enumerate())
             .map(|(particle, species)| (particle, model.species[*species as usize].charge))
             .filter(|(_, charge)| *charge != 0.0)
             .collect();
+        match self.largest_wave {
+            Some(largest) => self.solve_one_by_one(largest, charged, model.units.lengths, state),
+            None => self.solve_on_mesh(charged, model.units.lengths, state),
+        }
+    }
+
+    /// Sums waves up to a wave number, each with its opposite.
+    fn solve_one_by_one(&self, largest: f64, charged: Vec<(usize, f64)>, lengths: [f64; 3], state: &State) -> Solved {
+        let [width, decrease] = self.cloud.slope();
+        let mut solved = self.by_themselves(charged, lengths);
+        for wave in direct::waves(largest, lengths) {
+            let number = [0, 1, 2].map(|axis| TAU * f64::from(wave[axis]) / lengths[axis]);
+            let phase = |particle: usize| {
+                let turns = [0, 1, 2].map(|axis| f64::from(state.positions[particle][axis]) / 2_f64.powi(32));
+                Complex::cis(TAU * dot(turns, wave.map(f64::from)))
+            };
+            let sum: Complex<f64> = solved.charged.iter().map(|(particle, charge)| charge * phase(*particle)).sum();
+            let weight = direct::weight(self, wave, lengths);
+            let own = 0.5 * weight * sum.norm_sqr();
+            let square = dot(number, number);
+            solved.energy += own;
+            solved.laplacian -= 2.0 * square * own;
+            for (component, [a, b]) in AXES.into_iter().enumerate() {
+                let pull = number[a] * number[b] * (2.0 / square + width / (1.0 + decrease * square));
+                solved.virial[component] += own * (f64::from(u8::from(a == b)) - pull);
+            }
+            for ((particle, charge), force) in solved.charged.iter().zip(&mut solved.forces) {
+                let slope = (sum.conj() * phase(*particle)).im;
+                for axis in 0..3 {
+                    force[axis] += charge * weight * number[axis] * slope;
+                }
+            }
+        }
+        solved
+    }
+
+    /// Charges without waves: their energies and curvatures by themselves.
+    fn by_themselves(&self, charged: Vec<(usize, f64)>, lengths: [f64; 3]) -> Solved {
+        Solved {
+            forces: vec![[0.0; 3]; charged.len()],
+            charged,
+            energy: -self.own_energy(),
+            virial: [0.0; 6],
+            laplacian: self.own_laplacian(lengths.iter().product::<f64>()),
+        }
+    }
+
+    fn solve_on_mesh(&self, charged: Vec<(usize, f64)>, lengths: [f64; 3], state: &State) -> Solved {
+        let volume = lengths.iter().product::<f64>();
         let places: Vec<_> = charged.iter().map(|(particle, _)| self.weights(state.positions[*particle])).collect();
         let nodes = self.mesh.iter().map(|nodes| *nodes as usize).product();
         let mut field = vec![Complex::default(); nodes];
@@ -106,8 +153,7 @@ impl Electrostatics {
             }
         }
         self.transform(&mut field, FftDirection::Forward);
-        let [mut energy, mut laplacian] = [-self.own_energy(), self.own_laplacian(volume)];
-        let mut virial = [0.0; 6];
+        let mut solved = self.by_themselves(charged, lengths);
         let [width, decrease] = self.cloud.slope();
         let table = mesh::Waves::new(self, lengths);
         for (index, wave) in field.iter_mut().enumerate() {
@@ -124,28 +170,24 @@ impl Electrostatics {
             };
             let weight = table.wave(folded);
             let own = 0.5 * weight.energy / volume * wave.norm_sqr();
-            energy += own;
+            solved.energy += own;
             for (component, [a, b]) in AXES.into_iter().enumerate().filter(|_| square > 0.0) {
                 let (isotropic, signs) = if a == b { (1.0, 1.0) } else { (0.0, sign(a) * sign(b)) };
                 let pull = signs * number[a] * number[b] * (2.0 / square + width / (1.0 + decrease * square));
-                virial[component] += own * (isotropic - pull);
+                solved.virial[component] += own * (isotropic - pull);
             }
-            laplacian -= 2.0 * square * own;
+            solved.laplacian -= 2.0 * square * own;
             *wave *= weight.potential / volume;
         }
         self.transform(&mut field, FftDirection::Inverse);
-        let forces = (charged.iter().zip(&places))
-            .map(|((_, charge), weights)| {
-                let mut force = [0.0; 3];
-                for (node, weight) in weights {
-                    for (axis, sum) in force.iter_mut().enumerate() {
-                        *sum -= charge * weight * self.difference(&field, *node, axis, lengths[axis]);
-                    }
+        for ((force, (_, charge)), weights) in solved.forces.iter_mut().zip(&solved.charged).zip(&places) {
+            for (node, weight) in weights {
+                for (axis, sum) in force.iter_mut().enumerate() {
+                    *sum -= charge * weight * self.difference(&field, *node, axis, lengths[axis]);
                 }
-                force
-            })
-            .collect();
-        Solved { charged, forces, energy, virial, laplacian }
+            }
+        }
+        solved
     }
 
     fn difference(&self, potential: &[Complex<f64>], node: usize, axis: usize, length: f64) -> f64 {

@@ -1,9 +1,9 @@
 //! Electrostatics of a scene.
 
-use super::{Charged, Cloud, Electrostatics, Run, exclusions, expected_error, mesh};
+use super::{Charged, Cloud, Electrostatics, Run, direct, exclusions, expected_error, mesh};
 use crate::document::{
-    CHARGE_PARTS, ElectrostaticsInteraction, NumberedSpecies, ParticleGroup, Problems, Scene, SpeciesNames, Warning,
-    number_of_copies,
+    CHARGE_PARTS, ElectrostaticsInteraction, ElectrostaticsMethod, NumberedSpecies, ParticleGroup, Problems, Scene,
+    SpeciesNames, Warning, number_of_copies,
 };
 use crate::families::particles::combinations::Feature;
 use crate::families::particles::model::forces;
@@ -11,6 +11,7 @@ use crate::families::particles::terms::SceneTerm;
 use crate::families::warnings::warn;
 use crate::families::{Checked, Model, Particles, Species};
 use crate::numbers::{grouped, six_digits, three_digits};
+use std::f64::consts::PI;
 
 /// Distances of nodes, in widths of a charge, beyond which a mesh resolves nothing of them.
 const COARSEST: f64 = 2.0;
@@ -62,6 +63,8 @@ impl SceneTerm for ElectrostaticsInteraction {
                 six_digits(coarsest)
             );
             problems.refuse(format!("{path}.spacing"), self.spacing, accepted);
+        } else if self.method == ElectrostaticsMethod::Waves {
+            check_waves(self, scene, path, problems);
         } else if let Some(axis) = (0..3).find(|axis| mesh::nodes(lengths[*axis], self.spacing).is_none()) {
             let found = format!(
                 "{}, {} nodes along an edge of {}",
@@ -106,6 +109,7 @@ impl SceneTerm for ElectrostaticsInteraction {
             cloud: cloud(self),
             mesh: [0, 1, 2].map(|axis| mesh::nodes(length(axis), self.spacing).unwrap_or(mesh::MOST)),
             order: self.order,
+            largest_wave: (self.method == ElectrostaticsMethod::Waves).then_some(PI / self.spacing),
             charged: charged(scene),
         });
     }
@@ -134,7 +138,8 @@ impl SceneTerm for ElectrostaticsInteraction {
         if error.relative > COARSE {
             let finer = 0.6 * self.spacing;
             let mesh = [0, 1, 2].map(|axis| mesh::nodes(model.units.lengths[axis], finer).unwrap_or(mesh::MOST));
-            let of_finer = Electrostatics { mesh, ..electrostatics.clone() };
+            let largest_wave = electrostatics.largest_wave.map(|largest| largest * self.spacing / finer);
+            let of_finer = Electrostatics { mesh, largest_wave, ..electrostatics.clone() };
             let of_finer = expected_error(&of_finer, model.units.lengths, of_finer.squares());
             let message = format!(
                 "forces between charges are expected to be off by {:.1} % of their rms value; a spacing of {} has {:.2} %",
@@ -144,6 +149,22 @@ impl SceneTerm for ElectrostaticsInteraction {
             );
             warn(warnings, format!("{path}.spacing"), message);
         }
+    }
+}
+
+/// Refuses more waves than can be summed one by one.
+fn check_waves(electrostatics: &ElectrostaticsInteraction, scene: &Scene, path: &str, problems: &mut Problems) {
+    let volume = scene.space.lengths.iter().product::<f64>();
+    let waves = direct::expected_count(PI / electrostatics.spacing, volume);
+    let charges = charged(scene).count() as f64;
+    if waves > direct::MOST || waves * charges > direct::MOST_WORK {
+        let found = format!("`waves`, some {} of them for {} charges", grouped(waves as u64), grouped(charges as u64));
+        let accepted = format!(
+            "at most {} waves and {:.1e} times a charge; `mesh` sums them faster than one by one",
+            grouped(direct::MOST as u64),
+            direct::MOST_WORK
+        );
+        problems.refuse(format!("{path}.method"), found, accepted);
     }
 }
 
