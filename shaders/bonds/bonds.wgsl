@@ -162,3 +162,22 @@ fn pull_bonds(@builtin(workgroup_id) workgroup: vec3<u32>, @builtin(local_invoca
     if (bond < BONDS) { visit_bond(bond); }
     finish_bonds(group, lane);
 }
+
+// == bonds/stretch/limited
+// A potential with a largest force, from where on the energy goes on along a line: of a bond of any length.
+override LARGEST_PULL: f32; // impulse of half a step
+fn stretch_of(kind: BondKind, distance: f32) -> Stretch {
+    if (BOND_POTENTIAL == 0u || kind.stiffness == 0.0) { return Stretch(0.0, 0.0, 0.0, true); }
+    let extension = distance - kind.length;
+    // K x = F (1 - x²/R²).
+    let slope = 2.0 * LARGEST_PULL * kind.inverse_extent;
+    let largest = 2.0 * LARGEST_PULL / (kind.stiffness + sqrt(kind.stiffness * kind.stiffness + slope * slope));
+    let limited = clamp(extension, -largest, largest);
+    let part = limited * kind.inverse_extent;
+    let square = part * part;
+    let rest = 1.0 / (1.0 - square);
+    let pull = kind.stiffness * limited;
+    let energy = 0.5 * pull * limited * logarithmic_growth(square) + abs(pull * rest * (extension - limited));
+    let curvature = select(0.0, kind.stiffness * (1.0 + square) * rest * rest, extension == limited);
+    return Stretch(-pull * rest, energy, curvature, true);
+}

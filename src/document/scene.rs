@@ -70,6 +70,10 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[schemars(length(max = 256))]
     pub stages: Vec<Stage>,
+    /// The largest force of a bond in all of the run; a stage may have one of its own.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-of" = ["particles"]))]
+    pub push_off: Option<f64>,
     /// What was read of the file of `state`, or follows from `molecules`.
     #[serde(skip)]
     pub kept: KeptStart,

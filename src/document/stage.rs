@@ -22,6 +22,11 @@ pub struct Stage {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1))]
     pub ramp_every: Option<u64>,
+    /// The largest force of a bond in this stage: where its potential has more, the bond pulls or pushes with this, and the energy grows in
+    /// proportion to the length. Bonds of any length begin so, those of a finite extent too; momentum stays what it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "x-of" = ["particles"]))]
+    pub push_off: Option<f64>,
     /// What is measured and written in this stage, beside or in place of what `output` of the scene says: intervals of the table of energies
     /// and of the trajectory, and analyses, which begin with the stage and end with it; `null` leaves one out.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
@@ -35,7 +40,7 @@ const MOVES: u64 = 100;
 impl Stage {
     /// A stage of constant numbers.
     pub(crate) fn new(steps: u64, set: Map<String, Value>) -> Self {
-        Self { steps, set, ramp: Map::new(), ramp_every: None, output: Map::new() }
+        Self { steps, set, ramp: Map::new(), ramp_every: None, push_off: None, output: Map::new() }
     }
 
     /// The numbers that change where it begins, with their values and dots only in their paths.

@@ -111,6 +111,9 @@ pub struct StageSummary {
     /// Those that go along a line, with their first and last values.
     #[serde(default, skip_serializing_if = "serde_json::Map::is_empty")]
     pub ramp: serde_json::Map<String, serde_json::Value>,
+    /// The largest force of a bond in the stage, if there was one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub push_off: Option<f64>,
     /// Mean of each column of the table of energies over its rows; null where a column has no values. Those of the last stage are the
     /// means of the run.
     pub means: serde_json::Map<String, serde_json::Value>,

@@ -61,7 +61,8 @@ fn describe(entry: &mut Entry, directory: &Path, summary: &Summary) {
     entry.add_fact("temperature", format!("{}{}", scene.temperature, if later { " at first" } else { "" }));
     for (number, stage) in (1..).zip(&summary.stages) {
         let numbers = stage.set.iter().chain(&stage.ramp).map(|(key, value)| format!("{key} = {value}"));
-        let numbers = numbers.collect::<Vec<_>>().join(", ");
+        let push_off = stage.push_off.map(|force| format!("push_off = {force}"));
+        let numbers = numbers.chain(push_off).collect::<Vec<_>>().join(", ");
         let steps = format!("stage {number}: to step {}", grouped(stage.last_step));
         entry.add_fact("", if numbers.is_empty() { steps } else { format!("{steps}, {numbers}") });
     }

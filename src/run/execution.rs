@@ -496,6 +496,7 @@ impl Execution<'_> {
                 times: [first_step, last_step].map(|step| task.time_of(step)),
                 set: stage.set.clone(),
                 ramp: stage.ramp.clone(),
+                push_off: stage.push_off,
                 means: summary.means.clone(),
                 directory: None,
                 results: Map::new(),

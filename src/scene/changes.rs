@@ -65,7 +65,7 @@ pub(crate) fn displacement_at(before: &Checked, after: &Scene, step: u64) -> Opt
 pub(crate) fn differ_in_numbers(one: &Checked, other: &Checked) -> bool {
     let shape = |scene: &Scene| {
         let mut document = serde_json::to_value(scene).unwrap_or_default();
-        for key in ["output", "stages", "announced"] {
+        for key in ["output", "stages", "announced", "push_off"] {
             document.as_object_mut().and_then(|scene| scene.remove(key));
         }
         // A displacement of zero is left out.

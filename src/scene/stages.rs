@@ -3,7 +3,7 @@
 
 use super::changes::{STAGE_NUMBERS, differ_in_numbers, displacement_at, is_of_stages, overridden};
 use super::{Checked, Output, Problem, Problems, Scene, SceneError, Stage, Warning, nearest};
-use crate::families::{self, StepCheck, TimeAxis};
+use crate::families::{self, Bonds, StepCheck, TimeAxis};
 use serde_json::{Map, Value};
 
 /// Stages and values of ramps that a run may have: each is checked like a scene, which takes about a millisecond.
@@ -118,6 +118,9 @@ fn part(whole: &Scene, before: Option<&Checked>, place: usize, number: usize) ->
     let stages = std::mem::take(&mut base.stages);
     // One that is no output was refused.
     base.output = stages[place].output(&base.output, place + 1 == stages.len()).unwrap_or_default();
+    let push_off = stages[place].push_off.or(base.push_off);
+    // Bonds at the start are those of the first stage.
+    base.push_off = push_off.or(stages[0].push_off);
     let firsts = stages[place].parts();
     let begin = ends[place].saturating_add(firsts[number]);
     // Analyses are those of the whole stage.
@@ -136,6 +139,7 @@ fn part(whole: &Scene, before: Option<&Checked>, place: usize, number: usize) ->
     let time = before.map_or(0.0, |before| before.model().time.at(begin));
     scene.time.steps = end;
     scene.announced = whole.announced_in_all();
+    scene.push_off = push_off;
     let after_turns = before.is_some_and(|before| before.model().follows_paths(&before.output));
     Ok(Checked::presumed(scene).with_times(TimeAxis { step: begin, time, interval }).after_turns(after_turns))
 }
@@ -163,6 +167,9 @@ pub(super) fn shorten(document: &mut Value, steps: u64) -> Option<Warning> {
 
 /// Checks the stages of a scene that is right without them.
 pub(super) fn check(whole: &Checked, step: StepCheck, problems: &mut Problems) {
+    if whole.push_off.is_some() {
+        check_push_off(whole, "push_off".to_owned(), problems);
+    }
     if whole.stages.is_empty() || !problems.is_empty() {
         return;
     }
@@ -174,6 +181,9 @@ pub(super) fn check(whole: &Checked, step: StepCheck, problems: &mut Problems) {
     for (place, stage) in whole.stages.iter().enumerate() {
         check_keys(whole, place, problems);
         check_output(whole, place, problems);
+        if stage.push_off.is_some() {
+            check_push_off(whole, format!("stages[{place}].push_off"), problems);
+        }
         if stage.ramp.is_empty() && stage.ramp_every.is_some() {
             let found = "steps between values of a ramp, of a stage without one";
             problems.refuse(format!("stages[{place}].ramp_every"), found, "no `ramp_every`, or a `ramp`");
@@ -214,6 +224,15 @@ pub(super) fn check(whole: &Checked, step: StepCheck, problems: &mut Problems) {
                 Err(error) => problems.refuse(&path, error, "a scene without mistakes"),
             }
         }
+    }
+}
+
+/// A largest force of bonds is of bonds that have a potential.
+fn check_push_off(scene: &Checked, path: String, problems: &mut Problems) {
+    let bonds = scene.model().particles().bonds.as_ref();
+    if !bonds.is_some_and(Bonds::have_potentials) {
+        let found = "a largest force of bonds, in a scene without bonds that have a potential";
+        problems.refuse(path, found, "no `push_off`: the repulsion of pairs is bounded by itself");
     }
 }
 

@@ -62,6 +62,34 @@ fn a_staged_run_has_the_bytes_of_a_simulation_whose_numbers_change() {
     }
 }
 
+/// Chains whose bonds start longer than they can be begin where bonds have a largest force: at its end none is too long, and the momentum is what it
+/// was, on one rank and on several.
+#[test]
+fn bonds_that_are_too_long_begin_with_a_largest_force() {
+    let chains =
+        r#"particles=[{"species":"P","count":60,"chain":{"beads":6,"spacing":0.9}},{"species":"W","count":300}]"#;
+    let fene = r#"interactions=[{"type":"dpd","repulsion":25,"friction":4.5},
+        {"type":"bonds","potential":{"type":"fene","stiffness":30,"extent":0.8}}]"#;
+    let base = ["space.box=[4,4,12]", SPLITTING, "time.step=0.01", chains, fene, r#"output={"energies":{"every":20}}"#];
+    let soft = r#"stages=[{"steps":300,"push_off":40},{"steps":100}]"#;
+    let staged = fluid(&[&base[..], &["time.steps=400", soft]].concat());
+    let started = families::initial_state(&staged);
+    let longest = |scene: &Checked, state: &State| {
+        let lengths = scene.model().particles().bonds.as_ref().unwrap().iter().map(|bond| {
+            let [a, b] = bond.ends.map(|end| state.positions[end as usize]);
+            scene.model().units.displacement(a, b).iter().map(|part| part * part).sum::<f64>().sqrt()
+        });
+        lengths.fold(0.0, f64::max)
+    };
+    assert!(longest(&staged, &started) > 0.85);
+    let places = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    let ended = end_of(&staged, places[0].path(), 1);
+    assert!(longest(&staged, &ended) < 0.8, "{}", longest(&staged, &ended));
+    assert_eq!(ended.total_momentum(), started.total_momentum());
+    let divided = end_of(&staged, places[1].path(), 3);
+    assert!(divided.positions == ended.positions && divided.momenta == ended.momenta);
+}
+
 /// A ramp is what a program does that changes a number again and again.
 #[test]
 fn a_ramp_has_the_bytes_of_a_simulation_whose_number_changes_again_and_again() {

@@ -291,8 +291,21 @@ fn lengths() {
         &[r#"interactions.1.potential={"type":"fene","stiffness":30,"extent":0.7}"#],
         &[
             "interactions[1].potential.extent: found 0.7, and a distance of 0.800000 between particles 0 and 1 at the start; \
-             accepted: more than 0.800000, by which that bond starts off its length 0",
+             accepted: more than 0.800000, by which that bond starts off its length 0; a first stage with a `push_off`",
         ],
+    );
+    // Where bonds have a largest force, those of any length begin.
+    let short = r#"interactions.1.potential={"type":"fene","stiffness":30,"extent":0.7}"#;
+    CHAINS.parse(&[short, r#"stages=[{"steps":40,"push_off":50},{"steps":60}]"#]).unwrap();
+    CHAINS.parse(&[short, "push_off=50"]).unwrap();
+    CHAINS.refused_with(
+        &[short, r#"stages=[{"steps":40},{"steps":60,"push_off":50}]"#],
+        &["interactions[1].potential.extent: found 0.7"],
+    );
+    CHAINS.refused_with(&[r#"stages=[{"steps":100,"push_off":0}]"#], &["stages[0].push_off: found 0"]);
+    CHAINS.refused_with(
+        &["interactions.1.potential=null", r#"stages=[{"steps":100,"push_off":5}]"#],
+        &["stages[0].push_off: found a largest force of bonds, in a scene without bonds that have a potential"],
     );
     CHAINS.parse(&[r#"interactions.1.potential={"type":"fene","stiffness":30,"extent":0.7,"length":0.2}"#]).unwrap();
 }

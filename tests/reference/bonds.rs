@@ -42,11 +42,10 @@ fn polymers(edges: &[f64], interactions: &Value) -> Value {
 const UNITS: i64 = 100;
 
 /// Lets the device and the reference take some steps; returns both.
-pub fn step_alike(document: &Value) -> (Engine<'static>, Box<dyn Implementation>) {
-    let scene = read(document);
+fn step_alike(scene: Checked, what: &str) -> (Engine<'static>, Box<dyn Implementation>) {
     let (model, state) = start(&scene);
     let mut both = SideBySide::new(scene, model, &state, Options::default());
-    both.steps(4, UNITS, &format!("{document:#}"), |step, found, expected| {
+    both.steps(4, UNITS, what, |step, found, expected| {
         assert_eq!(found.bond_baths.len(), expected.bond_baths.len());
         for (bond, (a, b)) in found.bond_baths.iter().zip(&expected.bond_baths).enumerate() {
             let [a, b] = [a, b].map(|bits| f32::from_bits(*bits));
@@ -60,11 +59,14 @@ pub fn step_alike(document: &Value) -> (Engine<'static>, Box<dyn Implementation>
 }
 
 pub fn agree(document: &Value) {
-    let (mut device, mut reference) = step_alike(document);
-    let scene = read(document);
-    let measured = observables(&mut device, &scene);
+    agree_of(&read(document), &format!("{document:#}"));
+}
+
+fn agree_of(scene: &Checked, what: &str) {
+    let (mut device, mut reference) = step_alike(scene.clone(), what);
+    let measured = observables(&mut device, scene);
     let expected = reference.observe();
-    same_energies(&measured, &expected, 0.0, &format!("{document:#}"));
+    same_energies(&measured, &expected, 0.0, what);
 }
 
 const BOXES: [&[f64]; 3] = [&[61.0], &[9.0, 7.0], &[5.0, 4.0, 4.5]];
@@ -88,6 +90,24 @@ fn potentials_agree_with_the_reference() {
         {"type": "bonds", "potential": harmonic, "species": ["tail"]},
         {"type": "bonds", "potential": shifted, "species": ["head"]},
     ]));
+}
+
+/// Bonds with a largest force, which those of chains exceed at the start.
+#[test]
+fn limited_bonds_agree_with_the_reference() {
+    let harmonic = json!({"type": "harmonic", "stiffness": 40, "length": 0.2});
+    let fene = json!({"type": "fene", "stiffness": 30, "extent": 0.5, "length": 0.1});
+    for (potential, edges) in [(&harmonic, BOXES[1]), (&fene, BOXES[2])] {
+        for integrator in [COTTER_REICH, SPLITTING] {
+            let interactions = json!([
+                {"type": "dpd", "repulsion": 25, "friction": 4.5}, {"type": "bonds", "potential": potential}]);
+            let mut document = polymers(edges, &interactions);
+            document["stages"] = json!([{"steps": 1, "push_off": 8}]);
+            document["output"] = json!({"energies": {"every": 1}});
+            document["integrator"] = serde_json::from_str(integrator.strip_prefix("integrator=").unwrap()).unwrap();
+            agree_of(&read(&document).of_stages()[0], &format!("{document:#}"));
+        }
+    }
 }
 
 #[test]

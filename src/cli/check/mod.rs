@@ -220,8 +220,9 @@ fn overview(scene: &Checked, plan: &Plan, trial: Tried<'_>) -> Vec<(&'static str
 fn stages(scene: &Checked) -> Option<String> {
     let described = scene.stages.iter().map(|stage| {
         let ramps = stage.ramp.iter().map(|(key, ends)| format!("{key} along {ends}"));
-        let changes: Vec<String> =
-            stage.set.iter().map(|(key, value)| format!("{key} = {value}")).chain(ramps).collect();
+        let set = stage.set.iter().map(|(key, value)| format!("{key} = {value}"));
+        let push_off = stage.push_off.map(|force| format!("bonds that pull by {force} at most"));
+        let changes: Vec<String> = set.chain(ramps).chain(push_off).collect();
         let steps = format!("{} steps", grouped(stage.steps));
         if changes.is_empty() { steps } else { format!("{steps} with {}", changes.join(", ")) }
     });

@@ -58,6 +58,26 @@ impl Potential {
         }
     }
 
+    /// The same with a largest force, from where on V goes on along a line.
+    pub(crate) fn of_limited_bond(potential: Option<&BondPotential>, force: f64, distance: f64) -> Self {
+        let (stiffness, length, inverse_extent) =
+            match *potential.unwrap_or(&BondPotential::Harmonic { stiffness: 0.0, length: 0.0 }) {
+                BondPotential::Harmonic { stiffness, length } => (stiffness, length, 0.0),
+                BondPotential::Fene { stiffness, extent, length } => (stiffness, length, 1.0 / extent),
+            };
+        // K x = F (1 - x²/R²).
+        let root = (stiffness * stiffness + (2.0 * force * inverse_extent).powi(2)).sqrt();
+        let largest = 2.0 * force / (stiffness + root);
+        let extension = distance - length;
+        let limited = if stiffness > 0.0 { extension.clamp(-largest, largest) } else { extension };
+        let Some(inside) = Self::of_bond(potential, length + limited) else { return Self::default() };
+        let beyond = (extension - limited).abs();
+        if beyond == 0.0 {
+            return inside;
+        }
+        Self { energy: inside.energy + inside.slope.abs() * beyond, slope: inside.slope, curvature: 0.0 }
+    }
+
     /// What is taken back of two clouds whose energy is C e(ar): of Gaussian ones e = erf(x)/x and a = 1/2σ, of Slater's e = [1 - (1 + x)
     /// e^(-2x)]/x and a = β.
     pub(crate) fn of_excluded_clouds(strength: f64, cloud: Cloud, distance: f64) -> Self {
@@ -140,7 +160,7 @@ mod tests {
         let slope = (more.energy - less.energy) / 2e-5;
         assert!((slope - here.slope).abs() < 1e-6 * here.slope.abs().max(1.0), "{name} {distance}");
         let curvature = (more.slope - less.slope) / 2e-5;
-        assert!((curvature - here.curvature).abs() < 1e-5 * here.curvature.abs(), "{name} {distance}");
+        assert!((curvature - here.curvature).abs() <= 1e-5 * here.curvature.abs(), "{name} {distance}");
     }
 
     #[test]
@@ -152,6 +172,14 @@ mod tests {
                 let at = |distance| Potential::of_bond(Some(potential), distance).unwrap();
                 assert_derivatives(&format!("{potential:?}"), distance, at);
             }
+        }
+        for potential in [&harmonic, &finite] {
+            let limited = |distance| Potential::of_limited_bond(Some(potential), 2.0, distance);
+            for distance in [0.15, 0.5, 0.9, 1.9, 5.0] {
+                assert_derivatives(&format!("limited {potential:?}"), distance, limited);
+            }
+            assert!((limited(5.0).slope - 2.0).abs() < 1e-12 && limited(0.4).slope.abs() < 2.0);
+            assert_eq!(limited(0.5), Potential::of_bond(Some(potential), 0.5).unwrap());
         }
         // For a small extension both are the same spring.
         let near = Potential::of_bond(Some(&finite), 0.2 + 1e-4).unwrap();

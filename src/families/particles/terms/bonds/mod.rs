@@ -24,6 +24,8 @@ pub struct Bonds {
     pub kinds: Vec<BondKind>,
     /// The bonds, interaction by interaction.
     pub(crate) runs: Runs<2>,
+    /// The largest force of a potential, if there is one.
+    pub(crate) largest_force: Option<f64>,
 }
 
 /// Bonds of one interaction.
@@ -43,7 +45,7 @@ pub struct BondKind {
 
 impl Term for Bonds {
     fn has_potential(&self) -> bool {
-        self.kinds.iter().any(|kind| kind.potential.is_some())
+        self.have_potentials()
     }
 
     fn has_memory(&self) -> bool {
@@ -77,6 +79,11 @@ impl Term for Bonds {
 }
 
 impl Bonds {
+    /// True if any has a potential.
+    pub(crate) fn have_potentials(&self) -> bool {
+        self.kinds.iter().any(|kind| kind.potential.is_some())
+    }
+
     /// True if any bond has a potential or a bath: others only exclude repulsion.
     pub(crate) fn have_forces(&self) -> bool {
         self.kinds.iter().any(|kind| kind.potential.is_some() || kind.bath.is_some())

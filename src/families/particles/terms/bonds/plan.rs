@@ -32,8 +32,8 @@ fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
     let (species, kinds) = (scales.model.species.len(), bonds.kinds.len());
     let key = noise::seed_key(scales.model.seed, stream::BOND);
     let relaxes = scales.model.particles().relaxes_bonds();
-    let conservative = Choices::new();
-    let forces = if relaxes { conservative.clone() } else { choices(scales.model, bonds) };
+    let conservative = Choices::new().with_if(bonds.largest_force.is_some(), bonds::Stretch::Limited);
+    let forces = if relaxes { conservative.clone() } else { choices(scales.model, bonds).and(&conservative) };
     let report = |part, scales| {
         let choices = forces.clone().with(part).with_if(bonds.have_memory(), baths::BondReport::Observed);
         Observed { choices, scales }
@@ -59,7 +59,7 @@ fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
         motion: Some(of_motion(bonds::BondReport::Motion, &[Constant::PairVirial])),
         configuration: between,
         stress: ("stress_of_bonds", of_motion(bonds::BondReport::Stress, &[]).choices),
-        constants: vec![
+        constants: [
             (Constant::Bonds, bonds.count() as f64),
             (Constant::FirstKind, species as f64),
             (Constant::FirstBond, (species + 2 * kinds) as f64),
@@ -67,7 +67,10 @@ fn bonded(scales: &Scales<'_>, bonds: &Bonds) -> Bonded {
             switch(Constant::BondBathsNoisy, are_noisy),
             (Constant::BondStreamX, f64::from(key[0])),
             (Constant::BondStreamY, f64::from(key[1])),
-        ],
+        ]
+        .into_iter()
+        .chain(bonds.largest_force.map(|force| (Constant::LargestPull, force * scales.impulse())))
+        .collect(),
         operations: if bonds.have_friction() { 150.0 } else { 50.0 },
     }
 }

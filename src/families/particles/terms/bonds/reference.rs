@@ -1,6 +1,7 @@
 //! Bonds in float64.
 
 use super::Bonds;
+use crate::document::BondPotential;
 use crate::families::particles::reference::{
     Configuration, Images, Kicks, Moment, Pair, Potential, Virials, dot, exchange, held,
 };
@@ -16,6 +17,15 @@ fn span(images: &Images<'_>, bond: &Bond, positions: &[[u32; 3]]) -> Pair {
     Pair::of(images, positions, first, second)
 }
 
+impl Bonds {
+    fn potential_at(&self, potential: Option<&BondPotential>, distance: f64) -> Option<Potential> {
+        match self.largest_force {
+            Some(force) => Some(Potential::of_limited_bond(potential, force, distance)),
+            None => Potential::of_bond(potential, distance),
+        }
+    }
+}
+
 impl ReferenceTerm for Bonds {
     fn kick(&self, moment: &Moment<'_>, kicks: &mut Kicks) {
         let (model, state, motion) = (moment.model, moment.state, &moment.motion);
@@ -24,7 +34,7 @@ impl ReferenceTerm for Bonds {
         for (index, bond) in self.iter().enumerate() {
             let kind = &self.kinds[bond.kind as usize];
             let pair = span(&moment.images, &bond, &state.positions);
-            let Some(potential) = Potential::of_bond(kind.potential.as_ref(), pair.distance) else {
+            let Some(potential) = self.potential_at(kind.potential.as_ref(), pair.distance) else {
                 kicks.failure = Some(Unstable::Bond { step: state.step, bond: index });
                 return;
             };
@@ -51,7 +61,7 @@ impl ReferenceTerm for Bonds {
         for bond in self.iter() {
             let pair = span(sums.images, &bond, &sums.state.positions);
             let potential = self.kinds[bond.kind as usize].potential.as_ref();
-            if let Some(potential) = Potential::of_bond(potential, pair.distance) {
+            if let Some(potential) = self.potential_at(potential, pair.distance) {
                 sums.add(&pair, &potential);
             }
         }

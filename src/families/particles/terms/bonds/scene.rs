@@ -38,6 +38,7 @@ impl SceneTerm for BondsInteraction {
 
     fn add(&self, scene: &Scene, species: &mut Vec<Species>, particles: &mut Particles) {
         let bonds = particles.bonds.get_or_insert_default();
+        bonds.largest_force = scene.push_off;
         let kind = bonds.kinds.len() as u32;
         let step = BathStep::of(&self.bath, self.friction, scene.time.step);
         bonds.kinds.push(BondKind {

@@ -23,6 +23,11 @@ pub(super) fn draw_baths(bonds: &Bonds, state: &mut State, model: &Model) {
 pub(crate) fn check_extents(scene: &Checked, state: &State, problems: &mut Problems) {
     let model = scene.model();
     let Some(bonds) = model.particles().bonds.as_ref() else { return };
+    let push_off = scene.push_off.or_else(|| scene.stages.first().and_then(|stage| stage.push_off));
+    // Later stages begin where the first one has come to.
+    if push_off.is_some() || model.time.step > 0 {
+        return;
+    }
     let finite = |kind: u32| match bonds.kinds[kind as usize].potential {
         Some(BondPotential::Fene { extent, length, .. }) => Some((extent, length)),
         _ => None,
@@ -46,7 +51,7 @@ pub(crate) fn check_extents(scene: &Checked, state: &State, problems: &mut Probl
                 "{extent}, and a distance of {distance:.6} between particles {first} and {second} at the start"
             );
             let accepted = format!(
-                "more than {off:.6}, by which that bond starts off its length {length}; or a start with shorter bonds"
+                "more than {off:.6}, by which that bond starts off its length {length}; a first stage with a `push_off`, in which bonds have a largest force; or a start with shorter bonds"
             );
             problems.refuse(format!("interactions[{}].potential.extent", places[bond.kind as usize]), found, accepted);
         }
