@@ -1176,6 +1176,17 @@ fn bond_plans() -> Vec<(String, Plan)> {
             }
         }
     }
+    // Bonds with a largest force.
+    for integrator in INTEGRATORS {
+        for other in ["", r#","friction":2"#] {
+            let interactions = format!(
+                r#"interactions=[{{"type":"dpd","repulsion":25,"friction":4.5}},{{"type":"bonds",{fene}{other}}}]"#
+            );
+            let output = r#"output={"stress":{"every":1}}"#;
+            let changes = [groups[0], &interactions, integrator, "push_off=50", output, "time.steps=8"];
+            plans.extend(plans_of(&changes.join(" "), &fluid(&changes), Options::default()));
+        }
+    }
     // Sizes of molecules, whose bonds are listed.
     let molecules = r#"molecules=[{"beads":["A","A","A"],"bonds":[[0,1],[1,2]],"count":20}]"#;
     let species = r#"particles=[{"species":"A"}]"#;

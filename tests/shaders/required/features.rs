@@ -510,6 +510,21 @@ pub fn features() -> Vec<Feature> {
             always: true,
         },
         Feature {
+            name: "a largest force of bonds",
+            ground: |scene| {
+                bonded(scene);
+                set(scene, "bonds", "potential", json!({"type": "harmonic", "stiffness": 2}));
+            },
+            with: |scene| scene["push_off"] = json!(5),
+            without: |scene| {
+                scene.as_object_mut().unwrap().remove("push_off");
+            },
+            own: Some(&["LARGEST_PULL", "file bonds/stretch"]),
+            more: &[],
+            instead: &[],
+            always: false,
+        },
+        Feature {
             name: "friction of bonds",
             ground: bonded,
             with: |scene| set(scene, "bonds", "friction", json!(1)),
