@@ -505,9 +505,10 @@ fn check_prints_the_plan() {
     assert!(long.contains("bytes a particle") && !long.contains("scatter_particles"), "{long}");
     let said = succeeds(&["check", &place.scene(), "--kernels"]);
     // Few cells are sorted in one workgroup where dispatches cost more than turns.
-    let (kernel, entry) = match said.contains("scatter_particles") {
-        true => ("scatter", "scatter_particles"),
-        false => ("sort", "sort_in_one_workgroup"),
+    let (kernel, entry) = if said.contains("scatter_particles") {
+        ("scatter", "scatter_particles")
+    } else {
+        ("sort", "sort_in_one_workgroup")
     };
     for part in [
         "small fluid",
